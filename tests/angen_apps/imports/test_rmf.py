@@ -11,7 +11,7 @@ from angen_apps.imports.rmf import read_rmf
 from angen_apps.maps.gridmap import load_world
 from angen_apps.plan.polygons import area
 from angen_apps.plan.writer import world_of, write_world
-from angen_apps.robot.building import Survey, entities_of
+from angen_apps.robot.building import Survey
 from angen_apps.robot.planner import passages
 from angen_bench import homes
 from angen_tools.common.failure import Failure
@@ -166,7 +166,7 @@ def test_a_robot_knows_the_doors_that_slide(tmp_path: Path) -> None:
     path = tmp_path / 'small.world'
     write_world(read_rmf(building(tmp_path)), path, 'none')
     shut = load_world(str(path))
-    survey = Survey(load_world(str(path)), shut, entities_of(shut), {0})
+    survey = Survey(load_world(str(path)), shut, {0})
     doors = {door.name: door for door in survey.doors[0]}
     slider = doors['L1_slider']
     assert slider.width == pytest.approx(1.0, abs=0.15)

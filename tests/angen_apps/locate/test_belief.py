@@ -1,11 +1,12 @@
 from dataclasses import replace
-from math import exp, isnan, pi
+from math import cos, exp, isnan, pi, sin
 
 import numpy as np
 import pytest
 
 from angen_apps.locate.belief import Belief, Evidence, Model
-from angen_apps.locate.site import Site, Thing, make_site
+from angen_apps.locate.site import Site, make_site
+from angen_apps.robot.entities import Entity
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Door, Elevator, Home, Landing, Room
 
@@ -24,11 +25,17 @@ def door(name: str, a: str, b: str, kind: str = 'door') -> Door:
     return Door(name, kind, (a, b), 0.9, 2.0, (0.0, 0.0, 0.0, 0.0))
 
 
-def home(*more: Thing) -> Site:
+def sensor(kind: str, name: str, at: tuple[float, float, float], yaw: float = 0.0) -> Entity:
+    room = described().room_at(*at)
+    return Entity(kind, name, name, (*at, 0.0, 0.0, sin(yaw / 2), cos(yaw / 2)),
+                  room=room.name if room else '')
+
+
+def home(*more: Entity) -> Site:
     """With doors between them, a PIR in each and a reader in the first."""
-    things = [Thing('pir', f'{name}_pir0_a', (x, 0.1, 2.3), 1.57)
+    things = [sensor('pir', f'{name}_pir0_a', (x, 0.1, 2.3), 1.57)
               for name, x in (('hall', 2), ('study', 6), ('den', 10))]
-    things += [Thing('rfid', 'gate', (0.1, 2.0, 2.0), 0.0)]
+    things += [sensor('rfid', 'gate', (0.1, 2.0, 2.0))]
     return make_site(described(door('study0', 'hall0', 'study0'), door('den0', 'den0', 'study0')),
                      [*things, *more])
 
@@ -56,7 +63,7 @@ def test_an_elevator_joins_its_landings():
 
 
 def test_a_sensor_in_a_wall_is_in_its_room():
-    site = home(Thing('pir', 'wall', (2.0, -0.05, 1.0), 0.0), Thing('pir', 'out', (2, -1, 1), 0.0))
+    site = home(sensor('pir', 'wall', (2.0, -0.05, 1.0)), sensor('pir', 'out', (2, -1, 1)))
     assert site.of_kind('pir') == {'hall_pir0_a': 0, 'study_pir0_a': 1, 'den_pir0_a': 2, 'wall': 0}
 
 
@@ -137,7 +144,7 @@ def test_what_another_explains_is_no_evidence():
 
 
 def test_a_mat_says_in_which_room_somebody_is():
-    site = home(Thing('pressure', 'mat', (6.0, 2.0, 0.0), 0.0))
+    site = home(sensor('pressure', 'mat', (6.0, 2.0, 0.0)))
     belief = Belief(site)
     belief.step(read('a'))
     for _ in range(3):

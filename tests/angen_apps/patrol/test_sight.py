@@ -2,11 +2,14 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 
-from angen_apps.patrol.sight import door_beside, hidden
-from angen_apps.robot.building import Entity
+from angen_apps.maps.gridmap import load_world
+from angen_apps.patrol.sight import beam_angles, door_beside, hidden
+from angen_apps.robot.building import Survey
+from angen_apps.robot.entities import Entity, entities_of
 from angen_apps.robot.planner import Door
 from angen_apps.robot.views import View
 
@@ -36,3 +39,16 @@ def test_a_switch_belongs_to_the_door_under_it() -> None:
     assert door_beside(switch(4.9, 3.9), doors) == 'hall0'
     assert door_beside(switch(2.65, 2.0), doors) == ''
     assert door_beside(switch(0, 0), []) == ''
+
+
+def test_a_beam_comes_free_at_the_same_angle_of_all_doors_alike() -> None:
+    path = str(Path(__file__).resolve().parents[3] / 'worlds/angen.world')
+    world, shut = load_world(path), load_world(path)
+    switches = [e for e in entities_of(shut) if e.kind == 'switch' and e.floor == 0]
+    survey = Survey(world, shut, {0})
+    rooms = {e.name: door_beside(e, survey.doors[0]) for e in switches}
+    angles = beam_angles(shut, survey.doors, switches, rooms)
+    # to some ticks; the state that a door publishes is up to 20 ms older
+    assert set(angles) == {e.name for e in switches} and len(angles) == 6
+    assert max(angles.values()) - min(angles.values()) < 0.001
+    assert 0.012 < min(angles.values()) < 0.017

@@ -58,8 +58,8 @@ def test_distances_are_those_to_the_nearest_edge_that_is_not_free() -> None:
 
 
 def test_both_leaves_of_a_double_door_are_opened() -> None:
-    left = Door('left', (0.0, 0.0), 0.0, math.pi / 2, 0.6)
-    right = Door('right', (1.22, 0.0), math.pi, math.pi / 2, 0.6)
+    left = Door('left', (0.0, 0.0), 0.0, math.pi / 2, 0.6, partner='right')
+    right = Door('right', (1.22, 0.0), math.pi, math.pi / 2, 0.6, partner='left')
     single = Door('beside', (2.5, 0.0), 0.0, math.pi / 2, 0.9)
     way = [(0.5, 0.1 * i - 1.5) for i in range(31)]  # through the left one alone
     found = passages(way, [left, right, single], 0.3)

@@ -7,13 +7,15 @@ import numpy as np
 import pytest
 
 from angen_apps.maps.gridmap import FREE, GridMap
-from angen_apps.robot.building import Entity, Start
+from angen_apps.robot.building import Start
+from angen_apps.robot.entities import Entity
 from angen_apps.robot.interface import Event
 from angen_apps.robot.pilot import Pose
 from angen_apps.robot.planner import Door
 from angen_apps.seek.ambient import Ambient, RobotNow
 from angen_apps.seek.belief import Belief
-from angen_apps.seek.home import Home, Pir, doors_between
+from angen_apps.seek.home import Home, Pir
+from angen_apps.seek.ways import Ways
 from angen_tools.common import home as described
 
 COUNT = 20  # cells in a row, 0.5 m apart; a door between the first and the last ten
@@ -123,5 +125,6 @@ def test_the_robots_own_weight_on_a_mat_says_nothing(home: Home) -> None:
 
 
 def test_shut_doors_are_counted(home: Home) -> None:
-    assert doors_between(home, 0, {'kitchen0'}).tolist() == [0, 1]
-    assert doors_between(home, 0, set()).tolist() == [0, 0]
+    ways = Ways(home, None, {})  # type: ignore[arg-type]
+    assert ways._doors_between(0, {'kitchen0'}).tolist() == [0, 1]
+    assert ways._doors_between(0, set()).tolist() == [0, 0]

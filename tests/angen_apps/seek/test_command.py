@@ -8,7 +8,7 @@ from types import SimpleNamespace
 from typing import Any, Iterator
 
 import pytest
-from angen_apps.robot.building import Entity
+from angen_apps.robot.entities import Entity
 from angen_apps.robot.route_file import Route, default_route, read_route
 from angen_apps.seek import command
 from angen_apps.seek.run import Figures

@@ -13,6 +13,7 @@ from angen_apps.data.run import first_day, residents_of
 from angen_apps.data.site import Site
 from angen_apps.residents.household import Household
 from angen_apps.residents.resident import make
+from angen_apps.robot.entities import entities_of
 from angen_tools.common.catalog import kinds, simulator
 from angen_tools.common.home import Home
 from angen_tools.common.progress import Progress
@@ -34,7 +35,8 @@ class Watched:
         else:
             self._world = site.world
         existing = set(_existing(self._world))
-        rules = at_home(rules, Home.of_world(self._world), _rooms(self._world), existing)
+        rooms = {f'{e.kind}/{e.name}': e.room for e in entities_of(self._world)}
+        rules = at_home(rules, Home.of_world(self._world), rooms, existing)
         names = {key.split('/', 1)[1] for key in existing}
         check_sources(rules, existing, names | set(self._world.models))
         self.rules = rules
@@ -80,16 +82,6 @@ class Watched:
             self.events.append(Event(time, source, kind, event, detail))
             self.changes += self.engine.observe(self.events[-1])
         self.changes += self.engine.advance(self.time)
-
-
-def _rooms(world: Any) -> dict[str, str]:
-    """The name of the room of each KIND/NAME that is in one."""
-    home, found = Home.of_world(world), {}
-    for kind, name, _, pose in world.entities():
-        room = home.room_at(*pose[:3])
-        if room is not None:
-            found[f'{kind}/{name}'] = room.name
-    return found
 
 
 def _existing(world: Any) -> Iterator[str]:

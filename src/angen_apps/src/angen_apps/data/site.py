@@ -4,12 +4,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from lxml import etree
 
 from angen_apps.residents.ground import Ground
 from angen_apps.residents.simulated import Simulated
+from angen_apps.robot.entities import Entity, entities_of
 from angen_tools.common.catalog import simulator
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
@@ -90,23 +90,21 @@ class Site:
 
     def _listed(self) -> list[Sensor]:
         """The sensors by id, counted from 1 by kind in the order of their names."""
-        found: dict[str, list[tuple[str, str, str, Any]]] = {}
-        for source, name, model, pose in self.world.entities():
-            kind = BY_SOURCE.get(source)
+        found: dict[str, list[tuple[str, str, Entity]]] = {}
+        for entity in entities_of(self.world):
+            kind = BY_SOURCE.get(entity.kind)
             if kind is None:
                 continue
-            if kind == 'motion' and name.startswith('area_'):
+            if kind == 'motion' and entity.name.startswith('area_'):
                 kind = 'area'
-            found.setdefault(LETTERS[kind], []).append((name, kind, source, pose))
+            found.setdefault(LETTERS[kind], []).append((entity.name, kind, entity))
         sensors = []
         for letter in sorted(found):
-            for number, (name, kind, source, pose) in enumerate(sorted(found[letter],
-                                                                       key=lambda e: e[0]), 1):
-                x, y, z = (float(v) for v in pose[:3])
-                room = self.home.room_at(x, y, z)
-                sensors.append(Sensor(f'{letter}{number:03d}', kind, source, name,
-                                      room.name if room else '', round(x, 3), round(y, 3),
-                                      round(z, 3)))
+            for number, (name, kind, entity) in enumerate(sorted(found[letter],
+                                                                 key=lambda e: e[0]), 1):
+                x, y, z = (round(value, 3) for value in entity.pose[:3])
+                sensors.append(Sensor(f'{letter}{number:03d}', kind, entity.kind, name,
+                                      entity.room, x, y, z))
         return sensors
 
 

@@ -14,7 +14,8 @@ from lxml import etree
 from angen_apps.go.live_robot import LIMIT, LiveRobot
 from angen_apps.go.trip import Goal, Trip
 from angen_apps.maps.gridmap import load_world
-from angen_apps.robot.building import Entity, Start, Survey, entity_of, find_start
+from angen_apps.robot.building import Start, Survey, find_start
+from angen_apps.robot.entities import Entity, entity_of
 from angen_apps.robot.planner import Planner
 from angen_apps.robot.route import Ride, Turn
 from angen_apps.robot.rooms_route import lift_of
@@ -97,7 +98,7 @@ class Surveyed:
             for entity in self.entities:
                 if entity.kind == 'drive':
                     one.delete(entity.model)
-        self.survey = Survey(world, shut, self.entities, None)
+        self.survey = Survey(world, shut)
 
 
 def loaded(path: Path, xml: str) -> Any:

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Any, Callable
 
 from angen_apps.locate.belief import STEP, Answer, Belief, Evidence
 from angen_apps.locate.score import Row, compare
-from angen_apps.locate.site import Site, Thing, make_site
+from angen_apps.locate.site import KINDS as SENSORS
+from angen_apps.locate.site import make_site
+from angen_apps.robot.entities import entity_of
 from angen_tools.common.failure import Failure
-from angen_tools.common.geometry import yaw_of
 from angen_tools.common.output import as_json, number, table
 from angen_tools.live.client import CONNECT_LIMIT, Client, Mailbox
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-SENSORS = ('pir', 'rfid', 'pressure')
 KINDS = (*SENSORS, 'door')
 HEAD = ('TAG', 'ROOM', 'CHANCE', 'X', 'Y', 'Z')
 REFRESH = 0.5    # s of wall time between two pictures
@@ -30,7 +30,8 @@ class Locator:
     def __init__(self, client: Client) -> None:
         self.client = client
         entities = client.entities()
-        self.site = self._site(entities)
+        home = client.home()
+        self.site = make_site(home, [entity_of(entity, home) for entity in entities])
         if not self.site.of_kind('rfid'):
             raise Failure('no room has an RFID reader: people cannot be told apart')
         self.belief = Belief(self.site)
@@ -97,16 +98,6 @@ class Locator:
             mail.until(take, CONNECT_LIMIT)
         return found
 
-    def _site(self, entities: list[Any]) -> Site:
-        things = [Thing(entity.kind, entity.name, _xyz(entity), yaw_of(entity.pose.orientation))
-                  for entity in entities if entity.kind in SENSORS]
-        return make_site(self.client.home(), things)
-
-
-def _xyz(entity: Any) -> tuple[float, float, float]:
-    at = entity.pose.position
-    return (at.x, at.y, at.z)
-
 
 def _cells(answer: Answer) -> list[str]:
     at = [number(v, 1) for v in answer.at] if answer.room else ['', '', '']
@@ -130,7 +121,7 @@ def locate_for(seconds: float, report: Callable[[float], None]
         if locator.time >= compared + 1.0:
             compared = locator.time
             rows += compare(compared, locator.belief.answers(), locator.truth(carriers),
-                            locator.site)
+                            locator.site.home)
             report(compared - start)
     return rows, locator.belief.answers()
 

@@ -6,27 +6,14 @@ from typing import Any, Callable
 
 from angen_apps.locate.belief import STEP, Answer, Belief, Evidence
 from angen_apps.locate.score import Row, compare
-from angen_apps.locate.site import Site, Thing, make_site
+from angen_apps.locate.site import make_site
 from angen_apps.maps.gridmap import load_world
+from angen_apps.robot.entities import entities_of
 from angen_tools.common.failure import Failure
-from angen_tools.common.geometry import yaw
 from angen_tools.common.home import Home
 from angen_tools.common.progress import Progress
 
 SAMPLE = 0.1  # s, at which PIRs and readers publish
-KINDS = ('pir', 'rfid', 'pressure')
-
-
-def site_of(world: Any) -> Site:
-    """The home that is a world, with its sensors."""
-    return make_site(Home.of_world(world), [_thing(kind, name, pose)
-                                            for kind, name, _, pose in world.entities()
-                                            if kind in KINDS])
-
-
-def _thing(kind: str, name: str, pose: Any) -> Thing:
-    x, y, z = (float(v) for v in pose[:3])
-    return Thing(kind, name, (x, y, z), yaw(*pose[3:]))
 
 
 def run(path: str, seconds: float, seed: int, drive: Callable[[Any], None] | None = None
@@ -37,7 +24,7 @@ def run(path: str, seconds: float, seed: int, drive: Callable[[Any], None] | Non
     """
     world = load_world(path, seed)
     world.run(SAMPLE)  # until all have reported
-    site = site_of(world)
+    site = make_site(Home.of_world(world), entities_of(world))
     if not site.of_kind('rfid'):
         raise Failure('no room of the world has an RFID reader: people cannot be told apart')
     belief, rows = Belief(site), []
@@ -52,7 +39,7 @@ def run(path: str, seconds: float, seed: int, drive: Callable[[Any], None] | Non
                 _take(world, evidence)
             belief.step(evidence)
             truth = {tag: _place(world, model) for tag, model in carriers.items()}
-            rows += compare(world.time, belief.answers(), truth, site)
+            rows += compare(world.time, belief.answers(), truth, site.home)
             progress.update(world.time / seconds)
     return rows, belief.answers()
 

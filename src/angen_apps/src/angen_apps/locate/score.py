@@ -9,8 +9,8 @@ from typing import Iterable, Sequence
 import numpy as np
 
 from angen_apps.locate.belief import Answer
-from angen_apps.locate.site import Site
 from angen_tools.common import files
+from angen_tools.common.home import Home
 from angen_tools.common.output import number
 
 HEAD = ('TAG', 'SECONDS', 'KNOWN', 'ROOM RIGHT', 'RIGHT WHERE KNOWN', 'MEDIAN', '90 %')
@@ -41,15 +41,15 @@ class Row:
 
 
 def compare(time: float, answers: Iterable[Answer],
-            truth: dict[str, tuple[float, float, float]], site: Site) -> list[Row]:
+            truth: dict[str, tuple[float, float, float]], home: Home) -> list[Row]:
     """Answers beside the true places (m) of the tags' carriers."""
     rows = []
     for answer in answers:
         if answer.tag not in truth:
             continue
         x, y, z = truth[answer.tag]
-        room = site.room_at((x, y, z + 0.5))
-        rows.append(Row(time, answer, '' if room is None else site.rooms[room].name, (x, y, z)))
+        room = home.room_at(x, y, z + 0.5)
+        rows.append(Row(time, answer, room.name if room else '', (x, y, z)))
     return rows
 
 

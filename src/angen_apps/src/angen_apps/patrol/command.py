@@ -18,7 +18,7 @@ from angen_apps.patrol.lockstep import Lockstep
 from angen_apps.patrol.report import (Figures, Run, make_rows, measure, plans, summary, table_of,
                                       verdict, write_tables)
 from angen_apps.plan.draw import read_scene
-from angen_apps.robot.building import entity_of
+from angen_apps.robot.entities import entity_of
 from angen_apps.robot.interface import BUMPER, CYCLE, bumper
 from angen_apps.robot.rooms_route import prepare
 from angen_apps.robot.tables import write_figures

@@ -9,7 +9,7 @@ import numpy as np
 from angen_apps.maps.gridmap import on_floor
 from angen_apps.patrol.report import Row, Run, begun, moving
 from angen_apps.plan.draw import Scene, draw_storey, extent
-from angen_apps.robot.building import Entity
+from angen_apps.robot.entities import Entity
 from angen_tools.common.files import pyplot, save_figure
 
 TRACK, SWITCH, NEUTRAL = '#1f6fb4', '#2a8c3c', '#505050'

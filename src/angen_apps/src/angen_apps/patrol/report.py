@@ -20,7 +20,7 @@ from angen_apps.maps.gridmap import on_floor
 from angen_apps.patrol.scene import Scene
 from angen_apps.patrol.sight import Sight
 from angen_apps.robot import interface
-from angen_apps.robot.building import Entity
+from angen_apps.robot.entities import Entity
 from angen_apps.robot.driver import Track
 from angen_apps.robot.interface import BUMPER, CYCLE, Event
 from angen_apps.robot.tables import write_events, write_track

@@ -10,8 +10,8 @@ import numpy as np
 
 from angen_apps.maps.gridmap import GridMap, load_world
 from angen_apps.patrol.sight import beam_angles, door_beside, outline
-from angen_apps.robot.building import (Entity, Start, Survey, find_start, move_robot,
-                                       remove_actors)
+from angen_apps.robot.building import Start, Survey, find_start, move_robot, remove_actors
+from angen_apps.robot.entities import Entity
 from angen_apps.robot.planner import Door, Planner
 from angen_apps.robot.route import Action, Router
 from angen_apps.robot.route_file import Route
@@ -64,13 +64,13 @@ def make_scene(route: Route, path: str, entities: list[Entity],
     world = load_world(path)
     body = outline(world, np.array([*start.robot.place, start.robot.flat.yaw]))
     used = {start.floor} | {p.floor for p in route.waypoints}
-    survey = survey or Survey(world, load_world(path), entities, used)
+    survey = survey or Survey(world, load_world(path), used)
     maps = {floor: grid for floor, grid in survey.maps.items() if floor in used}
     doors = {floor: survey.doors[floor] for floor in maps}
     rooms = {e.name: (e.kind == 'switch' and door_beside(e, doors.get(e.floor, [])))
              or e.room or e.name for e in entities}
     switches = [e for e in entities if e.kind == 'switch']
-    beams = beam_angles(survey.shut_world, survey.by_joint, switches, rooms)
+    beams = beam_angles(survey.shut_world, doors, switches, rooms)
     scene = Scene(start, maps, survey.landmarks, doors, beams, body, survey.world, rooms,
                   survey.home)
     planners = {number: Planner(grid, route.clearance) for number, grid in maps.items()}

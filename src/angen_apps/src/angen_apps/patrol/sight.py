@@ -8,7 +8,7 @@ import numpy as np
 
 from angen_apps.maps.gridmap import models_with
 from angen_apps.maps.rays import Caster
-from angen_apps.robot.building import Entity
+from angen_apps.robot.entities import Entity
 from angen_apps.robot.planner import Door
 from angen_apps.robot.views import View
 
@@ -105,26 +105,29 @@ def door_beside(switch: Entity, doors: Iterable[Door]) -> str:
     return name if away < BESIDE else ''
 
 
-def beam_angles(world: Any, doors: dict[str, Door], switches: list[Entity],
+def beam_angles(world: Any, doors: dict[int, list[Door]], switches: list[Entity],
                 rooms: dict[str, str]) -> dict[str, float]:
     """How far (rad) each switch's door has turned from shut when its beam comes free.
 
-    `doors` by joint, all shut; they are opened for it.
+    `doors` of each floor, all shut; they are opened for it.
     """
     caster = Caster(world)
     origins = np.array([s.place for s in switches]).reshape(-1, 3)
     ways = np.array([s.rotation[:, 0] for s in switches]).reshape(-1, 3)
-    joints = {door.name: world.joints.index(joint) for joint, door in doors.items()}
+    names = {door.name for each in doors.values() for door in each}
+    joints = {name: [i for i, joint in enumerate(world.joints) if joint.startswith(f'{model}::')]
+              for _, name, model, _ in world.entities('door') if name in names}
     shut = caster.cast(origins, ways, BEAM)
-    for name in joints:
+    for name in names:
         world.command('door', name, 'Open')
     found: dict[str, float] = {}
-    for _ in range(SAMPLES):
+    for _ in range(SAMPLES if switches else 0):
         world.step(TICKS)
         longer = caster.cast(origins, ways, BEAM) > shut + CHANGED
         positions = world.joint_positions
         for switch, free in zip(switches, longer):
             door = rooms[switch.name]
-            if free and door in joints:
-                found.setdefault(switch.name, abs(float(positions[joints[door]])))
+            if free and door in joints:  # doors of one model turn alike
+                turned = max(abs(float(positions[i])) for i in joints[door])
+                found.setdefault(switch.name, turned)
     return found

@@ -9,63 +9,14 @@ import numpy as np
 from lxml import etree
 
 from angen_apps.maps.gridmap import GridMap, floors, make_map
-from angen_apps.maps.rays import Caster
-from angen_apps.robot.doors import (find_door, find_hinge, find_top, opened_alone, pose_of,
-                                    sliding_door)
+from angen_apps.robot.doors import door_of
+from angen_apps.robot.entities import Entity
 from angen_apps.robot.pilot import Pose
 from angen_apps.robot.planner import Door
 from angen_apps.robot.route_file import Route
 from angen_tools.common.failure import Failure
-from angen_tools.common.geometry import rotation_of, yaw
 from angen_tools.common.home import Home
 from angen_tools.common.nearest import did_you_mean
-
-
-@dataclass(frozen=True)
-class Entity:
-    """A device or a sensor: of a sensor its own pose, of a device that of its model."""
-
-    kind: str
-    name: str
-    model: str
-    pose: tuple[float, ...]  # x y z (m) qx qy qz qw, in the world
-    topic: str = ''
-    floor: int = 0
-    room: str = ''
-
-    @property
-    def place(self) -> np.ndarray:
-        """x, y, z, m."""
-        return np.array(self.pose[:3])
-
-    @property
-    def rotation(self) -> np.ndarray:
-        """The 3 x 3 matrix from its frame to the world."""
-        return rotation_of(*self.pose[3:])
-
-    @property
-    def flat(self) -> Pose:
-        """From above."""
-        return Pose(self.pose[0], self.pose[1], yaw(*self.pose[3:]))
-
-
-def entity_of(message: Any, home: Home) -> Entity:
-    """An angen_msgs/Entity."""
-    at, turned = message.pose.position, message.pose.orientation
-    return Entity(message.kind, message.name, message.model,
-                  (at.x, at.y, at.z, turned.x, turned.y, turned.z, turned.w), message.topic,
-                  home.storey_at(at.z), message.room)
-
-
-def entities_of(world: Any) -> list[Entity]:
-    """All devices and sensors of an angen.World."""
-    home, found = Home.of_world(world), []
-    for kind, name, model, pose in world.entities():
-        x, y, z, *turned = (float(value) for value in pose)
-        room = home.room_at(x, y, z)
-        found.append(Entity(kind, name, model, (x, y, z, *turned), floor=home.storey_at(z),
-                            room=room.name if room else ''))
-    return found
 
 
 class Survey:
@@ -75,8 +26,7 @@ class Survey:
     people, and their doors are open and shut.
     """
 
-    def __init__(self, world: Any, shut: Any, entities: list[Entity], only: set[int] | None
-                 ) -> None:
+    def __init__(self, world: Any, shut: Any, only: set[int] | None = None) -> None:
         self.world, self.shut_world = world, shut
         self.home = Home.of_world(world)
         self.maps: dict[int, GridMap] = {}
@@ -89,26 +39,10 @@ class Survey:
             both = np.maximum(self.maps[floor].cells, self.shut[floor].cells)
             self.landmarks[floor] = replace(self.shut[floor], cells=both)
         self.doors: dict[int, list[Door]] = {floor: [] for floor in self.maps}
-        self.by_joint: dict[str, Door] = {}  # MODEL::JOINT
-        described = {door.name: door for door in self.home.doors if door.kind == 'door'}
-        storeys = {name: self.home.storey_at(door.pose[2]) for name, door in described.items()}
-        doors = [entity for entity in entities if entity.kind == 'door']
-        for entity in doors:
-            alone = sum(other.model == entity.model for other in doors) == 1
-            floor = storeys.get(entity.name, entity.floor)
-            if floor not in self.maps:
-                continue
-            before = pose_of(shut, entity.model)
-            after = (pose_of(world, entity.model) if alone
-                     else opened_alone(shut, entity.model, entity.name))
-            hinge = find_hinge(before.links, after.links)
-            door = hinge and find_door(entity.name, hinge, self.shut[floor], self.maps[floor])
-            if hinge is None and entity.name in described:
-                door = sliding_door(entity.name, described[entity.name], before.links, after.links)
-            if door:
-                door = replace(door, top=find_top(Caster(shut), door, self.maps[floor].height))
-                self.doors[floor].append(door)
-                self.by_joint[after.turned(before)] = door
+        for described in self.home.doors:
+            floor = self.home.storey_at(described.pose[2])
+            if described.kind == 'door' and floor in self.maps:
+                self.doors[floor].append(door_of(described, shut.device('door', described.name)))
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,6 @@ from angen_apps.maps.gridmap import FREE, GridMap
 
 Point = tuple[float, float]
 NEAR_COST = 4.0  # how much more a cell beside an obstacle costs than one in the open
-BETWEEN_LEAVES = 0.15  # m between the edges of a double door
 OPEN = 0.25  # m beyond the robot's radius where the open begins
 
 
@@ -151,7 +150,8 @@ def smooth(points: list[Point], width: int = 5) -> list[Point]:
 
 @dataclass(frozen=True)
 class Door:
-    """A door: its leaf turns about the hinge from `shut` to `open` (rad, in the world)."""
+    """A door: its leaf turns about the hinge from `shut` to `open` (rad, in the world), or slides
+    along its wall to either side."""
 
     name: str
     hinge: Point
@@ -159,6 +159,8 @@ class Door:
     open: float
     width: float  # m
     top: float = math.inf  # m, z of the leaf's upper edge
+    partner: str = ''  # the other leaf of a double door
+    slides: bool = False
 
     def tip(self, angle: float) -> Point:
         return (self.hinge[0] + self.width * math.cos(angle),
@@ -172,6 +174,10 @@ class Door:
 
     def room_for(self, point: Point) -> float:
         """Meters from a point to the nearest place that the leaf sweeps."""
+        if self.slides:
+            far = self.width * math.cos(self.shut), self.width * math.sin(self.shut)
+            (x0, y0), (x1, y1) = self.hinge, self.tip(self.shut)
+            return _to_segment(point, (x0 - far[0], y0 - far[1]), (x1 + far[0], y1 + far[1]))
         away = (point[0] - self.hinge[0], point[1] - self.hinge[1])
         low, high = sorted((self.shut, self.open))
         turn = math.atan2(away[1], away[0]) - low
@@ -180,19 +186,15 @@ class Door:
             return max(math.hypot(*away) - self.width, 0.0)
         return min(_to_segment(point, self.hinge, self.tip(a)) for a in (low, high))
 
-    def is_other_leaf(self, door: Door) -> bool:
-        """Whether this leaf and another door's close one doorway."""
-        return self != door and math.dist(self.tip(self.shut), door.tip(door.shut)) < BETWEEN_LEAVES
-
     def crosses(self, a: Point, b: Point) -> bool:
         """Whether a step from a to b crosses the shut leaf."""
         return _cross(a, b, self.hinge, self.tip(self.shut))
 
 
 def _to_segment(point: Point, a: Point, b: Point) -> float:
-    p, start, line = np.array(point), np.array(a), np.array(b) - np.array(a)
-    along = np.clip((p - start) @ line / (line @ line), 0.0, 1.0)
-    return float(np.linalg.norm(p - start - along * line))
+    x, y, dx, dy = point[0] - a[0], point[1] - a[1], b[0] - a[0], b[1] - a[1]
+    along = min(max((x * dx + y * dy) / (dx * dx + dy * dy), 0.0), 1.0)
+    return math.hypot(x - along * dx, y - along * dy)
 
 
 def _cross(a: Point, b: Point, c: Point, d: Point) -> bool:
@@ -225,7 +227,7 @@ def passages(way: list[Point], doors: list[Door], room: float) -> list[Passage]:
         for door in doors:
             if not door.crosses(way[i], way[i + 1]):
                 continue
-            leaves = [door, *(other for other in doors if other.is_other_leaf(door))]
+            leaves = [door, *(other for other in doors if other.name == door.partner)]
 
             def is_clear(point: Point) -> bool:
                 return min(leaf.room_for(point) for leaf in leaves) >= room

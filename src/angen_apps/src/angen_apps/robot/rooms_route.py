@@ -12,7 +12,8 @@ from lxml import etree
 
 from angen_apps.maps.gridmap import load_world
 from angen_apps.plan.polygons import in_room
-from angen_apps.robot.building import Entity, Survey, entities_of
+from angen_apps.robot.building import Survey
+from angen_apps.robot.entities import Entity, entities_of
 from angen_apps.robot.planner import Planner, Point, distances
 from angen_apps.robot.route_file import Lift, Route, Waypoint, default_route, read_route
 from angen_tools.common.failure import Failure
@@ -55,7 +56,7 @@ def by_rooms(route: Route, world: Path, to: Path) -> tuple[Route, Path, Survey]:
     at the main entrance and a person in the last room in `to`, where the world has none."""
     shut = load_world(str(world))
     entities = entities_of(shut)
-    survey = Survey(load_world(str(world)), shut, entities, None)
+    survey = Survey(load_world(str(world)), shut)
     planners = {floor: Planner(grid, route.clearance) for floor, grid in survey.maps.items()}
     start, floor, heading = _start(route, survey, planners, entities, world)
     lift = lift_of(survey.home, planners[floor], floor)

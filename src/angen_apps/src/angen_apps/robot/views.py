@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from lxml import etree
 
-from angen_apps.robot.building import Entity
+from angen_apps.robot.entities import Entity
 from angen_tools.world import sdf
 from angen_tools.world.models import find
 

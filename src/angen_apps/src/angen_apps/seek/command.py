@@ -11,7 +11,7 @@ from pathlib import Path
 
 from angen_apps.maps.gridmap import load_world
 from angen_apps.plan.draw import read_scene
-from angen_apps.robot.building import Entity, entities_of
+from angen_apps.robot.entities import Entity, entities_of
 from angen_apps.robot.rooms_route import prepare
 from angen_apps.robot.route_file import Route, default_route
 from angen_apps.robot.tables import write_figures

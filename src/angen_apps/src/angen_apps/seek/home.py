@@ -1,7 +1,6 @@
 """A search's knowledge of the building: rooms, cells, visibility between them, the sensors."""
 from __future__ import annotations
 
-from collections import deque
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,8 @@ from scipy.ndimage import label
 from angen_apps.maps.gridmap import FREE, GridMap, load_world, make_map
 from angen_apps.maps.rays import Caster
 from angen_apps.plan.polygons import in_room
-from angen_apps.robot.building import Entity, Start, Survey, find_start
+from angen_apps.robot.building import Start, Survey, find_start
+from angen_apps.robot.entities import Entity
 from angen_apps.robot.planner import Door, Planner, Point, distances
 from angen_apps.robot.route_file import Route
 from angen_apps.robot.views import sensor_element, view_of
@@ -95,7 +95,7 @@ def make_home(route: Route, path: Path, entities: list[Entity],
     """The building of a world's file, in which the robot is alone; surveys it if need be."""
     start = find_start(route, entities, offset)
     if survey is None:
-        survey = Survey(load_world(str(path)), load_world(str(path)), entities, None)
+        survey = Survey(load_world(str(path)), load_world(str(path)))
     walkable = {floor: make_map(survey.world, floor, 'open', TALL) for floor in survey.maps}
     named = {floor: Rooms(survey.home, floor) for floor in walkable}
     planners = {floor: Planner(grid, route.clearance) for floor, grid in survey.maps.items()}
@@ -292,24 +292,3 @@ def find_viewpoints(at: np.ndarray, floor: np.ndarray, planners: dict[int, Plann
             found.append(i)
             near[number] = np.vstack([near[number], place])
     return np.array(found, int)
-
-
-def doors_between(home: Home, room: int, shut: set[str]) -> np.ndarray:
-    """How many shut doors lie at least between a room and each room of its floor."""
-    beside: dict[int, set[tuple[int, str]]] = {}
-    for (a, b), door in zip(home.edges, home.edge_door):
-        one, other = int(home.room[a]), int(home.room[b])
-        if one != other:
-            beside.setdefault(one, set()).add((other, door))
-            beside.setdefault(other, set()).add((one, door))
-    count = np.full(len(home.rooms), 99)
-    count[room] = 0
-    waiting = deque([room])
-    while waiting:
-        here = waiting.popleft()
-        for there, door in beside.get(here, ()):
-            more = count[here] + (door in shut)
-            if more < count[there]:
-                count[there] = more
-                waiting.append(there)
-    return count

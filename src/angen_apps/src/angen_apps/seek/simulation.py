@@ -11,7 +11,8 @@ from typing import Any, Callable
 
 import numpy as np
 
-from angen_apps.robot.building import Start, entities_of
+from angen_apps.robot.building import Start
+from angen_apps.robot.entities import entities_of
 from angen_apps.robot.interface import BASE, BUMPER, CYCLE, DoorState, Event, LiftState, bumper
 from angen_apps.robot.pilot import Pose
 from angen_tools.common.catalog import angen_module, simulator
