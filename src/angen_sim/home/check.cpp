@@ -32,6 +32,7 @@ class Checks {
 
   std::vector<HomeFinding> all() {
     list_guesses();
+    check_names();
     compare_rooms();
     check_storeys();
     check_doors();
@@ -67,13 +68,20 @@ class Checks {
       guess("no <angen:start> is given, the time at simulated time 0");
   }
 
-  void compare_rooms() {
+  void check_names() {
     std::map<std::string, int> count;
-    for (const Room& room : home_.rooms) {
-      if (++count[room.name] == 2) {
-        contradict("two rooms are named " + quoted(room.name) + "; give each its own name");
-      }
+    const auto add = [&](const std::string& what, const std::string& name) {
+      if (++count[what + name] != 2) return;
+      contradict("two " + what + " are named " + quoted(name) + "; give each its own name");
+    };
+    for (const Room& room : home_.rooms) add("rooms", room.name);
+    for (const Storey& storey : home_.storeys) add("storeys", storey.name);
+    for (const HomeDoor& door : home_.doors) {
+      if (door.kind != HomeDoor::Kind::kWindow) add("doors or openings", door.name);
     }
+  }
+
+  void compare_rooms() {
     for (std::size_t i = 0; i < home_.rooms.size(); ++i) {
       for (std::size_t j = i + 1; j < home_.rooms.size(); ++j) {
         const double area = common_area(home_.rooms[i], home_.rooms[j]);

@@ -32,13 +32,21 @@ std::string known_word(const std::string& word, const std::vector<std::string>& 
   throw Error(at.source, what + " is '" + printable(word) + "'; known are " + join_names(known));
 }
 
+// Names of a home are texts for people: they may hold what names in topics may not.
+std::string checked_label(std::string name, const Element& element) {
+  std::string problem = label_problem(name);
+  if (problem.empty() && !name.empty() && (name.front() == ' ' || name.back() == ' ')) {
+    problem = "the name '" + printable(name) + "' begins or ends with a blank; leave it out";
+  }
+  if (!problem.empty()) throw Error(element.source, "<" + element.name + ">: " + problem);
+  return name;
+}
+
 std::string label_of(const Element& element) {
-  const std::string name = name_of(element);
+  std::string name = checked_label(name_of(element), element);
   if (name.empty()) {
     throw Error(element.source, "<" + element.name + "> has no name; write name=\"kitchen\"");
   }
-  const std::string problem = label_problem(name);
-  if (!problem.empty()) throw Error(element.source, "<" + element.name + ">: " + problem);
   return name;
 }
 
@@ -134,7 +142,7 @@ desc::Storey storey_of(const Element& element, const Pose& frame, Session& sessi
   const Reader reader(element, session);
   desc::Storey storey;
   storey.source = element.source;
-  storey.name = name_of(element);
+  storey.name = checked_label(name_of(element), element);
   const std::string* number = reader.attribute("number");
   const std::optional<int> value = number == nullptr ? std::nullopt : parse_integer(*number);
   if (!value || std::abs(*value) > 1000) {
@@ -205,7 +213,9 @@ void read_home_parts(const Reader& parent, const Pose& frame, desc::HomeParts& t
   const bool in_world = parent.element().name == "world";
   for (const Element& child : parent.element().children) {
     if (child.name == kStorey) {
-      to.storeys.push_back(storey_of(child, frame, session));
+      desc::Storey storey = storey_of(child, frame, session);
+      check_new(to.storeys, storey, "storey");
+      to.storeys.push_back(std::move(storey));
     } else if (child.name == kRoom) {
       desc::Room room = room_of(child, frame, session);
       check_new(to.rooms, room, "room");
@@ -241,7 +251,9 @@ desc::HomeSite home_site_of(const Reader& world, Session& session) {
   }
   const Reader home(*found, session);
   site.source = found->source;
-  site.entrance = home.text("angen:entrance");
+  if (const Element* entrance = home.child("angen:entrance")) {
+    site.entrance = checked_label(entrance->text, *entrance);
+  }
   site.north = home.number("angen:north", Range::any(limits::kAngle));
   site.latitude = home.number("angen:latitude", Range::any({"deg", 90.0}));
   site.start = home.text("angen:start");

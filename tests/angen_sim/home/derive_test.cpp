@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "home/survey.h"
 
 namespace angen {
@@ -84,6 +86,46 @@ TEST(Derive, TwoLeavesOfOneNameAreOneDoor) {
   EXPECT_NEAR(home.doors[0].pose.position.y(), 1.92, 1e-9);
   EXPECT_EQ(home.doors[0].rooms[0], "west");
   EXPECT_EQ(home.doors[0].rooms[1], "east");
+}
+
+TEST(Derive, LeavesWhoseEdgesMeetArePartners) {
+  HomeSurvey survey;
+  survey.parts.rooms = {room("west", -4, 0, -0.05, 8), room("east", 0.05, 0, 4, 8)};
+  const auto leaf = [](int number, const char* name) {
+    return HomeSurvey::Leaf{0, "hinge" + std::to_string(number), name, HomeDoor::Kind::kDoor};
+  };
+  // The hinge of the third is beside that of the second; the last two slide.
+  desc::Model model = door(at(0.0, 1.0, 0.0, M_PI_2),
+                           {{0.0, 1.0}, {1.84, -1.0}, {1.9, 1.0}, {4.0, 1.0}, {4.95, 1.0}});
+  for (const std::size_t i : {3, 4}) {
+    model.joints[i].type = desc::Joint::Type::kPrismatic;
+    model.joints[i].anchor.x() += 0.45;
+  }
+  add(survey, std::move(model));
+  survey.leaves = {leaf(0, "left"), leaf(1, "right"), leaf(2, "alone"), leaf(3, "one"),
+                   leaf(4, "two")};
+  std::map<std::string, std::string> partners;
+  for (const HomeDoor& each : derive_home(survey).doors) partners[each.name] = each.partner;
+  EXPECT_EQ(
+      partners,
+      (std::map<std::string, std::string>{
+          {"left", "right"}, {"right", "left"}, {"alone", ""}, {"one", "two"}, {"two", "one"}}));
+}
+
+TEST(Derive, WhatHasOneNameTwiceIsSaid) {
+  HomeSurvey survey;
+  survey.parts.rooms = {room("hall", 0, 0, 4, 3), room("hall", 0, 3, 4, 6)};
+  survey.parts.storeys = {{"Ground", 0, 0.0, {}, {}}, {"Ground", 1, 3.0, {}, {}}};
+  for (const double x : {1.0, 3.0}) {
+    survey.parts.openings.push_back({"arch", {{x, 3.0, 0.0}, 0.0}, 0.9, 2.1, {}});
+  }
+  add(survey, door(at(1.0, 0.0, 0.0, 0.0), {{0.0, 1.0}}));
+  std::string said;
+  for (const HomeFinding& each : check_home(survey, derive_home(survey))) said += each.text + "\n";
+  for (const char* what : {"two rooms are named 'hall'", "two storeys are named 'Ground'",
+                           "two doors or openings are named 'arch'"}) {
+    EXPECT_NE(said.find(what), std::string::npos) << what << "\n" << said;
+  }
 }
 
 TEST(Derive, StoreysFollowFromFloorsOrAreGiven) {

@@ -137,6 +137,48 @@ TEST(Home, SaysWhatIsWrongAndWhere) {
   }
 }
 
+TEST(Home, NamesAreKeptOrAnErrorWithALine) {
+  const auto storey = [](const std::string& name) {
+    return "<angen:storey name='" + name +
+           "' number='0'><angen:elevation>0</angen:elevation></angen:storey>";
+  };
+  const auto opening = [](const std::string& name) {
+    return "<angen:opening name='" + name +
+           "'><angen:pose>1 2 0 1.5</angen:pose><angen:width>0.9</angen:width></angen:opening>";
+  };
+  const auto hall = [](const std::string& name) { return room(kSquare, name); };
+  for (const std::string name : {"a/b", "Küche", "厨房", "a::b", "two words", "$x$"}) {
+    const desc::World world =
+        read(in_world(hall(name) + storey(name) + opening(name) + "<angen:home><angen:entrance>" +
+                      name + "</angen:entrance></angen:home>"));
+    EXPECT_EQ(world.home.rooms.at(0).name, name);
+    EXPECT_EQ(world.home.storeys.at(0).name, name);
+    EXPECT_EQ(world.home.openings.at(0).name, name);
+    EXPECT_EQ(world.site.entrance, name);
+    EXPECT_EQ(read(save(world, {})).home.rooms.at(0).name, name);
+  }
+  EXPECT_EQ(read(in_world(storey(""))).home.storeys.at(0).name, "");  // "Floor 0"
+  const std::string long_name(10'000, 'a');
+  const std::pair<std::string, std::string> wrong[] = {{"  ", "begins or ends with a blank"},
+                                                       {" hall", "begins or ends with a blank"},
+                                                       {"a&#10;b", "holds a control character"},
+                                                       {long_name, "has 10000 bytes"}};
+  for (const auto& [name, says] : wrong) {
+    for (const std::string& part :
+         {hall(name), storey(name), opening(name),
+          "<angen:home><angen:entrance>" + name + "</angen:entrance></angen:home>"}) {
+      if (part.find("entrance") != std::string::npos && name.front() == ' ') continue;  // trimmed
+      const std::string problem = problem_of(in_world(part));
+      EXPECT_NE(problem.find(says), std::string::npos) << part.substr(0, 99) << "\n" << problem;
+      EXPECT_NE(problem.find(":1: "), std::string::npos) << problem.substr(0, 99);
+      EXPECT_LT(problem.size(), 1000U);
+    }
+  }
+  for (const std::string& part : {opening("o") + opening("o"), storey("s") + storey("s")}) {
+    EXPECT_NE(problem_of(in_world(part)).find("is given twice"), std::string::npos);
+  }
+}
+
 TEST(Home, IsKeptBySave) {
   const std::string text =
       in_world("<angen:home><angen:entrance>front</angen:entrance></angen:home>" + room(kSquare) +

@@ -145,8 +145,9 @@ export class Card {
     const name = el('input', { type: 'text', 'aria-label': 'Name', style: 'flex: 1 1 120px' });
     const propose = () => {
       let n = 1;
-      while (home.entities.some((e) => e.name === `${room.name}_${kind.value}_${n}`)) n++;
-      name.value = `${room.name}_${kind.value}_${n}`;
+      const stem = `${room.name.replaceAll(/[:/]/g, '_')}_${kind.value}`; // no topic may have these
+      while (home.entities.some((e) => e.name === `${stem}_${n}`)) n++;
+      name.value = `${stem}_${n}`;
     };
     propose();
     kind.addEventListener('change', propose);

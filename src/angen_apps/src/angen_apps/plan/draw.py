@@ -108,7 +108,7 @@ def sheet(scene: Scene, storeys: Sequence[Storey], below: float = 0.0
         middle = (each[2] + each[3]) / 2
         draw_storey(axis, scene, storey, inch)
         axis.set_ylim(middle - high / 2, middle + high / 2)
-        axis.set_title(storey.name, fontsize=9)
+        axis.set_title(storey.name, fontsize=9, parse_math=False)
     _scale_and_north(axes[0][0], scene.home.north)
     figure.subplots_adjust(0.005, 0.005 + below / tall, 0.995, 1 - 0.35 / tall, 0.02)
     return figure, list(zip(axes[0], storeys))
@@ -251,12 +251,12 @@ def _label(axis: Any, room: Room, inch: float) -> None:
     """The room's name and area at the point of it that is farthest from its walls."""
     x, y, away = _inner_point(room)
     west, south, east, north = room.bounds
-    text = room.name.rstrip('0123456789').rstrip('_').replace('_', ' ')
+    text = (room.name.rstrip('0123456789').rstrip('_') or room.name).replace('_', ' ')
     wide = 0.065 * max(len(text), 7) / inch  # m of 8 points
     size = 8 if wide < max(2 * away, 0.6 * (east - west)) else 5.5
     axis.text(x, y, f'{text}{"?" if room.guessed else ""}\n{room.area:.1f} m²', ha='center',
               va='center', fontsize=size, zorder=9, color='#333333', linespacing=1.1,
-              bbox={'facecolor': 'white', 'alpha': 0.65, 'lw': 0, 'pad': 0.6})
+              parse_math=False, bbox={'facecolor': 'white', 'alpha': 0.65, 'lw': 0, 'pad': 0.6})
 
 
 def _inner_point(room: Room) -> tuple[float, float, float]:

@@ -170,7 +170,7 @@ def _draw_sensor(axis: Any, scene: Any, storey: Storey, entity: Any, walls: np.n
         axis.plot(*zip(*outline, outline[0]), color=color, alpha=0.4, lw=0.4, zorder=5)
     axis.plot([pose[0]], [pose[1]], 'o', color=color, ms=2.5, zorder=9)
     axis.text(pose[0], pose[1] + 0.05, name, fontsize=4.5, color=color, ha='center', va='bottom',
-              zorder=10)
+              zorder=10, parse_math=False)
 
 
 def _heading(pose: Any) -> tuple[float, float]:
