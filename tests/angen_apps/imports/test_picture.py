@@ -144,7 +144,8 @@ def test_what_touches_no_wall_is_furniture(tmp_path: Path) -> None:
     made = sorted(area(room.polygon) for room in plan.all_rooms())
     assert made[-2:] == pytest.approx([12.0, 14.8], rel=0.05)  # the cupboard is wall
     assert not any(room.holes for room in plan.all_rooms())
-    assert 'furniture' in plan.remarks[-1]
+    assert any('1 things that touch no wall are furniture' in remark for remark in plan.remarks)
+    assert '2 dark spots at walls are read as wall, the largest 1.2' in plan.remarks[-1]  # + letter
     out = tmp_path / 'home.world'
     write_world(plan, out, 'none')
     assert [name for name in angen.World(str(out)).models if 'furniture' in name]
@@ -159,6 +160,7 @@ def test_a_wall_between_two_doors_is_no_furniture(tmp_path: Path) -> None:
     Image.fromarray(gray).save(tmp_path / 'scan.png')
     plan = read_picture(tmp_path / 'scan.png', SCALE, True)
     assert len(plan.all_rooms()) == 3 and not plan.storeys[0].pieces
+    assert not any('spots' in remark for remark in plan.remarks)
 
 
 def test_rooms_of_a_map_end_where_it_is_unknown(tmp_path: Path) -> None:

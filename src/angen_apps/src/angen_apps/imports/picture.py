@@ -28,6 +28,7 @@ FURNITURE = 0.4, 3.0  # m of the longer side: smaller things are text and pillar
 LONGEST_THIN = 1.0  # m of a thing thinner than LEAST_WALL: a longer one is a wall that stands free
 FURNITURE_HEIGHT = 0.75  # m
 BESIDE = 0.15  # m from a doorway to the wall that ends at it
+LEAST_ROOM = 1.0  # m2: a smaller space that is closed is the inside of a thing
 SPECK = 0.3  # m of a map that are unknown: smaller specks are in a room
 FINE = 0.035  # m a pixel: thin walls have several pixels across
 PIXELS = 20_000_000
@@ -147,6 +148,10 @@ def _plan(path: Path, dark: np.ndarray, known: np.ndarray, scale: float,
     if storey.pieces:
         remarks.append(f'{path}: {len(storey.pieces)} things that touch no wall are furniture, '
                        f'boxes {FURNITURE_HEIGHT:g} m high')
+    thick = thick_spots(walls, scale)
+    if thick:
+        remarks.append(f'{path}: {len(thick)} dark spots at walls are read as wall, the largest '
+                       f'{max(thick):.1f} m wide; furniture there needs a gap to its wall')
     storey.walls += [_over(opening) for opening in storey.openings]
     _move(storey, origin)
     return finish(Plan(slug(path.name.partition('.')[0], 'plan'), [storey], remarks=remarks))
@@ -196,6 +201,18 @@ def find_islands(dark: np.ndarray, scale: float, storey: Storey, thin: bool) -> 
             found.append((rows, columns))
     apart = [each for each in found if not is_wall[np.unique(labels[each])].any()]
     return [each for each in apart if not any(_is_within(each, other) for other in apart)]
+
+
+def thick_spots(dark: np.ndarray, scale: float) -> list[float]:
+    """The widths (m) of spots that are thicker than walls and as large as furniture, filled or as
+    outlines at walls."""
+    labels, count = label(~dark)
+    pockets = np.bincount(labels.ravel(), minlength=count + 1) * scale ** 2 < LEAST_ROOM
+    across = round(THICKEST / scale) + 1
+    filled = dark | pockets[labels]
+    labels, count = label(binary_opening(filled, np.ones((across, across))))
+    widths = [max(s.stop - s.start for s in where) * scale for where in _slices(labels, count)]
+    return [width for width in widths if width <= FURNITURE[1]]
 
 
 def _labels_at(labels: np.ndarray, point: Point, scale: float) -> set[int]:
