@@ -51,12 +51,13 @@ def run_bench_soak(args: argparse.Namespace) -> int:
 
 
 def run_bench_homes(args: argparse.Namespace) -> int:
-    from angen_bench import homes
+    from angen_bench import homes, tasks
     from angen_tools.common.output import as_json, show
     check_folder(args.out)
     args.out.mkdir(parents=True, exist_ok=True)
-    rows = homes.measure_seeds(args.seeds, args.out) if args.seeds \
-        else homes.measure(args.out, args.plans)
+    rows = (homes.measure_seeds(args.seeds, args.out) if args.seeds
+            else tasks.measure(args.out.absolute(), args.plans) if args.tasks
+            else homes.measure(args.out, args.plans))
     show(as_json(rows) if args.json else homes.show_table(rows))
     return 0
 
@@ -123,10 +124,12 @@ def add_commands(commands: Any) -> None:
                        'sweethome3d and two scans, and examines them: counts, areas, doors, rays, '
                        'rooms reached',
                        'bench homes', 'bench homes hotel.building.yaml',
-                       'bench homes --seeds 200')
+                       'bench homes --seeds 200', 'bench homes --tasks')
     imported.add_argument('plans', metavar='PLAN', nargs='*', type=Path, help='examines this '
                           'building.yaml of Open-RMF or map.yaml of map_server, too')
     imported.add_argument('--seeds', metavar='N', type=checked(at_least(1)), default=0,
                           help='examines this number of homes of angen world home instead')
+    imported.add_argument('--tasks', action='store_true', help='runs angen demo, seek and care in '
+                          'each instead: about an hour')
     add_json(imported)
     add_out(imported, 'the worlds')

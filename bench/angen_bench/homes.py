@@ -204,14 +204,19 @@ def moved(world: Any, seconds: float) -> tuple[str, float]:
     return world.links[worst], float(away[worst])
 
 
+def cases(folder: Path, files: Sequence[Path] = ()) -> list[plans.Case]:
+    """The nine homes, two scans and the files of the user."""
+    return [*(example_case(name, xml, folder) for name, xml in examples().items()),
+            *plans.scans(folder), *map(plans.given, files)]
+
+
 def measure(folder: Path, files: Sequence[Path] = ()) -> list[dict[str, Any]]:
     """A row for each of the nine homes, for two scans and for each file of the user."""
-    cases = [*(example_case(name, xml, folder) for name, xml in examples().items()),
-             *plans.scans(folder), *map(plans.given, files)]
     rows = []
+    every = cases(folder, files)
     with Progress('homes', 0.0) as progress:
-        for i, case in enumerate(cases):
-            progress.update(i / len(cases), case.name)
+        for i, case in enumerate(every):
+            progress.update(i / len(every), case.name)
             rows.append(examine(case, folder))
     return rows
 

@@ -1,0 +1,28 @@
+"""What a row of the tasks in imported homes says."""
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from angen_bench import tasks
+
+SAID = ('angen: the robot does not reach attic\nangen: seek   5 %  the building is surveyed\n'
+        'angen: x.yaml:3: rule a is left out: the home has no stove/*\n')
+
+
+@pytest.mark.parametrize('answer, row', [
+    ({'waypoints': 3, 'distance_m': 12.4, 'time_s': 60.2, 'collisions': 1},
+     {'simulated s': 60, 'result': '3 rooms, 12 m, 1 collisions', 'left out': 2}),
+    ({'found': True, 'room': 'hall', 'time_s': 9.0, 'collisions': 0},
+     {'simulated s': 9, 'result': 'found in hall, 0 collisions', 'left out': 2}),
+    ({'found': False, 'room': '', 'time_s': 600, 'collisions': 0},
+     {'simulated s': 600, 'result': 'no person found, 0 collisions', 'left out': 2}),
+    ([{'rule': 'a'}], {'simulated s': 3600, 'result': '1 warnings', 'left out': 2})])
+def test_a_task_is_judged_by_its_answer(answer: object, row: dict[str, object]) -> None:
+    assert tasks.judged(json.dumps(answer), SAID) == row
+
+
+def test_a_task_without_an_answer_is_judged_by_its_last_line() -> None:
+    found = tasks.judged('', SAID + 'angen: the robot is stuck at 1.00, 2.00 on floor 0\n')
+    assert found['result'] == 'the robot is stuck at 1.00, 2.00 on floor 0'
