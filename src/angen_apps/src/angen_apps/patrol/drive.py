@@ -31,6 +31,7 @@ class RosRobot:
         self._lifts = [route.elevator.name] if route.elevator else []
         self._states: dict[tuple[str, str], Any] = {}
         self._seen_events = 0
+        self._due: list[Event] = []  # whose states are not read yet
 
     @property
     def now(self) -> float:
@@ -75,11 +76,15 @@ class RosRobot:
         twist.linear.x, twist.angular.z = v, w
         self._lockstep.send(self._cmd_vel, twist)
         self._lockstep.run()
-        for event in self.events[self._seen_events:]:
-            key = event.kind, event.source
-            if key in self._states and event.event in DONE:
-                self._states[key] = self._lockstep.latest('/angen/%s/%s' % key, event.time)
+        self._due += [event for event in self.events[self._seen_events:] if event.event in DONE
+                      and (event.kind, event.source) in self._states]
         self._seen_events = len(self.events)
+        # The state has its new mode a tick after the event, which may be in the next cycle.
+        ready = self.now - self._lockstep.tick + 1e-6
+        for event in [event for event in self._due if event.time <= ready]:
+            self._states[event.kind, event.source] = self._lockstep.latest(
+                f'/angen/{event.kind}/{event.source}', event.time + self._lockstep.tick)
+        self._due = [event for event in self._due if event.time > ready]
 
     def command(self, kind: str, name: str, text: str) -> None:
         from std_msgs.msg import String

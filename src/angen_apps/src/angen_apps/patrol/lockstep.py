@@ -39,7 +39,8 @@ class Lockstep:
         self._subscribers = [rospy.Subscriber('/angen/events', EventMessage,
                                               self._receive_event)]
         began = self._call(0).sim_time
-        self._ticks = round(cycle / (self._call(1).sim_time - began).to_sec())
+        self.tick = (self._call(1).sim_time - began).to_sec()
+        self._ticks = round(cycle / self.tick)
 
     def _call(self, ticks: int) -> Any:
         import rospy
