@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from matplotlib.colors import to_hex
+from matplotlib.image import imread
 
 from angen_apps.care.figure import ASIDE, FAINT, WARNED, _draw_marks, draw
 from angen_apps.care.offline import Watched
@@ -54,5 +55,8 @@ def test_each_rule_is_marked_where_it_looks(home: tuple[Watched, Scene]) -> None
 def test_the_picture_is_a_plan_with_the_day_below(home: tuple[Watched, Scene],
                                                   tmp_path: Path) -> None:
     watched, scene = home
-    draw(watched.engine, scene, tmp_path / 'care.png')
-    assert (tmp_path / 'care.png').read_bytes().startswith(b'\x89PNG')
+    sizes = []
+    for each in (scene, None):  # None: a world without rooms
+        draw(watched.engine, each, tmp_path / 'care.png')
+        sizes.append(imread(tmp_path / 'care.png').shape)
+    assert sizes[1][0] < 0.5 * sizes[0][0]

@@ -69,10 +69,12 @@ def care_offline(path: Path | None, world: Path, seconds: float, day: Path | Non
 
 
 def _draw(engine: Engine, world: Path, path: Path) -> None:
-    """Draws the warnings on the plan of a world, or says why there is none."""
+    """Draws the warnings on the plan of a world, or says why there is no plan."""
     from angen_apps.care.figure import draw
-    from angen_apps.plan.draw import read_scene
+    from angen_apps.plan.draw import Scene, read_scene
+    scene: Scene | None = None
     try:
-        draw(engine, read_scene(world), path)
+        scene = read_scene(world)
     except Failure as why:
-        print(f'angen: {path} is not drawn: {why}', file=sys.stderr)
+        print(f'angen: no plan in {path}: {why}', file=sys.stderr)
+    draw(engine, scene, path)

@@ -13,22 +13,28 @@ from angen_apps.care.engine import CareWarning, Engine
 from angen_apps.care.report import warnings_of
 from angen_apps.plan.draw import DPI, INK, Scene, is_on, sheet
 from angen_tools.common.clock import DAY, HOUR, MINUTE, show_time
-from angen_tools.common.files import save_figure
+from angen_tools.common.files import pyplot, save_figure
 
 FAINT, DEGREE, WARNED, SEEN = '#7d8a94', '#5b8db8', '#c8372d', '#e8a33d'  # SEEN: acknowledged
 LANE, NAMES, EDGE = 0.52, 3.5, 0.35  # inches: height of a rule, width of its reason, margin
+ALONE = 12.0  # inches: width of a picture without a plan
 RADIUS, ASIDE = 0.26, 0.6  # m of a mark, and between two at one place
 LEAST = 1 / 800  # share of the whole time: the shortest length that a warning is drawn with
 STEPS = (MINUTE, 5 * MINUTE, 10 * MINUTE, 30 * MINUTE, HOUR, 2 * HOUR, 3 * HOUR, 6 * HOUR,
          12 * HOUR, DAY)
 
 
-def draw(engine: Engine, scene: Scene, path: Path) -> None:
-    """Writes the picture of all that the engine has seen in a home."""
+def draw(engine: Engine, scene: Scene | None, path: Path) -> None:
+    """Writes the picture of all that the engine has seen in a home; without a plan where none can
+    be drawn."""
     warnings = warnings_of(engine)
     lanes = LANE * len(engine.rules.rules)
-    figure, axes = sheet(scene, scene.drawn(), lanes + 3 * EDGE)
-    _draw_marks(axes, engine, scene, {warning.rule.name for warning in warnings})
+    below = lanes + 3 * EDGE
+    if scene is None:
+        figure = pyplot().figure(figsize=(ALONE, below))
+    else:
+        figure, axes = sheet(scene, scene.drawn(), below)
+        _draw_marks(axes, engine, scene, {warning.rule.name for warning in warnings})
     wide, tall = figure.get_size_inches()
     day = figure.add_axes((NAMES / wide, 1.4 * EDGE / tall, 1 - (NAMES + EDGE) / wide,
                            lanes / tall))
