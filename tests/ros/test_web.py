@@ -166,6 +166,12 @@ def test_a_phone_shows_a_plan_to_tap(home: Angen, server: Server, page: Page) ->
         page.press('#card [data-verb="Off"]')
         states.wait(lambda state: not state.on, 'a dark lamp', LIMIT)
     page.until('return !document.querySelector("g.item.lamp").classList.contains("on")')
+    page.press('#view-3d')
+    page.first_view()
+    across = page.run('''return angen.home.rooms.flatMap((r) => r.polygon.map(
+        ([x, y]) => angen.view.viewpoint.screen([x, y, r.floor])[0]))''')
+    assert 0 <= min(across) and max(across) <= 390  # the whole home, on the narrow screen
+    page.press('#view-plan')
 
 
 def test_a_sensor_is_added_where_one_taps_and_deleted(home: Angen, page: Page) -> None:

@@ -292,6 +292,7 @@ export class View3d {
     this.renderer.setPixelRatio(this.plain ? this.sharpness.share() * Math.min(1, Math.sqrt(PLAIN_PIXELS / (width * height))) : Math.min(2, devicePixelRatio));
     this.renderer.setSize(width, height);
     this.viewpoint.resize(width, height);
+    if (!this.framed) this.look();
     this.dirty = true;
   }
 
@@ -314,7 +315,7 @@ export class View3d {
    */
   look(above = false) {
     if (!this.shapes) return;
-    this.framed = this.home.rooms.length > 0; // until then what is seen may change
+    this.framed = this.home.rooms.length > 0 && this.element.clientWidth > 0; // until then what is seen may change, or its size
     const box = this.box(), many = this.storey === null && this.home.storeys.length > 1;
     this.viewpoint.look(box, above ? new THREE.Vector3(0, -0.02, 1) : new THREE.Vector3(-0.5, -0.92, many ? 0.72 : 1.05));
     this.sky.cover(box.getCenter(new THREE.Vector3()), 0.5 * box.getSize(new THREE.Vector3()).length());
