@@ -26,13 +26,14 @@ def stove(*places: Place) -> Thing:
 
 
 STAND, SIT = Place('stand', (0.3, 1.0, 0.0, -1.57)), Place('sit', (0.4, 0.4, 0.5, 0.0))
+BESIDE_SEAT = Place('stand', (0.5, 0.7, 0.0, -1.57))
 THROUGH_WALL = Place('stand', (-0.3, 1.0, 0.0, 0.0))
 WINDOW = Door('window', 'window', ('west', ''), 1.0, 1.0, (0.0, 1.0, 1.0, math.pi / 2))
 DOOR = Door('door', 'door', ('west', 'east'), 0.9, 2.0, (2.0, 2.0, 0.0, math.pi / 2))
 
 
 @pytest.mark.parametrize('things, doors, expected', [
-    ([stove(SIT, STAND)], [DOOR], (0.3, 1.0, 0.0, -1.57)),
+    ([stove(SIT, BESIDE_SEAT, STAND)], [DOOR], (0.3, 1.0, 0.0, -1.57)),
     ([stove(THROUGH_WALL)], [WINDOW, DOOR], (2.0 - INSIDE, 2.0, 0.0, math.pi)),
     ([stove(SIT)], [], (1.0, 1.5, 0.0, 0.0))])
 def test_one_stands_at_a_thing_or_inside_a_door_or_in_the_middle(

@@ -7,6 +7,7 @@ from typing import Iterator
 from angen_tools.common.home import FloorPose, Home, Room
 
 INSIDE = 0.8  # m from the middle of a door into its room
+SEAT = 0.5  # m around the place of one who sits or lies, where a seat may be in the way
 
 
 def places(home: Home, z: float) -> list[tuple[str, FloorPose]]:
@@ -24,9 +25,12 @@ def place(home: Home, room: Room) -> FloorPose:
 
 
 def _candidates(home: Home, room: Room) -> Iterator[FloorPose]:
-    for thing in home.things:
-        if thing.room == room.name:
-            yield from (spot.pose for spot in thing.places if spot.posture == 'stand')
+    spots = [spot for thing in home.things if thing.room == room.name for spot in thing.places]
+    seats = [spot.pose[:2] for spot in spots if spot.posture != 'stand']
+    for spot in spots:
+        if spot.posture == 'stand' and all(math.dist(spot.pose[:2], seat) > SEAT
+                                           for seat in seats):
+            yield spot.pose
     for door in home.doors:
         if door.kind != 'window' and room.name in door.rooms:
             x, y, z, yaw = door.pose
