@@ -15,13 +15,13 @@ constexpr double kScanHeights[] = {0.15, 0.5, 1.2};  // m, as a person sees
 constexpr double kDetour = 20.0;                     // m around both places
 constexpr double kBorder = 1.0;                      // m around the static shapes
 constexpr double kMaxMapCells = 4e6;
-constexpr double kTightMap = 3.0;    // … per meter nearer than that
+constexpr double kTightMap = 3.0;    // per meter nearer to something than kRoomyMap
 constexpr double kInside = 0.3;      // m from the surface: deeper places need no distances
 constexpr double kStep = 0.2;        // m up or down that a floor may be
-constexpr double kFloorStep = 0.01;  // m
+constexpr double kFloorStep = 0.01;  // m, of the heights of maps
 constexpr double kStartAway = 1.0;   // m, at most, from a place without room to a free one
 
-// A person stands within some mm of it.
+// The floor's height, so that a map serves feet that differ by some millimeters.
 double floor_of(const Vec3& feet) { return kFloorStep * std::round(feet.z() / kFloorStep); }
 
 // Around both places.

@@ -17,8 +17,7 @@ class FloorMap {
 
   static constexpr double kCell = 0.05;       // m
   static constexpr double kClearance = 0.25;  // m, half a person's width
-
-  static constexpr double kRoomyMap = 0.5;  // m: nearer to something costs more
+  static constexpr double kRoomyMap = 0.5;    // m: nearer to something costs more
 
   enum class Extent { kStorey, kStraight };
 

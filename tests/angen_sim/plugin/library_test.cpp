@@ -194,7 +194,7 @@ TEST_F(Library, NotFoundListsWhereItLooked) {
       << text;
 }
 
-TEST_F(Library, AnEmptyFolderOnThePathTwiceIsSearchedOnce) {
+TEST_F(Library, SearchesAFolderThatIsOnThePathTwiceOnce) {
   setenv("ANGEN_PLUGIN_PATH", "/one:/one", 1);
   setenv("GAZEBO_PLUGIN_PATH", "/one", 1);
   EXPECT_EQ(complaint("libnowhere.so").find("searched /one, /"),
