@@ -16,6 +16,7 @@ LEAST_TURN = 0.15  # rad: a leaf that opens less is fixed
 LEAST_WAY = 0.1  # m, the same of a leaf that slides
 GAPS = (0.01, 0.03, 0.06, 0.1)  # m from a wall to a leaf that slides before it
 TOUCH = 0.001  # m of overlap that does not count as contact
+REST = 1e-4  # m, the same where a leaf is open: beside its hinge 1 mm would hold it 1 degree back
 CLOSE = 0.002  # m: obstacles this close above or below a leaf block it
 
 
@@ -62,9 +63,11 @@ def _turned(hung: Hung, obstacles: Sequence[Obstacle], opened: Sequence[Obstacle
     It may pass through the place of an open leaf, but does not stop there.
     """
     turn, why = _free_turn(hung, obstacles)
-    opened = _near(hung, opened, hung.width)
+    around = [(o, TOUCH) for o in _near(hung, opened, hung.width)]
+    around += [(o, max(REST, overlap(hung.corners(0.0), o.corners)))
+               for o in _near(hung, obstacles, hung.width)]
     while abs(turn) >= LEAST_TURN and (in_way := next(
-            (o for o in opened if overlap(hung.corners(turn), o.corners) > TOUCH), None)):
+            (o for o, touch in around if overlap(hung.corners(turn), o.corners) > touch), None)):
         turn, why = turn - copysign(STEP, turn), in_way.name
     if abs(turn) >= abs(hung.leaf.turn) - 1e-6:
         return hung, ''
