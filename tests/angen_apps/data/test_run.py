@@ -2,6 +2,7 @@
 import datetime
 import gzip
 import json
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from angen_apps.data.site import Site, apartment
 from angen_apps.data.validate import validate
 from angen_apps.residents.household import Household
 from angen_apps.residents.profiles import read
-from angen_apps.residents.resident import Resident, make
+from angen_apps.residents.resident import make
 from angen_tools.common.failure import Failure
 
 MORNING = 30180.0  # s after midnight, a minute before the carer comes (seed 5)
@@ -103,7 +104,7 @@ def test_validate_finds_activities_elsewhere_and_ways_that_are_given_up(lived, t
         == [f'anna: 2 of {sum(i.phase == "goes" for i in lived.truth)}']
 
 
-def test_a_home_without_a_bed_is_refused(home, tmp_path):
+def test_residents_sleep_on_the_floor_of_a_home_without_a_bed(home, tmp_path, capfd):
     text = home.read_text()
     for name in ('bedroom_bed0', 'livingroom_sofa0'):
         start = text.rindex('<include>', 0, text.index(name))
@@ -112,8 +113,14 @@ def test_a_home_without_a_bed_is_refused(home, tmp_path):
     path.write_text(text)
     site = Site(path, 7, placed=False)
     household = Household(site.simulator, site.ground, 3, 'home', datetime.date(2026, 3, 23))
-    with pytest.raises(Failure, match='no bed and no sofa where anna .* could lie'):
-        Resident(household, 'anna', 0, read('retired'))
+    anna, bert = make(household, [(name, read('retired')) for name in ('anna', 'bert')])
+    household.run(60.0)  # at midnight
+    for sleeper in (anna, bert):
+        assert (sleeper.posture, sleeper.room) == ('lie', 'bedroom0')
+        assert site.simulator.body(sleeper.name).z == pytest.approx(0.0, abs=0.02)
+    assert math.dist(anna.at, bert.at) > 1.0
+    assert 'anna sleeps on the floor of bedroom0: the home has no bed and no sofa in reach' \
+        in capfd.readouterr().err
 
 
 def job(folder: Path, **more) -> Job:

@@ -6,14 +6,14 @@ from dataclasses import dataclass, replace
 from typing import Any, Sequence
 
 import numpy as np
-from scipy.ndimage import label
+from scipy.ndimage import binary_erosion, label
 
 from angen_apps.maps.gridmap import FREE, OCCUPIED, RESOLUTION, GridMap
 from angen_apps.maps.rays import Caster
 from angen_apps.plan.polygons import in_room, inside
 from angen_apps.robot.planner import Planner, Point
 from angen_tools.common.catalog import angen_module
-from angen_tools.common.home import Door, Home, Place
+from angen_tools.common.home import Door, Home, Place, Room
 
 BODY = 0.3  # m: half the width of a person, with a margin
 TALL = 2.0  # m: higher things are not obstacles
@@ -29,6 +29,7 @@ OPENS_IN = 20.0  # s, at most
 LEAF = 0.2  # m beyond a door's width from its middle: the farthest end of its leaf
 GOALS = 64  # goals whose ways are cached
 REACH = 1.1  # m from a person to the thing that the person uses
+LONG = 1.4  # m of free cells in a line, on which a person can lie
 
 
 @dataclass(frozen=True)
@@ -154,6 +155,26 @@ class Ground:
                 chosen = [cells[numbers.randrange(len(cells))] for _ in range(count)]
                 return [(float(x[i]), float(y[i])) for i in chosen]
         return []
+
+    def beds(self, room: Room, count: int) -> list[tuple[Point, float]]:
+        """Places on the open floor where people can lie, and the yaw of each: far from doors."""
+        planner = self.planners[room.storey]
+        found: list[tuple[Point, float]] = []
+        cells = round(LONG / planner.grid.resolution)
+        for shape, yaw in (((1, cells), 0.0), ((cells, 1), math.pi / 2)):
+            lies = binary_erosion(self.free[room.storey], np.ones(shape, bool))
+            x, y = self._middles(planner.grid, *np.nonzero(lies))
+            here = inside(room.polygon, x, y)
+            found += [((float(a), float(b)), yaw) for a, b in zip(x[here], y[here])]
+        doors = [door.pose[:2] for door in self.home.doors if door.kind != 'window'
+                 and room.name in door.rooms]
+        found.sort(key=lambda bed: (-min((math.dist(bed[0], door) for door in doors), default=0.0),
+                                    bed))
+        chosen: list[tuple[Point, float]] = []
+        for bed in found:
+            if len(chosen) < count and all(math.dist(bed[0], other[0]) > LONG for other in chosen):
+                chosen.append(bed)
+        return chosen
 
     def porch(self) -> tuple[Point, int] | None:
         """The free place outside the main entrance, and its storey; None if there is none."""

@@ -12,7 +12,9 @@ from angen_tools.common.home import Place, Room, Thing
 
 FAR = 1.9  # m from a standing person to the middle of a bed
 TOWARDS = 0.62  # m from the middle of a thing without places to its user
+LIE = 8  # people on the floor of a room
 OUTSIDE, ENTRANCE = 'outside', 'entrance'
+UNUSED = ('landing', 'outdoor')
 
 
 @dataclass(frozen=True)
@@ -78,9 +80,21 @@ class Places:
     def anywhere(self) -> Spot:
         """A place in the largest room, where nothing else serves."""
         room = max((r for r in self.home.rooms if r.storey in self.ground.planners
-                    and r.use not in ('landing', 'outdoor')), key=lambda r: (r.area, r.name))
+                    and r.use not in UNUSED), key=lambda r: (r.area, r.name))
         point = self.ground.spots(room.name, 1, Random(room.name))[0]
         return Spot(point, room.storey, self.ground.elevation(room.storey), room.name)
+
+    def on_floor(self) -> list[Spot]:
+        """Where people lie in a home without a bed: in a bedroom, or else in the largest room."""
+        rooms = [room for room in self.home.rooms if room.storey in self.ground.planners
+                 and room.use not in UNUSED]
+        for room in sorted(rooms, key=lambda r: (r.use != 'bedroom', -r.area, r.name)):
+            z = self.ground.elevation(room.storey)
+            found = [Spot(at, room.storey, z, room.name, '', Place('lie', (*at, z, yaw)))
+                     for at, yaw in self.ground.beds(room, LIE)]
+            if found:
+                return found
+        return []
 
     def _of(self, what: str, posture: str) -> list[Spot]:
         key = (what, posture)

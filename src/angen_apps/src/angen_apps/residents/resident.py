@@ -1,6 +1,7 @@
 """A resident, who follows the agenda and uses the home by habit."""
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 from typing import Any, Generator, Iterator
 
@@ -45,19 +46,28 @@ class Resident(Mover):
                                              if profile.body == 'person' else {'nap'}))}
 
     def _resolve(self, activity: Activity) -> list[list[Spot]]:
-        """The spots of each step; Failure where a resident would have no bed."""
+        """The spots of each step. Without a bed a resident sleeps on the floor; Failure where
+        nobody can lie."""
         places = self.household.places
         found = []
         for step in activity.steps:
             spots = places.spots(step)
             if not spots and activity.name == 'sleep' and self.profile.lives \
                     and self.profile.body == 'person':
-                raise Failure(f'the home has no {" and no ".join(step.at)} where {self.name} '
-                              f'({self.profile.name}), who sleeps, could lie')
+                spots = self._on_floor(f'no {" and no ".join(step.at)}')
             if not spots and OUTSIDE not in step.at:
                 spots = [places.anywhere()]
             found.append(spots)
         return found
+
+    def _on_floor(self, missing: str) -> list[Spot]:
+        spots = self.household.places.on_floor()
+        if not spots:
+            raise Failure(f'the home has {missing} where {self.name} ({self.profile.name}), who '
+                          'sleeps, could lie, and no floor as long as that')
+        print(f'angen: {self.name} sleeps on the floor of {spots[0].room}: the home has {missing} '
+              'in reach', file=sys.stderr)
+        return spots
 
     def live(self) -> Process:
         """Lives day after day."""
