@@ -80,6 +80,14 @@ def test_what_is_not_read_is_listed(tmp_path: Path) -> None:
     assert any('not read: 2 lanes' in remark for remark in read_rmf(building(tmp_path)).remarks)
 
 
+def test_a_door_between_the_ends_of_walls_needs_no_remark(tmp_path: Path) -> None:
+    assert not [r for r in read_rmf(building(tmp_path)).remarks if 'in no wall' in r]
+    path = building(tmp_path)
+    path.write_text(path.read_text().replace('[8, 5, {}]', '[9, 3, {}]'))
+    assert [r for r in read_rmf(path).remarks if 'in no wall' in r] == [
+        f'the door "{name}_slider" at 5.00 -2.00 is in no wall' for name in ('L1', 'L2')]
+
+
 def test_leaves_slide_and_turn_in_the_world(tmp_path: Path) -> None:
     root, counts = world_of(read_rmf(building(tmp_path)), 'none')
     joints = {joint.get('name'): joint.get('type') for joint in root.iter('joint')}

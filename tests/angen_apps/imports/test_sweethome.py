@@ -116,6 +116,56 @@ def test_a_person_reaches_rooms_with_doors_from_the_entrance(
     assert joined and joined <= found
 
 
+def test_layers_of_one_height_are_one_storey(tmp_path: Path) -> None:
+    """Programs draw walls on one level, and rooms and doors on another one at the same height."""
+    path = small(tmp_path, '<level id="a" name="A" elevation="0" height="250"/>'
+                 '<level id="b" name="B" elevation="0" height="250"/>',
+                 '<doorOrWindow level="b" catalogId="eTeks#door" name="Door" x="200" y="300" '
+                 f'width="90" depth="20" height="208">{SASH}</doorOrWindow>')
+    text = path.read_text().replace('<wall ', '<wall level="a" ').replace(
+        '<room ', '<room level="b" ')
+    path.write_text(text)
+    plan = read_sweethome(path)
+    below, above = plan.storeys
+    assert [o.name for o in below.openings] == ['kitchen0'] == [r.name for r in below.rooms]
+    assert not above.rooms and not above.openings and plan.entrance == 'kitchen0'
+    assert not plan.remarks
+
+
+def test_a_door_ends_below_the_ceiling(tmp_path: Path) -> None:
+    path = small(tmp_path, '<doorOrWindow catalogId="eTeks#door" name="Door" x="200" y="300" '
+                 f'width="90" depth="20" height="400">{SASH}</doorOrWindow>')
+    plan = read_sweethome(path)
+    write_world(plan, tmp_path / 'a.world', 'none')
+    assert plan.remarks == ['the door "Door" at 2.00 -3.00 is higher than the ceiling, and ends '
+                            'below it']
+    states = homes.open_all(angen.World(str(tmp_path / 'a.world')))
+    assert [mode for mode, _, _ in states.values()] == ['OPEN']
+
+
+def test_rooms_are_found_beside_a_door_in_a_thicker_wall(tmp_path: Path) -> None:
+    path = small(tmp_path, '<doorOrWindow catalogId="eTeks#door" name="Door" x="200" y="300" '
+                 f'width="90" depth="10" height="208">{SASH}</doorOrWindow>')
+    path.write_text(path.read_text().replace('thickness="20"', 'thickness="90"').replace(
+        '"10"', '"45"').replace('"390"', '"355"').replace('"290"', '"255"'))
+    plan = read_sweethome(path)
+    assert [o.name for o in plan.all_openings()] == ['kitchen0'] and plan.entrance == 'kitchen0'
+
+
+@pytest.mark.parametrize('name, use', [
+    ('厨房', 'kitchen'), ('Спальня', 'bedroom'), ('客厅', 'living'), ('Cuarto de baño', 'bathroom'),
+    ('コンサート', 'room')])
+def test_names_of_other_scripts_give_the_use(name: str, use: str, tmp_path: Path) -> None:
+    path = small(tmp_path)
+    path.write_text(path.read_text().replace('Kitchen', name))
+    plan = read_sweethome(path)
+    room, = plan.all_rooms()
+    assert room.use == (use if use != 'room' else 'other')
+    latin = name.isascii() or 'ñ' in name
+    assert room.name == ('cuarto_de_bano0' if latin else f'{use}0')
+    assert plan.remarks == ([] if latin else [f'the room "{name}" is called {room.name}'])
+
+
 def test_a_wall_at_an_angle_and_an_arc_are_as_long_as_in_the_file(tmp_path: Path) -> None:
     path = small(tmp_path, '<wall id="a" xStart="0" yStart="600" xEnd="200" yEnd="600" height="250"'
                  ' thickness="10" arcExtent="3.1415926"/>')

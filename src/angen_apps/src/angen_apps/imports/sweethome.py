@@ -16,7 +16,7 @@ from angen_apps.plan.model import (Color, Lamp, Leaf, Opening, Piece, Plan, Poin
                                    Wall)
 from angen_apps.plan.names import slug
 from angen_apps.plan.polygons import center, cleaned, contains, crosses_itself, split
-from angen_apps.plan.walls import arc
+from angen_apps.plan.walls import arc, cuts_wall
 
 FLUX = 1600.0  # lm of a light of full power; 0.5, the default, is a bulb of 800 lm
 DEFAULT_HEIGHT = 2.5  # m
@@ -57,6 +57,7 @@ class _Home:
             self._room(element)
         for element in self.root.iter('doorOrWindow'):
             self._opening(element)
+        self._join_layers()
         for element in self.root.iter('light'):
             self._light(element)
         for element in self.root.iter('pieceOfFurniture'):
@@ -211,6 +212,21 @@ class _Home:
         if leaves:
             opening = _as_wide_as_leaves(opening)
         storey.openings.append(opening)
+
+    def _join_layers(self) -> None:
+        """Of levels at one height: gives openings to that of the walls which they are in, and rooms
+        of one without walls to one with walls."""
+        for storey in self.storeys.values():
+            same = [other for other in self.storeys.values() if other is not storey
+                    and other.walls and abs(other.elevation - storey.elevation) < SAME_LEVEL]
+            if same and not storey.walls:
+                same[0].rooms += storey.rooms
+                storey.rooms = []
+            for opening in list(storey.openings) if same else ():
+                at = [each for each in (storey, *same)
+                      if any(cuts_wall(opening, wall) for wall in each.walls)]
+                storey.openings.remove(opening)
+                (at or [storey])[0].openings.append(opening)
 
     def _leaf(self, sash: etree._Element, width: float, depth: float, mirrored: bool) -> Leaf:
         xml = self.xml

@@ -8,14 +8,17 @@ from typing import Sequence
 
 import numpy as np
 
-from angen_apps.plan.model import Lamp, Opening, Piece, Plan, Point, Room, Storey, local
+from angen_apps.plan.model import Lamp, Opening, Piece, Plan, Point, Room, Storey, Wall, local
 from angen_apps.plan.names import Names, slug, use_by_things, use_of
 from angen_apps.plan.passages import passages
 from angen_apps.plan.polygons import area, contains, overlap, rectangle
 from angen_apps.plan.travel import sided
-from angen_apps.plan.walls import cuts_wall
+from angen_apps.plan.walls import cuts_wall, direction
 
 WHOLE = 0.9  # of an opening's width and height: a piece that fills it closes it
+JAMB = 0.1  # m from an end of a doorway to a wall beside it
+THICK_WALL = 0.5  # m, the same of an opening cut into a wall that is thicker than its frame
+NEAR = 0.01  # m between the top of a leaf and a ceiling
 BESIDE = 0.15  # m from the face of a wall to the room beside it
 TO_PASS = ('hall', 'landing', 'outdoor', '')
 
@@ -24,9 +27,10 @@ def finish(plan: Plan) -> Plan:
     """Names rooms, openings, furniture and lamps; all names are unique."""
     rooms, doors, windows, pieces, lamps = (Names() for _ in range(5))
     for storey in plan.storeys:
-        _name_rooms(storey, rooms)
+        _name_rooms(storey, rooms, plan.remarks)
     for storey in plan.storeys:
-        storey.openings = _apart(storey, plan)
+        storey.openings = [_below_ceiling(opening, storey, plan)
+                           for opening in _apart(storey, plan)]
         storey.openings += passages(storey)
         storey.openings = [_named_opening(
             opening, storey, windows if opening.kind == 'window' else doors)
@@ -55,23 +59,25 @@ def sides(opening: Opening, storey: Storey) -> tuple[Room | None, Room | None]:
     found = []
     for edge, sign in ((opening.band[0], -1), (opening.band[1], 1)):
         room = None
-        for away in (BESIDE, 2 * BESIDE, 0.02):
+        for away in (BESIDE, 2 * BESIDE, 0.02, THICK_WALL):
             room = room or room_at(storey, opening.point(0.0, edge + sign * away))
         found.append(room)
     return found[0], found[1]
 
 
-def _name_rooms(storey: Storey, names: Names) -> None:
+def _name_rooms(storey: Storey, names: Names, remarks: list[str]) -> None:
     named = []
     for room in storey.rooms:
         things = {piece.thing for piece in storey.pieces
                   if contains(room.polygon, piece.x, piece.y)}
         use = room.use or use_of(room.name) or use_by_things(things - {''})
-        text = slug(room.name) if room.name else (use if use != 'other' else 'room')
+        text = slug(room.name, use if use != 'other' else 'room')
         named.append((room, use, text))
     for room, use, text in named:
         made = replace(room, use=use, name=names.take(text, storey.number))
         storey.rooms[storey.rooms.index(room)] = made
+        if room.name and not slug(room.name, ''):  # of letters that names cannot have
+            remarks.append(f'the room "{room.name}" is called {made.name}')
 
 
 def _apart(storey: Storey, plan: Plan) -> list[Opening]:
@@ -82,10 +88,38 @@ def _apart(storey: Storey, plan: Plan) -> list[Opening]:
         if any(_is_over(opening, other) for other in found):
             plan.remarks.append(f'{what} is drawn over another one and is left out')
             continue
-        if not any(cuts_wall(opening, wall) for wall in storey.walls):
+        if not _has_jambs(opening, storey):
             plan.remarks.append(f'{what} is in no wall')
         found.append(opening)
     return found
+
+
+def _below_ceiling(opening: Opening, storey: Storey, plan: Plan) -> Opening:
+    """The opening; it ends below the ceilings beside it, if its leaves would meet them."""
+    ceilings = [room.floor + room.ceiling for room in sides(opening, storey)
+                if room is not None and room.has_ceiling]
+    ceilings += [other.elevation - other.slab for other in plan.storeys
+                 if other.elevation > storey.elevation + 1.0
+                 and room_at(other, (opening.x, opening.y)) is not None]
+    lowest = min((z for z in ceilings if z > opening.bottom + 0.3), default=opening.top)
+    if not opening.leaves or opening.top < lowest + NEAR:
+        return opening
+    plan.remarks.append(f'the {opening.kind} "{opening.source}" at {opening.x:.2f} '
+                        f'{opening.y:.2f} is higher than the ceiling, and ends below it')
+    return replace(opening, top=lowest - NEAR)
+
+
+def _has_jambs(opening: Opening, storey: Storey) -> bool:
+    """Whether an opening is cut into a wall, or fills the gap between walls."""
+    middle = sum(opening.band) / 2
+    ends = [opening.point(sign * opening.width / 2, middle) for sign in (-1, 1)]
+    return any(cuts_wall(opening, wall) for wall in storey.walls) or all(
+        any(_is_beside(end, wall) for wall in storey.walls) for end in ends)
+
+
+def _is_beside(point: Point, wall: Wall) -> bool:
+    u, v = local(wall.start, direction(wall), point)
+    return -JAMB < u < wall.length + JAMB and abs(v) < wall.thickness / 2 + JAMB
 
 
 def _is_over(opening: Opening, other: Opening) -> bool:

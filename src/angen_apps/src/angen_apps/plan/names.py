@@ -8,16 +8,22 @@ LONGEST = 40
 LETTERS = 'abcdefghijklmnopqrstuvwxyz'
 # the first that is in the name, in lower case without accents
 USES = (
-    ('bedroom', ('bedr', 'bed room', 'guest', 'nursery', 'chambre', 'schlaf', 'kinderz', 'sov')),
+    ('bedroom', ('bedr', 'bed room', 'guest', 'nursery', 'chambre', 'schlaf', 'kinderz', 'sov',
+                 'dormitor', 'camera da letto', 'спальн', 'детск', '卧', '寝室')),
     ('bathroom', ('bath', 'toilet', 'wc', 'shower', 'restroom', 'salle de bain', 'bad',
-                  'lavatory')),
-    ('kitchen', ('kitchen', 'cuisine', 'kuche', 'kueche', 'kok', 'pantry')),
-    ('living', ('living', 'lounge', 'dining', 'salon', 'sejour', 'wohn', 'family', 'vardagsrum')),
-    ('work', ('office', 'work', 'study', 'bureau', 'arbeit', 'meeting', 'desk')),
-    ('outdoor', ('balcon', 'terrac', 'garden', 'patio', 'outdoor', 'jardin', 'garten', 'roof',
-                 'porch')),
-    ('landing', ('landing', 'stair', 'lobby', 'elevator', 'lift')),
-    ('hall', ('hall', 'corridor', 'entr', 'flur', 'couloir', 'foyer', 'passage', 'vestib')),
+                  'lavatory', 'bano', 'bagno', 'ванн', 'туалет', 'санузел', '卫生间', '浴', '厕',
+                  '洗手间')),
+    ('kitchen', ('kitchen', 'cuisine', 'kuche', 'kueche', 'kok', 'pantry', 'cocina', 'cucina',
+                 'cozinha', 'кухн', '厨', '台所')),
+    ('living', ('living', 'lounge', 'dining', 'salon', 'sejour', 'wohn', 'family', 'vardagsrum',
+                'soggiorno', 'гостин', '客厅', '餐厅', '起居', '居間')),
+    ('work', ('office', 'work', 'study', 'bureau', 'arbeit', 'meeting', 'desk', 'despacho',
+              'кабинет', '书房', '办公', '書斎')),
+    ('outdoor', ('balc', 'terrac', 'terraz', 'garden', 'patio', 'outdoor', 'jardin', 'garten',
+                 'roof', 'porch', 'балкон', 'террас', '阳台', '露台', '花园', '庭')),
+    ('landing', ('landing', 'stair', 'lobby', 'elevator', 'lift', 'лестниц', '楼梯', '电梯')),
+    ('hall', ('hall', 'corridor', 'entr', 'flur', 'couloir', 'foyer', 'passage', 'vestib',
+              'pasillo', 'corridoio', 'коридор', 'прихож', '走廊', '过道', '玄关', '门厅', '廊下')),
 )
 # the use of a room without a name, by its contents; the first that it has
 BY_THINGS = (
@@ -47,7 +53,8 @@ def plain_name(text: str, otherwise: str) -> str:
 
 def use_of(name: str) -> str:
     """The use of a room by its name; '' if the name does not tell it."""
-    plain = unicodedata.normalize('NFKD', name).encode('ascii', 'ignore').decode().lower()
+    plain = ''.join(each for each in unicodedata.normalize('NFKD', name.lower())
+                    if not unicodedata.combining(each))
     for use, words in USES:
         if any(word in plain for word in words):
             return use
