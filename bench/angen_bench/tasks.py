@@ -28,9 +28,10 @@ def measure(folder: Path, files: Sequence[Path] = ()) -> list[dict[str, Any]]:
             world = import_case(case, folder).path
             for name, words in TASKS.items():
                 progress.update(i / len(plans), f'{case.name}: {name}')
-                rows.append({'plan': case.name, 'task': name,
-                             **run([*words, '--world', str(world)], folder / f'{world.stem}_{name}')
-                             })
+                row = {'plan': case.name, 'task': name,
+                       **run([*words, '--world', str(world)], folder / f'{world.stem}_{name}')}
+                progress.note(', '.join(f'{key} {value}' for key, value in row.items()))
+                rows.append(row)
     return rows
 
 

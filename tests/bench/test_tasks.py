@@ -2,6 +2,8 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -26,3 +28,20 @@ def test_a_task_is_judged_by_its_answer(answer: object, row: dict[str, object]) 
 def test_a_task_without_an_answer_is_judged_by_its_last_line() -> None:
     found = tasks.judged('', SAID + 'angen: the robot is stuck at 1.00, 2.00 on floor 0\n')
     assert found['result'] == 'the robot is stuck at 1.00, 2.00 on floor 0'
+
+
+def test_each_row_is_said_when_its_task_has_ended(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(tasks, 'cases', lambda *_: [SimpleNamespace(name='flat')])
+    monkeypatch.setattr(tasks, 'import_case',
+                        lambda *_: SimpleNamespace(path=tmp_path / 'flat.world'))
+    said: list[str] = []
+
+    def run(words: list[str], out: Path) -> dict[str, object]:
+        said.append(capfd.readouterr().err)
+        return {'ended': 'done', 'wall s': 3}
+
+    monkeypatch.setattr(tasks, 'run', run)
+    rows = tasks.measure(tmp_path)
+    assert [row['task'] for row in rows] == ['demo', 'seek', 'care']
+    assert 'plan flat, task demo, ended done, wall s 3' in said[1]
