@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from angen_tools.common.watchdog import marked
-from test_run import environment, restore_signals, until  # noqa: F401, a fixture
+from test_run import NODE_RUNS, environment, restore_signals, until  # noqa: F401, a fixture
 
 ROOT = Path(__file__).resolve().parents[2]
 pytestmark = pytest.mark.ros
@@ -28,6 +28,7 @@ world, rescue = sys.argv[1:3]
 count = int(open(world).read())
 master = ServerProxy(os.environ["ROS_MASTER_URI"])
 mine = master.getPid("/fake")
+master.registerService("/fake", "/angen/list", "rosrpc://localhost:1", "http://localhost:1")
 print(f"node {count} runs on {world}", flush=True)
 while True:
     time.sleep(0.1)
@@ -80,7 +81,7 @@ def master_of(environment):  # noqa: F811
 
 def test_master_and_node_start_anew_with_the_world(environment, fake):  # noqa: F811
     process = start(environment, fake, 0)
-    first = until(process, 'node 0 runs')
+    first = until(process, NODE_RUNS)
     os.kill(master_of(environment), signal.SIGKILL)
     printed = until(process, 'node 1 runs')
     said = [line for line in printed if line.startswith('angen: ')]
@@ -109,7 +110,7 @@ def test_not_for_ever(environment, fake):  # noqa: F811
 
 def test_a_node_that_saves_nothing_ends_it(environment, fake):  # noqa: F811
     process = start(environment, fake, 9)
-    until(process, 'node 9 runs')
+    until(process, NODE_RUNS)
     os.kill(master_of(environment), signal.SIGKILL)
     rest = process.communicate(timeout=60)[0]
     assert process.returncode == 1 and 'the simulator ended by itself' in rest

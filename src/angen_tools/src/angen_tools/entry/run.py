@@ -12,14 +12,14 @@ import sys
 import time
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, NoReturn, Sequence
 
 from angen_tools.common.clock import duration
 from angen_tools.common.failure import Failure, code_of
 from angen_tools.common.watchdog import watchdog
 from angen_tools.entry.arguments import check_arguments, kinds
 from angen_tools.entry.machine import has_display, stay_local
-from angen_tools.entry.master import running_node, start_master
+from angen_tools.entry.master import call, running_node, start_master
 from angen_tools.entry.rescue import Rescue
 
 FILES = ('world', 'record', 'replay', 'residents')  # arguments
@@ -27,6 +27,7 @@ TIMES = ('until',)
 END_LIMIT = 4.0  # s for an orderly end
 SAVE_LIMIT = 30.0  # s that the node has to notice that its master is another, and save the world
 TURN = 0.1
+READY = '/angen/list'  # a service that the node has once it runs a world
 # roslaunch's own progress is left out, which it prints by Python, and its box about a node that has
 # ended with an error of its own; other errors and nodes' lines are not.
 ROSLAUNCH = '''
@@ -61,8 +62,11 @@ def stop(number: int, _: Any) -> NoReturn:
 class Session:
     """The master and roslaunch. A context: its end ends them."""
 
-    def __init__(self, uri: str) -> None:
+    def __init__(self, uri: str, hints: Sequence[str]) -> None:
+        """`hints` are for the user of a world that runs."""
         self._uri = uri
+        self._hints = hints
+        self.ran = False
         self._master: subprocess.Popen[bytes] | None = None
         self._launch: subprocess.Popen[bytes] | None = None
 
@@ -92,6 +96,10 @@ class Session:
     def _wait(self, launch: subprocess.Popen[bytes]) -> int:
         lost = math.inf
         while launch.poll() is None:
+            if not self.ran and self._runs():
+                self.ran = True
+                for hint in self._hints:
+                    say(hint)
             if self._master is not None and self._master.poll() is not None:
                 say('the ROS master has ended; another one is started, the node saves the world')
                 lost = time.monotonic()
@@ -100,6 +108,12 @@ class Session:
                 raise Failure('the node has not ended without its ROS master')
             time.sleep(TURN)
         return launch.returncode
+
+    def _runs(self) -> bool:
+        """Whether the node runs its world; a node that cannot says why."""
+        with suppress(Failure, OSError):
+            return call(self._uri, 'lookupService', READY) is not None
+        return False
 
 
 def require_no_other(uri: str) -> None:
@@ -159,19 +173,20 @@ def run(launch: Path, words: list[str]) -> int:
     require_no_other(uri)
     words = [resolved(word) for word in words]
     hidden = 'gui' not in kinds(launch) or {'gui:=false', 'headless:=true'} & set(words)
+    hints = [help_text(launch.parent.parent / 'angen', words)]
     if not hidden and not has_display():
-        say('no display, so no rviz; the building runs all the same')
+        hints.insert(0, 'no display, so no rviz; the building runs all the same')
         words.append('gui:=false')
-    say(help_text(launch.parent.parent / 'angen', words))
     now, count = words, 1
-    with watchdog(), Rescue() as rescue, Session(uri) as session:
+    with watchdog(), Rescue() as rescue, Session(uri, hints) as session:
         while True:
             code = session.launch(launch, [*now, f'rescue:={rescue.path}'])
             world = rescue.take()
             if world is None and count > 1:
                 raise Failure('the simulator ended by itself after it was started again')
             if world is None:
-                say('the simulator ended by itself')
+                if session.ran:
+                    say('the simulator ended by itself')
                 return code or 1  # roslaunch ends with 0 where a node has failed
             say('the ROS master was lost: starting again with the world as it was')
             count += 1
