@@ -133,12 +133,25 @@ def test_an_early_ctrl_c_prints_no_traceback(environment, wait):
 
 @pytest.mark.parametrize('word, part', [
     ('wrold:=worlds/empty.world', 'did you mean world:=?'),
-    ('gui:=fasle', 'did you mean false?')])
+    ('gui:=fasle', 'did you mean false?'),
+    ('port:=eighty', 'not a port; give 1024 to 65535'),
+    ('port:=99999', 'not a port; give 1024 to 65535')])
 def test_a_wrong_argument_is_named_and_nothing_starts(environment, word, part):
     result = subprocess.run([ROOT / 'angen', 'run', word],
                             capture_output=True, text=True, env=environment, timeout=120)
     line, = result.stderr.splitlines()
     assert result.returncode == 2 and line.startswith(f'angen: {word}: ') and part in line
+
+
+def test_a_port_in_use_is_named_and_nothing_starts(environment):
+    with socket.socket() as taken:
+        taken.bind(('127.0.0.1', 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        result = subprocess.run([ROOT / 'angen', 'run', 'web:=true', f'port:={port}'],
+                                capture_output=True, text=True, env=environment, timeout=120)
+    line, = result.stderr.splitlines()
+    assert result.returncode == 1 and f'127.0.0.1:{port} cannot be served: Address already' in line
 
 
 @pytest.mark.parametrize('word, part', [('wrld:=x', 'did you mean world:=?'),

@@ -2,13 +2,11 @@
 from __future__ import annotations
 
 import io
-import socket
 
 import pytest
 import qrcode
 
-from angen_apps.web.command import require_free, show_address
-from angen_tools.common.failure import Failure
+from angen_apps.web.command import show_address
 
 URL = 'http://192.0.2.2:8080/?token=abc'
 QUIET = 4  # modules around a code that readers expect
@@ -37,15 +35,3 @@ def test_the_code_is_dark_on_light_in_terminals_of_any_theme(
     expected.add_data(URL)
     size = len(expected.get_matrix())
     assert dark[:size] == expected.get_matrix()
-
-
-def test_a_port_in_use_is_named_before_anything_waits() -> None:
-    with socket.socket() as taken:
-        taken.bind(('127.0.0.1', 0))
-        taken.listen()
-        port = taken.getsockname()[1]
-        with pytest.raises(Failure, match=f'127.0.0.1:{port} cannot be served: Address already'):
-            require_free('127.0.0.1', port)
-    require_free('127.0.0.1', port)
-    with pytest.raises(Failure, match='nope.invalid:8080 cannot be served: '):
-        require_free('nope.invalid', 8080)

@@ -7,15 +7,9 @@ from typing import Any
 
 from angen_tools.cli.arguments import checked
 from angen_tools.cli.parser import command
+from angen_tools.common.port import port
 
 PORT = 8080
-
-
-def port(text: str) -> int:
-    """A port that a user may open."""
-    if text.isascii() and text.isdigit() and 1024 <= int(text) <= 65535:
-        return int(text)
-    raise ValueError(f"'{text}' is not a port; give 1024 to 65535")
 
 
 def run_web(args: argparse.Namespace) -> int:

@@ -13,7 +13,7 @@ from typing import Any
 from angen_apps.web.guard import Guard, is_loopback, url_host
 from angen_apps.web.server import Server, Source, listen
 from angen_tools.common.catalog import kinds
-from angen_tools.common.failure import Failure
+from angen_tools.common.port import not_served, require_free
 
 KEYS = ('kind', 'doc', 'role', 'verbs', 'values', 'fields', 'models')  # that the page reads
 
@@ -67,22 +67,6 @@ async def _serve(source: Source, host: str, port: int) -> None:
             await work
         except OSError as error:
             raise not_served(host, port, error) from None
-
-
-def require_free(host: str, port: int) -> None:
-    """Failure where this machine cannot serve an address: before a wait for a master."""
-    try:
-        kind, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
-        with socket.socket(kind, socket.SOCK_STREAM) as probe:
-            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            probe.bind(address)
-    except OSError as error:
-        raise not_served(host, port, error) from None
-
-
-def not_served(host: str, port: int, error: OSError) -> Failure:
-    return Failure(f'{host}:{port} cannot be served: {error.strerror}; choose another with '
-                   '--port, or port:= of ./angen run')
 
 
 def serve(source: Source, host: str, port: int) -> None:

@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 
 from angen_tools.common.failure import Failure, WrongWords, code_of
 from angen_tools.common.nearest import nearest
+from angen_tools.common.port import port, require_free
 from angen_tools.common.verbs import comma_hint
 
 ALIKE = 0.8  # of the names of a missing file and the one that was meant
@@ -36,6 +37,15 @@ def kinds(launch: Path) -> dict[str, str]:
     return found
 
 
+def check_page(launch: Path, words: list[str]) -> None:
+    """Failure where the page that the words start cannot be served."""
+    given = {arg.get('name', ''): arg.get('default', '')
+             for arg in ElementTree.parse(launch).getroot().iter('arg')}
+    given |= {name: value for name, _, value in (word.partition(':=') for word in words)}
+    if given.get('web', '').lower() in ('true', '1'):
+        require_free(given['host'], int(given['port']))
+
+
 def check_arguments(launch: Path, words: list[str]) -> None:
     """Failure where a word is not an option of roslaunch, nor NAME:=VALUE with a name and a value
     that the launch file has."""
@@ -59,7 +69,7 @@ def _check(word: str, known: dict[str, str]) -> None:
                          + ' '.join(f'{other}:=' for other in known))
     if not value:
         raise WrongWords(f'{word}: has no value')
-    problem = CHECKS[known[name]](value)
+    problem = _port(value) if name == 'port' else CHECKS[known[name]](value)
     if problem:
         raise WrongWords(f'{word}: {problem}')
     if name in LEAST and float(value) < LEAST[name]:
@@ -82,6 +92,14 @@ def _boolean(value: str) -> str:
     if value.lower() in (*BOOLEANS, '0', '1'):
         return ''
     return f'neither true nor false; did you mean {nearest(value, BOOLEANS)[0]}?'
+
+
+def _port(value: str) -> str:
+    try:
+        port(value)
+    except ValueError:
+        return 'not a port; give 1024 to 65535'
+    return ''
 
 
 def _number(convert: Callable[[str], float], what: str) -> Callable[[str], str]:

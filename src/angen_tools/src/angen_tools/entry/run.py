@@ -17,7 +17,7 @@ from typing import Any, NoReturn, Sequence
 from angen_tools.common.clock import duration
 from angen_tools.common.failure import Failure, code_of
 from angen_tools.common.watchdog import watchdog
-from angen_tools.entry.arguments import check_arguments, kinds
+from angen_tools.entry.arguments import check_arguments, check_page, kinds
 from angen_tools.entry.machine import has_display, stay_local
 from angen_tools.entry.master import call, running_node, start_master
 from angen_tools.entry.rescue import Rescue
@@ -171,6 +171,7 @@ def run(launch: Path, words: list[str]) -> int:
     stay_local()
     uri = get_master_uri()
     require_no_other(uri)
+    check_page(launch, words)
     words = [resolved(word) for word in words]
     hidden = 'gui' not in kinds(launch) or {'gui:=false', 'headless:=true'} & set(words)
     hints = [help_text(launch.parent.parent / 'angen', words)]
