@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/allow_paths.h"
+#include "core/nearest.h"
 #include "core/plain_file.h"
 #include "core/plugin_path.h"
 #include "core/text.h"
@@ -99,6 +100,43 @@ std::optional<std::string> find_in_own_model(const Address& address, const std::
   return existing(folder / address.path.substr(slash + 1), session.sources);
 }
 
+bool is_like(const std::string& name, const std::string& other) {
+  constexpr std::size_t kWhole = 3, kTypingErrors = 2;
+  const std::size_t errors = edits(name, other);
+  return (errors <= kTypingErrors && 2 * errors < name.size()) ||
+         (name.size() >= kWhole && other.find(name) != std::string::npos);
+}
+
+// The addresses of models whose names are like that of a missing one.
+std::vector<std::string> models_like(const std::string& name, Session& session) {
+  constexpr int kMostEntries = 1000;
+  std::set<std::string> found;
+  for (const std::string& folder : session.paths.models) {
+    std::error_code failed;
+    fs::directory_iterator entry(folder, failed);
+    for (int k = 0; !failed && k < kMostEntries && entry != fs::directory_iterator(); ++k) {
+      const fs::path model = entry->path();
+      const std::string other = model.filename().string();
+      if (is_like(name, other) && (is_plain_file((model / "model.sdf").string()) ||
+                                   is_plain_file((model / "model.config").string()))) {
+        found.insert("model://" + other);
+      }
+      entry.increment(failed);
+    }
+  }
+  return {found.begin(), found.end()};
+}
+
+// For the end of an error about an address that is not found.
+std::string hint(const std::string& uri, const Address& address, const std::string& what,
+                 const Source& at, Session& session) {
+  if (address.scheme == "model" && what == "model") {
+    const std::vector<std::string> like = models_like(address.path, session);
+    if (!like.empty()) return did_you_mean(uri, like);
+  }
+  return "searched: " + searched_places(uri, at.file, session);
+}
+
 void check_allowed(const std::string& file, const std::string& what, const Source& at,
                    Session& session) {
   if (session.allowed.holds(file, at.file)) return;
@@ -185,8 +223,7 @@ std::string need_uri(const std::string& uri, const std::string& what, const Sour
     if (what == "model" || is_plain_file(*found)) return *found;
     throw Error(at, what + " '" + uri + "' is not a regular file (" + *found + "); name one");
   }
-  throw Error(at, what + " '" + uri +
-                      "' is not found; searched: " + searched_places(uri, at.file, session));
+  throw Error(at, what + " '" + uri + "' is not found; " + hint(uri, address, what, at, session));
 }
 
 void warn_or_throw_missing(const Element& element, const Error& error, Session& session) {

@@ -52,12 +52,7 @@ def spawn_model(source: str, name: str, pose: Sequence[float] | None) -> dict[st
     source = _in_order(source, name)
     client = Client()
     chosen = pose if pose is not None else free_place(_saved(client))
-    try:
-        call_spawn(client, name, source, '', chosen)
-    except Failure as error:
-        if not source.startswith('model://') or models.find(source):
-            raise
-        raise Failure(f'{error}; {did_you_mean(source, models.addresses())}') from None
+    call_spawn(client, name, source, '', chosen)
     where = '' if pose is not None else f' at {" ".join(f"{part:g}" for part in chosen[:3])}'
     return {'name': name, 'kind': 'model', 'source': source, 'pose': list(chosen),
             'text': f'spawned the model {name} from {source}{where}'}

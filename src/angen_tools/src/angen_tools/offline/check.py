@@ -10,13 +10,11 @@ from typing import Any, Collection
 from lxml import etree
 
 from angen_tools.common.catalog import angen_module
-from angen_tools.common.nearest import did_you_mean
 from angen_tools.world import models
 
 MISSPELLED = re.compile(r' is not known; did you mean <\w+>\?$'
                         r'|plug-in library .* is not found; did you mean \S+\?')
 NOT_INCLUDED = re.compile(r'(.*: )an <include> has no <(\w+)>')
-NOT_FOUND = re.compile(r"model '(model://[^']+)' is not found")
 OUR_OWN = re.compile(r': <angen:\w+> in <\w+>$')
 INCLUDE = ('uri', 'name', 'pose', 'static', 'plugin')
 SHOWN = 8  # names of a model's devices and sensors
@@ -41,13 +39,7 @@ def check(path: str) -> Checked:
             return _checked_world(angen.World(path), path)
         return _checked_model(angen, path)
     except angen.Error as error:
-        return Checked(wrong=[line + _meant(line) for line in str(error).splitlines()])
-
-
-def _meant(error: str) -> str:
-    """For the end of an error about a model:// address that is not found."""
-    found = NOT_FOUND.search(error)
-    return f'; {did_you_mean(found[1], models.addresses())}' if found else ''
+        return Checked(wrong=str(error).splitlines())
 
 
 def holds_world(path: str) -> bool:
