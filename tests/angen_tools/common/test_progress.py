@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import pytest
 
+from angen_tools.common import progress as module
 from angen_tools.common.progress import Progress, Steps
 
 
@@ -20,11 +21,15 @@ def test_a_line_for_each_tenth(capsys: pytest.CaptureFixture[str]) -> None:
                              'angen: work  35 %  now', 'angen: work 100 %  now']
 
 
-def test_no_line_where_none_is_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
+def test_otherwise_a_line_each_ten_seconds(capsys: pytest.CaptureFixture[str],
+                                           monkeypatch: pytest.MonkeyPatch) -> None:
+    now = 100.0
+    monkeypatch.setattr(module.time, 'monotonic', lambda: now)
     with Progress('work') as progress:
-        progress.update(0.5)
+        for now in (100.1, 109.0, 110.5, 120.0, 121.0):
+            progress.update(now / 1000)
         progress.note('a room')
-    assert lines(capsys) == ['angen: a room']
+    assert lines(capsys) == ['angen: work  11 %', 'angen: work  12 %', 'angen: a room']
 
 
 def test_a_line_for_each_step(capsys: pytest.CaptureFixture[str]) -> None:

@@ -6,16 +6,17 @@ import time
 from typing import Any
 
 REFRESH = 0.1  # s of wall time between two pictures of the bar
+SILENT = 10.0  # s of wall time between two lines
 
 
 class Progress:
     """A bar in a terminal. Elsewhere a line whenever `every` more of the whole is done, or with 0
-    at each update, or with None none. A context: its end removes the bar."""
+    at each update, or with None each 10 s. A context: its end removes the bar."""
 
     def __init__(self, what: str, every: float | None = None) -> None:
         self._what, self._every = what, every
         self._reported = -1
-        self._shown = 0.0
+        self._shown = time.monotonic()
         self._bar: Any = None  # of rich
         if sys.stderr.isatty():
             from rich.progress import BarColumn
@@ -39,8 +40,7 @@ class Progress:
         """`share` of the whole is done; `text`: the present step."""
         if self._bar is not None:
             self._bar.update(self._task, completed=share, text=text)
-            if time.monotonic() - self._shown > REFRESH:
-                self._shown = time.monotonic()
+            if self._is_time(REFRESH):
                 self._bar.refresh()
         elif self._is_due(share):
             print(f'angen: {self._what} {100 * share:3.0f} %  {text}'.rstrip(), file=sys.stderr,
@@ -48,13 +48,21 @@ class Progress:
 
     def _is_due(self, share: float) -> bool:
         if not self._every:
-            return self._every is not None
+            return self._every is not None or self._is_time(SILENT)
         reached = int(share / self._every + 1e-9)
         due, self._reported = reached > self._reported, max(reached, self._reported)
         return due
 
+    def _is_time(self, seconds: float) -> bool:
+        """Whether the last picture or line is that old."""
+        now = time.monotonic()
+        due = now - self._shown > seconds
+        self._shown = now if due else self._shown
+        return due
+
     def note(self, line: str) -> None:
         """Prints a line that stays, above the bar."""
+        self._shown = time.monotonic()
         if self._bar is not None:
             self._bar.console.print(f'angen: {line}')
         else:
