@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from angen_apps.go import command
 from angen_apps.go.command import goal_of, loaded, without
 from angen_apps.maps.gridmap import GridMap
 from angen_apps.robot.planner import Planner
@@ -52,6 +53,17 @@ def test_a_wrong_goal_is_named(words: list[str], part: str, planners: dict[int, 
     with pytest.raises(Failure) as caught:
         goal_of(words, HOME, planners)
     assert part in str(caught.value)
+
+
+def test_a_wrong_room_is_named_before_the_building_is_surveyed(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    class Client:
+        def home(self) -> Home:
+            return HOME
+
+    monkeypatch.setattr(command, 'Client', Client)  # without entities, saved world, …
+    with pytest.raises(Failure, match="'hal0' is neither a room .* did you mean hall0"):
+        command.go(['hal0'], '', False)
 
 
 def test_it_waits_before_the_doors_of_the_elevator_on_its_own_floor() -> None:

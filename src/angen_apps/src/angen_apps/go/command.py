@@ -23,7 +23,7 @@ from angen_apps.robot.route_file import NUMBERS, Route, Waypoint
 from angen_tools.common.catalog import kinds
 from angen_tools.common.failure import Failure, WrongWords
 from angen_tools.common.files import write_text
-from angen_tools.common.home import Home
+from angen_tools.common.home import Home, Room
 from angen_tools.common.nearest import did_you_mean
 from angen_tools.common.output import as_json
 from angen_tools.common.progress import Progress
@@ -57,6 +57,7 @@ class Arrived:
 def go(words: Sequence[str], robot: str, json: bool) -> int:
     """Drives to a room, or to X Y [FLOOR]; 0 once it is there. Failure says why it is not."""
     client = Client()
+    named(words, client.home())  # before the survey, which takes seconds
     robots = [entity.name for entity in client.entities('drive')]
     if not robots:
         raise Failure('the world has no robot; angen spawn model turtlebot turtlebot adds one')
@@ -134,16 +135,27 @@ def without(xml: str, models: Collection[str]) -> str:
 def goal_of(words: Sequence[str], home: Home, planners: Mapping[int, Planner]) -> Waypoint:
     """The goal that the words of the command name: of a room the free place nearest to its
     middle."""
+    found = named(words, home)
+    if isinstance(found, Room):
+        planner = planners.get(found.storey)
+        at = planner.nearest(found.center, REACH) if planner else None
+        if at is None or not found.contains(*at):
+            raise Failure(f'the robot finds no room to stand in {found.name}')
+        return Waypoint(found.name, found.storey, at, 0)
+    floor = found[2] if len(found) == 3 else 0.0
+    if floor not in planners:
+        raise Failure(f'there is no floor {floor:g}; known are {", ".join(map(str, planners))}')
+    return Waypoint(f'{found[0]:g} {found[1]:g}', int(floor), (found[0], found[1]), 0)
+
+
+def named(words: Sequence[str], home: Home) -> Room | list[float]:
+    """The room that the words name, or the two or three numbers that they are."""
     name = ' '.join(words)
     if len(words) > 3:
         raise WrongWords(f"'{name}' has {len(words)} words; give ROOM or X Y [FLOOR]")
     room = next((room for room in home.rooms if room.name == name), None)
     if room is not None:
-        planner = planners.get(room.storey)
-        at = planner.nearest(room.center, REACH) if planner else None
-        if at is None or not room.contains(*at):
-            raise Failure(f'the robot finds no room to stand in {name}')
-        return Waypoint(name, room.storey, at, 0)
+        return room
     try:
         numbers = [float(word) for word in words]
     except ValueError:
@@ -152,10 +164,7 @@ def goal_of(words: Sequence[str], home: Home, planners: Mapping[int, Planner]) -
         raise Failure(f"'{name}' is neither a room nor X Y [FLOOR]; "
                       + did_you_mean(name, [room.name for room in home.rooms], 'angen home')
                       + comma_hint(name))
-    floor = numbers[2] if len(numbers) == 3 else 0.0
-    if floor not in planners:
-        raise Failure(f'there is no floor {floor:g}; known are {", ".join(map(str, planners))}')
-    return Waypoint(f'{numbers[0]:g} {numbers[1]:g}', int(floor), (numbers[0], numbers[1]), 0)
+    return numbers
 
 
 def drive(client: Client, route: Route, goal: Goal, place: Surveyed, start: Start) -> Arrived:
