@@ -6,7 +6,7 @@ from typing import Any
 
 from angen_msgs.msg import DoorState
 
-from angen_apps.patrol.drive import RosRobot
+from angen_apps.patrol.drive import Patrol, RosRobot
 from angen_apps.robot.interface import Event
 from angen_apps.robot.planner import Door
 
@@ -53,3 +53,14 @@ def test_the_state_after_an_event_at_the_end_of_a_cycle_is_read_in_the_next() ->
     assert robot.door('hall0').mode == 'CLOSING'
     robot.cycle(0.0, 0.0)
     assert robot.door('hall0').mode == 'CLOSED'
+
+
+def test_the_words_on_the_way_name_what_the_table_counts() -> None:
+    patrol: Any = SimpleNamespace(
+        _noted_events=0, _scene=SimpleNamespace(
+            rooms=dict.fromkeys(('eye', 'beam', 'lux'), 'hall0')),
+        _robot=SimpleNamespace(events=[
+            Event(time, source, kind, event, '') for time, source, kind, event in (
+                (1.0, 'eye', 'pir', 'motion'), (2.0, 'eye', 'pir', 'clear'),
+                (3.0, 'beam', 'switch', 'closed'), (4.0, 'lux', 'luminosity', 'changed'))]))
+    assert Patrol._detections(patrol, 'hall0 east').endswith(': eye, beam')

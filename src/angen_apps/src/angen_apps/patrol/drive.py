@@ -5,6 +5,7 @@ import random
 from typing import Any, Callable
 
 from angen_apps.patrol.lockstep import Lockstep
+from angen_apps.patrol.report import BEGINS
 from angen_apps.patrol.scene import Scene
 from angen_apps.robot.driver import Driver, Track
 from angen_apps.robot.interface import CYCLE, DoorState, Event, LiftState
@@ -16,7 +17,7 @@ from angen_tools.common.geometry import yaw_of
 
 PAUSE = 5  # cycles, at most, between two actions
 LAST = 10  # cycles at the end
-DETECTIONS = (('pir', 'motion'), ('switch', 'opened'))  # kinds and events
+NOTED = ('pir', 'switch')  # kinds of sensors whose detections are printed on the way
 DONE = ('opened', 'closed', 'idle', 'doors opened')  # events at which doors and elevators stop
 
 
@@ -155,6 +156,6 @@ class Patrol:
         events = self._robot.events[self._noted_events:]
         self._noted_events += len(events)
         names = dict.fromkeys(event.source for event in events
-                              if (event.kind, event.event) in DETECTIONS
+                              if event.kind in NOTED and event.event in BEGINS[event.kind]
                               and self._scene.rooms.get(event.source) == waypoint.split()[0])
         return f'; reacted to the robot or a door: {", ".join(names)}' if names else ''
