@@ -21,7 +21,7 @@ REFRESH = 0.25  # s of wall time between two pictures
 MARGIN = 0.5    # simulated s over its period in which a sensor's first reading comes
 LIMIT = 120.0   # s of wall time after which a slow simulation is not waited for
 WIDEST = 120     # characters of a value that a table shows
-HEAD = ('KIND', 'NAME', 'VALUE', 'TIME')
+HEAD = ('KIND', 'NAME', 'VALUE', 'TIME, s')
 
 
 def watch_once(rule: Filter, json: bool = False) -> tuple[RenderableType, str]:
@@ -100,7 +100,7 @@ def watch(rule: Filter) -> None:
     with LiveTable() as screen, suppress(KeyboardInterrupt):
         while not screen.closed():
             rows = board.chosen(rule)
-            screen.draw(title(board, rows), HEAD, list(map(_cells, rows)), right=('TIME',))
+            screen.draw(title(board, rows), HEAD, list(map(_cells, rows)), right=HEAD[3:])
             _receive(board)
 
 
