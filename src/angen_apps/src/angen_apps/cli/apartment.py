@@ -8,12 +8,14 @@ from typing import Any
 from angen_apps.cli.imports import SENSORS
 from angen_tools.cli.arguments import between, checked
 from angen_tools.cli.parser import add_json, add_seed, command
+from angen_tools.common.files import check_output
 from angen_tools.common.output import show_done
 
 
 def run_home(args: argparse.Namespace) -> int:
     from angen_apps.plan.tower import building
     from angen_apps.plan.writer import write_world, written
+    check_output(args.output)
     counts = write_world(building(args.rooms, args.storeys, args.apartments, args.seed),
                          args.output, args.sensors)
     show_done(written(args.output, counts), args.json)

@@ -7,6 +7,7 @@ from typing import Any
 
 from angen_tools.cli.arguments import checked
 from angen_tools.cli.parser import add_json, command
+from angen_tools.common.files import check_output
 from angen_tools.common.output import show_done
 from angen_tools.common.verbs import comma_hint
 
@@ -27,6 +28,7 @@ def pixel(text: str) -> float:
 
 def run_import(args: argparse.Namespace) -> int:
     from angen_apps.imports.command import import_home
+    check_output(args.output)
     show_done(import_home(args.file, args.output, args), args.json)
     return 0
 

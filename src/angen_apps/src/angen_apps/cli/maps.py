@@ -7,11 +7,14 @@ from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked
 from angen_tools.cli.parser import add_allow_paths, add_json, command
+from angen_tools.common.files import check_output
 from angen_tools.common.output import show_done
 
 
 def run_map(args: argparse.Namespace) -> int:
     from angen_apps.maps.files import save_map
+    for ending in ('.pgm', '.yaml'):
+        check_output(args.output.with_name(args.output.name + ending))
     show_done(save_map(args.world, args.floor, args.doors, args.output), args.json)
     return 0
 

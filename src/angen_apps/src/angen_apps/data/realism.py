@@ -69,6 +69,8 @@ def read(path: Path) -> Stream:
         label = (found[5] or '').split()
         if len(label) == 2:
             labels.append((times[-1], label[0], label[1]))
+    if not times:
+        raise Failure(f'{path}: has no events')
     return Stream(np.array(times), sensors, values, sensors, labels)
 
 

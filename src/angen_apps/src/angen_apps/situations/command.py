@@ -9,6 +9,7 @@ import yaml
 from angen_apps.situations import figure, report
 from angen_apps.situations.stage import AIR, ROOM, Outcome, Row, play
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import check_output
 from angen_tools.common.output import as_json, show
 from angen_tools.common.progress import Progress
 
@@ -48,6 +49,10 @@ def run(only: str = '', json: bool = False, page: Path | None = None, plan: Path
     """Plays the rows and prints the table, or writes it into a page, and draws a plan of each.
     True: each came out as it was expected."""
     chosen = rows(only)
+    if page is not None:
+        report.check_page(page)
+    if plan is not None:
+        check_output(plan, '.png')
     results: list[list[Outcome]] = []
     with Progress('situations') as progress:
         for row in chosen:

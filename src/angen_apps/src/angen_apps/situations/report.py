@@ -56,11 +56,20 @@ def counts(results: Results) -> str:
     return '; '.join(told)
 
 
-def write_into(page: Path, results: Results, sources: Mapping[str, str]) -> None:
-    """Puts the table between the marks of a page."""
-    text = page.read_text(encoding='utf-8')
+def check_page(page: Path) -> str:
+    """The text of a page; Failure where it cannot be read, or has no place for the table."""
+    try:
+        text = page.read_text(encoding='utf-8')
+    except (OSError, UnicodeDecodeError) as error:
+        raise Failure(f'{page}: cannot be read: {getattr(error, "strerror", error)}') from None
     if not MARKED.search(text):
         raise Failure(f'{page}: has no <!-- situations --> and <!-- end --> to write between')
+    return text
+
+
+def write_into(page: Path, results: Results, sources: Mapping[str, str]) -> None:
+    """Puts the table between the marks of a page."""
+    text = check_page(page)
     made = as_markdown(results, sources)
     with files.writing(page) as file:
         file.write(MARKED.sub(lambda match: match.group(1) + made + match.group(2), text))

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from pathlib import Path
 from typing import Any, Callable
 
 from angen_tools.common import clock
@@ -109,6 +110,12 @@ def pose(text: str) -> Any:
     for word in text.replace(',', ' ').split()[3:]:
         warn_of_turns(word)
     return numbers
+
+
+def path(text: str) -> Path:
+    if not text:
+        raise ValueError("'' is not a path; give a file or a folder")
+    return Path(text)
 
 
 def new_name(text: str) -> str:

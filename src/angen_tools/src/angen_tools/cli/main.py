@@ -14,6 +14,7 @@ from angen_tools.common.failure import Failure, code_of
 from angen_tools.common.typography import straightened
 
 STOPPED = 130  # a shell's exit code of a command that Ctrl-C ended
+OPTIONS = ('-h', '--help', '--version', '--json')  # before a command; the last is said to follow it
 PIPE_CLOSED = 141  # and of one whose reader ended
 
 
@@ -63,6 +64,10 @@ def run(arguments: Sequence[str]) -> int:
     for word in arguments:
         if _has_other_bytes(word):
             parser.error(f'{ascii(word)} is not text in UTF-8')
+    first = arguments[0] if arguments else ''
+    if first.startswith('-') and not any(option.startswith(first) for option in OPTIONS):
+        parser.error(f"'{first}' is not an option of angen, which has --help and --version; those "
+                     'of a command follow it')
     if arguments and arguments[0] == 'help':
         arguments = [*arguments[1:], '--help']
     if arguments and arguments[0] == 'run' and any(':=' in word for word in arguments):

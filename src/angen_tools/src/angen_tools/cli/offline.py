@@ -10,7 +10,7 @@ from typing import Any
 from angen_tools.cli.arguments import at_least, checked, duration, moment
 from angen_tools.cli.complete import completed_by, kind_names
 from angen_tools.cli.parser import add_allow_paths, add_json, add_out, add_seed, command
-from angen_tools.common.files import check_folder
+from angen_tools.common.files import check_folder, check_output
 from angen_tools.common.output import as_json, show, show_done
 
 KINDS = ('pir', 'switch', 'luminosity', 'contact')
@@ -60,6 +60,7 @@ def run_luxcheck(args: argparse.Namespace) -> int:
 
 def run_world(args: argparse.Namespace) -> int:
     from angen_tools.world.apartment import write_apartment
+    check_output(args.output)
     sensors = write_apartment(
         args.output, args.floors, {kind: getattr(args, kind) for kind in KINDS}, args.seed,
         args.elevator, args.mover, args.one_link)

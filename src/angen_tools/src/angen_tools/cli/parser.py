@@ -7,7 +7,7 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, Callable, NoReturn
 
-from angen_tools.cli.arguments import at_least, checked
+from angen_tools.cli.arguments import at_least, checked, path
 from angen_tools.common.catalog import kinds
 from angen_tools.common.nearest import asked, did_you_mean, nearest
 
@@ -22,6 +22,7 @@ MEANT = {'light': 'lamp', 'bulb': 'lamp', 'lift': 'elevator', 'oven': 'stove', '
 ENTRY = ('demo', 'shell', 'build', 'test', 'fuzz', 'coverage', 'tidy', 'docs')
 ALIKE = 0.75  # of an option and the one that was meant
 SEED = 2**53 - 1  # the largest: JSON has no larger whole numbers
+EXPLICIT = re.compile("ignored explicit argument '.*'")  # of --json=yes
 NEGATIVE = re.compile(r'-\.?\d.*')  # -1.57 and -90deg are values, no options
 
 
@@ -33,6 +34,7 @@ class Parser(argparse.ArgumentParser):
     def __init__(self, *args: Any, **options: Any) -> None:
         super().__init__(*args, **options)
         self._negative_number_matcher = NEGATIVE
+        self.register('type', Path, checked(path))
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Reports words that are too many with the subcommand that they follow."""
@@ -85,6 +87,7 @@ class Parser(argparse.ArgumentParser):
         return asked(outer or near)
 
     def error(self, message: str) -> NoReturn:
+        message = EXPLICIT.sub('takes no value', message)
         self.exit(2, f'{self.prog}: {message}; see {self.prog} --help\n')
 
 

@@ -128,7 +128,7 @@ def make_folder(path: Path) -> None:
         raise Failure(f'{path}: cannot be made: {error.strerror}') from None
 
 
-def check_folder(path: Path) -> None:
+def check_folder(path: Path, better: str = 'a folder of yours, as --out DIR') -> None:
     """Failure where files cannot be written into a folder, which may be missing: before work whose
     result would be lost."""
     nearest = next(folder for folder in (path.absolute(), *path.absolute().parents)
@@ -136,7 +136,17 @@ def check_folder(path: Path) -> None:
     if not nearest.is_dir():
         raise Failure(f'{nearest}: is not a folder')
     if not os.access(nearest, os.W_OK | os.X_OK):
-        raise Failure(f'{nearest}: cannot be written; give a folder of yours, as --out DIR')
+        raise Failure(f'{nearest}: cannot be written; give {better}')
+
+
+def check_output(path: Path, ending: str = '') -> None:
+    """Failure where a file cannot be written, or its name has another ending: before work whose
+    result would be lost."""
+    if not path.name.lower().endswith(ending):
+        raise Failure(f'{path}: must end in {ending}')
+    if path.is_dir():
+        raise Failure(f'{path}: is a folder; give a file')
+    check_folder(path.absolute().parent, 'a file in a folder of yours')
 
 
 def write_text(path: Path, text: str) -> None:

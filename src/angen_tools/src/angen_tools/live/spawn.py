@@ -26,6 +26,8 @@ SITTER_WIDTH = 0.3  # m: nearer than this two do not sit
 def model_source(what: str) -> str:
     """A model:// address as it is, of a name alone where a model has it, a path made absolute;
     Failure where there cannot be a model."""
+    if not what:
+        raise Failure("'': is not a model; give a path or model://NAME")
     if '://' in what:
         if not what.startswith('model://') or what == 'model://':
             raise Failure(f"'{what}' is not a model; give a path or model://NAME")

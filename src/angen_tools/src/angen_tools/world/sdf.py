@@ -57,7 +57,8 @@ def read(path: Path) -> etree._Element:
     except OSError:
         raise Failure(f'{path}: cannot be read') from None
     except etree.XMLSyntaxError as error:
-        raise Failure(f'{path}:{error.lineno}: {error.msg}') from None
+        what = str(error.msg).partition(', line ')[0]
+        raise Failure(f'{path}:{error.lineno}: {what}') from None
 
 
 def text(element: etree._Element) -> str:
