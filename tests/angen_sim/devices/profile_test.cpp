@@ -8,7 +8,7 @@
 namespace angen::devices {
 namespace {
 
-constexpr double kDt = 0.001;
+constexpr double kProfileStep = 0.001;
 
 struct Trip {
   double seconds = 0.0;
@@ -20,9 +20,9 @@ struct Trip {
 
 Trip run(Profile& profile, double target, double seconds) {
   Trip result;
-  for (int i = 0; i * kDt < seconds && !result.arrived; ++i) {
-    profile.advance(target, kDt);
-    result.seconds += kDt;
+  for (int i = 0; i * kProfileStep < seconds && !result.arrived; ++i) {
+    profile.advance(target, kProfileStep);
+    result.seconds += kProfileStep;
     result.fastest = std::max(result.fastest, std::abs(profile.velocity()));
     result.hardest = std::max(result.hardest, std::abs(profile.acceleration()));
     result.furthest = std::max(result.furthest, profile.position());
@@ -73,7 +73,7 @@ TEST(Profile, ArrivesExactlyWithCoarseSteps) {
 TEST(Profile, TurnsRoundWithinItsAcceleration) {
   Profile profile(1.0, 2.0);
   profile.start(0.0);
-  for (int i = 0; i < 1000; ++i) profile.advance(10.0, kDt);
+  for (int i = 0; i < 1000; ++i) profile.advance(10.0, kProfileStep);
   ASSERT_NEAR(profile.velocity(), 1.0, 1e-6);
   const double turn = profile.position();
   const Trip result = run(profile, 0.0, 10.0);

@@ -8,7 +8,7 @@
 namespace angen::devices {
 namespace {
 
-constexpr double kDt = 0.001;
+constexpr double kServoStep = 0.001;
 
 /// A leaf on a hinge: inertia, viscous damping, dry friction; something may hold it.
 struct Plant {
@@ -24,11 +24,11 @@ struct Plant {
       velocity = 0.0;
       return;
     }
-    const double driven =
-        velocity + torque / (inertia + damping * kDt) * kDt - damping * velocity / inertia * kDt;
-    const double rubbed = friction / inertia * kDt;
+    const double driven = velocity + torque / (inertia + damping * kServoStep) * kServoStep -
+                          damping * velocity / inertia * kServoStep;
+    const double rubbed = friction / inertia * kServoStep;
     velocity = std::abs(driven) < rubbed ? 0.0 : driven - std::copysign(rubbed, driven);
-    position += velocity * kDt;
+    position += velocity * kServoStep;
   }
 };
 
@@ -55,7 +55,7 @@ struct Loop {
   bool was_blocked = false;
 
   void tick(double target) {
-    torque = servo.update(target, plant.position, plant.velocity, kDt);
+    torque = servo.update(target, plant.position, plant.velocity, kServoStep);
     plant.step(torque);
     deepest = std::min(deepest, plant.position);
     was_blocked = was_blocked || servo.blocked();
@@ -63,7 +63,7 @@ struct Loop {
   /// Seconds until it has arrived, or `seconds`.
   double run(double target, double seconds) {
     double t = 0.0;
-    for (; t < seconds && !servo.arrived(); t += kDt) tick(target);
+    for (; t < seconds && !servo.arrived(); t += kServoStep) tick(target);
     return t;
   }
 };
@@ -128,7 +128,7 @@ TEST(Servo, PlainProportionalOneSwingsAsACosine) {
   double worst = 0.0;
   for (int i = 1; i <= 10000; ++i) {
     loop.tick(-0.7);
-    const double exact = -0.7 * (1.0 - std::cos(std::sqrt(70.0 / 5.4) * i * kDt));
+    const double exact = -0.7 * (1.0 - std::cos(std::sqrt(70.0 / 5.4) * i * kServoStep));
     worst = std::max(worst, std::abs(loop.plant.position - exact));
   }
   EXPECT_LT(worst, 0.005);
@@ -145,7 +145,7 @@ TEST(Servo, PlainOnesIntegralBeginsAnewWithEachTarget) {
   for (int i = 0; i < 1000; ++i) loop.tick(-0.1);
   EXPECT_NEAR(loop.torque, -7.0 - 20.0, 1e-9);
   loop.tick(0.2);
-  EXPECT_NEAR(loop.torque, 14.0 + 200.0 * 0.2 * kDt, 1e-9);
+  EXPECT_NEAR(loop.torque, 14.0 + 200.0 * 0.2 * kServoStep, 1e-9);
 }
 
 TEST(Servo, WhatBouncesOffAnObstacleIsBlocked) {
@@ -182,7 +182,7 @@ TEST(Servo, IsNotFlungWhenFreed) {
   for (int i = 0; i < 60000; ++i) loop.tick(-1.57);
   loop.plant.held = false;
   double fastest = 0.0;
-  for (double t = 0.0; t < 6.0 && !loop.servo.arrived(); t += kDt) {
+  for (double t = 0.0; t < 6.0 && !loop.servo.arrived(); t += kServoStep) {
     loop.tick(-1.57);
     fastest = std::max(fastest, std::abs(loop.plant.velocity));
   }

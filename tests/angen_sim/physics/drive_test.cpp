@@ -5,8 +5,6 @@
 namespace angen::physics::testing {
 namespace {
 
-constexpr double kStep = 1e-3;
-
 TEST(Drive, PersonWalksAtItsSpeedAndPushesAWallWithAtMostItsForce) {
   TestWorld world;
   world.add(floor_model());

@@ -8,7 +8,6 @@ namespace angen::physics::testing {
 namespace {
 
 constexpr double kG = 9.81;
-constexpr double kStep = 1e-3;
 constexpr int kDirections = 16;
 
 double azimuth(int i) { return 2.0 * M_PI * i / kDirections; }

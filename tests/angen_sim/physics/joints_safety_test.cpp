@@ -11,8 +11,6 @@ namespace {
 
 using Type = desc::Joint::Type;
 
-constexpr double kStep = 1e-3;
-
 /// A mass of 2 kg that slides along x, with a <safety_controller>.
 desc::Model guarded_slider(const desc::JointSafety& safety) {
   desc::Model model = model_of("slider", {ghost_link("mass", 2.0, {0.1, 0.1, 0.1})});

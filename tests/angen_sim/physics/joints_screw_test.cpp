@@ -10,8 +10,6 @@ namespace {
 
 using Type = desc::Joint::Type;
 
-constexpr double kStep = 1e-3;
-
 /// A nut of 2 kg, with its middle at `middle`, on a thread along `axis` through `anchor`.
 desc::Model nut(double lead, const std::string& parent = "world", const Vec3& axis = Vec3::UnitZ(),
                 const Vec3& middle = Vec3::Zero(), const Vec3& anchor = Vec3::Zero()) {

@@ -11,8 +11,6 @@ namespace {
 
 using Type = desc::Joint::Type;
 
-constexpr double kStep = 1e-3;
-
 /// A wheel of 1/150 kg m^2 on a spring of `hertz`, 0.5 rad from where the spring is slack.
 desc::Model sprung_wheel(double hertz, double damping_ratio, double reference = 0.0) {
   desc::Model model = model_of("wheel", {ghost_link("w", 1.0, {0.2, 0.2, 0.2})});

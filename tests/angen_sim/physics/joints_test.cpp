@@ -11,8 +11,6 @@ namespace {
 
 using Type = desc::Joint::Type;
 
-constexpr double kStep = 1e-3;
-
 /// A point-like mass on an arm of length l below a hinge about y at the origin.
 desc::Model pendulum(double length, double initial) {
   desc::Link bob = ghost_link("bob", 1.0, {1e-3, 1e-3, 1e-3}, {{0, 0, -length}, Quat::Identity()});

@@ -33,7 +33,7 @@ Shape mesh_cylinder(double radius, double length, std::uint32_t sides) {
   return shape;
 }
 
-desc::Model plane_model(const Quat& turned) {
+desc::Model turned_plane(const Quat& turned) {
   Shape shape;
   shape.type = Shape::Type::kPlane;
   desc::Link link = box_link("link", 1.0, {1, 1, 1});
@@ -54,7 +54,7 @@ TEST(MeshPlane, TheDeepestAndTheOutermostCornersAreFound) {
   for (const double tilt : {0.0, 0.3, -1.0}) {
     const Quat turned = from_rpy(tilt, 0.0, 0.0);
     TestWorld world({}, Vec3::Zero());
-    world.add(plane_model(turned));
+    world.add(turned_plane(turned));
     world.add(drum({Vec3::Zero(), turned * from_rpy(M_PI / 2.0, 0.0, 0.0)}));
     world.run(1e-3);
     const std::vector<ContactPair> pairs = world.contacts();
@@ -76,7 +76,7 @@ TEST(MeshPlane, TheDeepestAndTheOutermostCornersAreFound) {
 TEST(MeshPlane, AWheelRollsDownAsACylinderDoes) {
   const double slope = 0.1;
   TestWorld world;
-  world.add(plane_model(from_rpy(slope, 0.0, 0.0)));
+  world.add(turned_plane(from_rpy(slope, 0.0, 0.0)));
   const Quat lying = from_rpy(slope, 0.0, 0.0) * from_rpy(0.0, M_PI / 2.0, 0.0);
   const LinkId link =
       world.only_link(world.add(drum({from_rpy(slope, 0, 0) * Vec3(0, 0, 0.1), lying})));

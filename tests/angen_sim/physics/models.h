@@ -11,6 +11,7 @@
 namespace angen::physics::testing {
 
 inline const Vec3 kGravity(0.0, 0.0, -9.81);
+constexpr double kStep = 1e-3;  // s
 
 inline Shape box_shape(const Vec3& size) {
   Shape shape;

@@ -16,7 +16,6 @@
 namespace angen::physics::testing {
 namespace {
 
-constexpr double kStep = 0.001;  // s
 constexpr int kTicks = 500;
 constexpr int kSpawns = 130;  // of each model ten
 const std::string kWorlds = ANGEN_WORLDS_DIR;

@@ -10,8 +10,6 @@
 namespace angen::physics::testing {
 namespace {
 
-constexpr double kStep = 0.001;  // s
-
 desc::Collision part(const std::string& name, const Vec3& size, const Vec3& at) {
   desc::Collision c = collision(box_shape(size), 0.6, {at, Quat::Identity()});
   c.name = name;

@@ -8,8 +8,6 @@
 namespace angen::physics::testing {
 namespace {
 
-constexpr double kStep = 1e-3;
-
 class Rearrange : public ::testing::Test {
  protected:
   void run(int steps) {

@@ -5,8 +5,6 @@
 namespace angen::physics::testing {
 namespace {
 
-constexpr double kStep = 1e-3;
-
 TEST(Step, FallAsTheSemiImplicitEulerSumSays) {
   TestWorld world;
   const LinkId link = world.only_link(world.add(box_model("box", 2.0, {0.1, 0.2, 0.3}, {0, 0, 9})));

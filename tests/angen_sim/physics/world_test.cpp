@@ -12,8 +12,6 @@
 namespace angen::physics::testing {
 namespace {
 
-constexpr double kStep = 1e-3;
-
 template <class T>
 void hash_value(std::uint64_t& hash, const T& value) {
   hash = hash_bytes({reinterpret_cast<const char*>(&value), sizeof value}, hash);

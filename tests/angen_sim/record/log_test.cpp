@@ -13,7 +13,7 @@
 namespace angen::record {
 namespace {
 
-std::string wrong_with(const std::string& path) {
+std::string wrong_in_log(const std::string& path) {
   try {
     read_log(path);
   } catch (const Error& error) {
@@ -43,24 +43,25 @@ TEST(Log, SaysWhereItIsDamaged) {
   std::string changed = whole;
   changed[at + 1] = 'I';
   write_all(bad, changed);
-  EXPECT_EQ(wrong_with(bad), bad + ":2: is damaged, the line that begins at byte " +
-                                 std::to_string(second) +
-                                 " of the file: its checksum is not that of this line and those "
-                                 "before it");
+  EXPECT_EQ(wrong_in_log(bad), bad + ":2: is damaged, the line that begins at byte " +
+                                   std::to_string(second) +
+                                   " of the file: its checksum is not that of this line and those "
+                                   "before it");
   changed = whole;
   changed[at - 1] = '\0';
   write_all(bad, changed);
-  EXPECT_EQ(wrong_with(bad).find(bad + ":2: is damaged at byte " + std::to_string(at - 1)), 0U)
-      << wrong_with(bad);
+  EXPECT_EQ(wrong_in_log(bad).find(bad + ":2: is damaged at byte " + std::to_string(at - 1)), 0U)
+      << wrong_in_log(bad);
   write_all(bad, whole.substr(0, second) + whole.substr(third));
-  EXPECT_EQ(wrong_with(bad).find(bad + ":2: is damaged"), 0U) << "a line is missing";
+  EXPECT_EQ(wrong_in_log(bad).find(bad + ":2: is damaged"), 0U) << "a line is missing";
   write_all(bad, "<sdf/>\n");
-  EXPECT_EQ(wrong_with(bad), bad + ":1: is not a log of angen; it must begin with {\"angen_log\"");
+  EXPECT_EQ(wrong_in_log(bad),
+            bad + ":1: is not a log of angen; it must begin with {\"angen_log\"");
   write_all(bad, whole.substr(0, 200));
-  EXPECT_EQ(wrong_with(bad), bad + ":1: ends within its first line; nothing can be replayed");
+  EXPECT_EQ(wrong_in_log(bad), bad + ":1: ends within its first line; nothing can be replayed");
   write_all(bad, "");
-  EXPECT_NE(wrong_with(bad).find("is empty"), std::string::npos);
-  EXPECT_NE(wrong_with(bad + "x").find("cannot be read"), std::string::npos);
+  EXPECT_NE(wrong_in_log(bad).find("is empty"), std::string::npos);
+  EXPECT_NE(wrong_in_log(bad + "x").find("cannot be read"), std::string::npos);
 }
 
 // Any byte that is changed or lost is found, and named by its line.
@@ -80,7 +81,7 @@ TEST(Log, EveryDamageIsFound) {
       changed[at] = static_cast<char>(changed[at] ^ static_cast<char>(1 + rng.next() % 255));
     }
     write_all(bad, changed);
-    const std::string wrong = wrong_with(bad);
+    const std::string wrong = wrong_in_log(bad);
     if (!wrong.empty()) {
       EXPECT_EQ(wrong.find(bad + ":"), 0U) << wrong;
     } else {
@@ -96,7 +97,7 @@ TEST(Log, OfAnotherVersionIsRefused) {
   const std::string version = "\"version\":\"" + this_version();
   text.replace(text.find(version), version.size(), "\"version\":\"0.0.7");
   write_all(folder.log(), text);
-  EXPECT_EQ(wrong_with(folder.log()),
+  EXPECT_EQ(wrong_in_log(folder.log()),
             folder.log() + ":1: was recorded by angen 0.0.7 (format 1), this is angen " +
                 this_version() + " (format 1); replay it with the version that recorded it");
 }
@@ -177,13 +178,13 @@ TEST(Log, WhatIsMissingOrOfAnotherTypeIsAnError) {
     const std::string quoted = "\"" + std::string(key) + "\":";
     ASSERT_NE(whole.find(quoted), std::string::npos) << key;
     write_all(bad, forged(whole, quoted, "\"x\":"));
-    EXPECT_NE(wrong_with(bad).find("'" + std::string(key) + "' is missing, or not "),
+    EXPECT_NE(wrong_in_log(bad).find("'" + std::string(key) + "' is missing, or not "),
               std::string::npos)
-        << wrong_with(bad);
+        << wrong_in_log(bad);
     write_all(bad, forged(whole, quoted, quoted + "{},\"x\":"));
-    EXPECT_NE(wrong_with(bad).find("'" + std::string(key) + "' is missing, or not "),
+    EXPECT_NE(wrong_in_log(bad).find("'" + std::string(key) + "' is missing, or not "),
               std::string::npos)
-        << wrong_with(bad);
+        << wrong_in_log(bad);
   }
   for (const auto& [from, to, why] : std::vector<std::array<std::string, 3>>{
            {"\"tick\":0", "\"tick\":18446744073709551615", "'tick' exceeds the largest time"},
@@ -192,7 +193,7 @@ TEST(Log, WhatIsMissingOrOfAnotherTypeIsAnError) {
            {"\"step\":1000000", "\"step\":0", "'step' is not 1 ns to 1 s"},
            {"\"pose\":[", "\"pose\":[1,", "'pose' has not 7 numbers"}}) {
     write_all(bad, forged(whole, from, to));
-    EXPECT_NE(wrong_with(bad).find(why), std::string::npos) << wrong_with(bad);
+    EXPECT_NE(wrong_in_log(bad).find(why), std::string::npos) << wrong_in_log(bad);
   }
 }
 

@@ -7,10 +7,6 @@ namespace {
 
 const std::string kPlugin = plugin("joint_pose_trajectory", "<topicName>t</topicName>");
 
-double angle(const Hall& hall, const std::string& link) {
-  return to_rpy(hall.pose("bot::" + link).rotation).y();
-}
-
 TEST(JointPoseTrajectory, LeadsJointsThroughItsPointsAndHoldsTheLast) {
   Hall hall(arms(kPlugin, "<limit><lower>-1.5</lower><upper>1.5</upper></limit>"));
   hall.command("joint_trajectory",

@@ -11,10 +11,6 @@ std::string mimic(const std::string& more) {
          more + "</plugin>";
 }
 
-double angle(const Hall& hall, const std::string& link) {
-  return to_rpy(hall.pose("bot::" + link).rotation).y();
-}
-
 TEST(MimicJoint, IsWhereItsMultiplierAndOffsetSay) {
   const std::string damped = "<dynamics><damping>0.5</damping></dynamics>";
   Hall hall(arms(mimic("<multiplier>-0.5</multiplier><offset>0.2</offset>"), damped));

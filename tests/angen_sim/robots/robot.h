@@ -137,6 +137,11 @@ class Hall {
   std::vector<std::string> warnings;
 };
 
+/// Of a link of `bot` about its y axis, rad.
+inline double angle(const Hall& hall, const std::string& link) {
+  return to_rpy(hall.pose("bot::" + link).rotation).y();
+}
+
 inline std::vector<double> list(const Reading& reading, const std::string& field) {
   return reading.get<std::vector<double>>(field);
 }

@@ -14,7 +14,7 @@ Element model(const std::string& inside, const std::string& attributes = "") {
   return parse_xml("<model name='m' " + attributes + ">" + inside + "</model>", "m.sdf");
 }
 
-std::string message_of(const std::string& inside, const std::string& frame) {
+std::string message_of_frame(const std::string& inside, const std::string& frame) {
   const Element root = model(inside);
   Frames frames(root);
   try {
@@ -85,9 +85,9 @@ TEST(Frames, OfPartsOfALink) {
 
 TEST(Frames, ThatDoNotExistOrAreRelativeToThemselvesAreErrors) {
   const std::string unknown =
-      message_of("<link name='a'>\n<pose relative_to='zz'>0 0 0 0 0 0</pose></link>", "a");
+      message_of_frame("<link name='a'>\n<pose relative_to='zz'>0 0 0 0 0 0</pose></link>", "a");
   EXPECT_EQ(unknown, "m.sdf:1: <link name=\"a\"> refers to an unknown frame 'zz'; known are a");
-  const std::string cycle = message_of(
+  const std::string cycle = message_of_frame(
       "<link name='a'><pose relative_to='b'>0 0 0 0 0 0</pose></link>\n"
       "<link name='b'><pose relative_to='a'>0 0 0 0 0 0</pose></link>",
       "a");

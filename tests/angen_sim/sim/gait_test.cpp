@@ -15,7 +15,7 @@ constexpr int kThigh = 0;
 constexpr int kShank = 2;
 constexpr int kUpperArm = 4;
 
-Pose at(double x) { return {{x, 0.0, 0.0}, Quat::Identity()}; }
+Pose place_at(double x) { return {{x, 0.0, 0.0}, Quat::Identity()}; }
 
 TEST(Gait, EachLimbOfAnActorIsOneOfItsVisuals) {
   Simulation simulation(
@@ -39,7 +39,7 @@ TEST(Gait, LegsSwingAgainstEachOtherAndArmsAgainstLegs) {
   double least = 0.0;
   double most = 0.0;
   for (double x = 0.0; x < 3.0; x += 0.01) {
-    gait.advance(at(x), 1.0);
+    gait.advance(place_at(x), 1.0);
     const double left = (gait.limb(kShank) * kFoot).x();
     const double right = (gait.limb(kShank + 1) * Vec3(kFoot.x(), -kFoot.y(), kFoot.z())).x();
     const double arm = (gait.limb(kUpperArm) * Vec3(0.0, 0.22, 1.1)).x();
@@ -55,23 +55,23 @@ TEST(Gait, LegsSwingAgainstEachOtherAndArmsAgainstLegs) {
 
 TEST(Gait, TwoStepsAreAStride) {
   Gait gait;
-  gait.advance(at(0.0), 1.0);
-  for (int i = 1; i <= 35; ++i) gait.advance(at(0.01 * i), 1.0);  // a fourth
+  gait.advance(place_at(0.0), 1.0);
+  for (int i = 1; i <= 35; ++i) gait.advance(place_at(0.01 * i), 1.0);  // a fourth
   const double ahead = (gait.limb(kThigh) * Vec3(0.0, 0.09, 0.5)).x();
-  for (int i = 36; i <= 105; ++i) gait.advance(at(0.01 * i), 1.0);  // and half of one
+  for (int i = 36; i <= 105; ++i) gait.advance(place_at(0.01 * i), 1.0);  // and half of one
   EXPECT_GT(ahead, 0.15);
   EXPECT_NEAR((gait.limb(kThigh) * Vec3(0.0, 0.09, 0.5)).x(), -ahead, 1e-9);
 }
 
 TEST(Gait, WhoStandsOrIsPlacedElsewhereTakesNoStep) {
   Gait gait;
-  gait.advance(at(0.0), 1.0);
-  gait.advance(at(0.3), 1.0);
+  gait.advance(place_at(0.0), 1.0);
+  gait.advance(place_at(0.3), 1.0);
   const Pose limb = gait.limb(kThigh);
-  gait.advance(at(5.0), 1.0);
+  gait.advance(place_at(5.0), 1.0);
   EXPECT_EQ(gait.limb(kThigh), limb);
   EXPECT_TRUE(gait.swings());
-  gait.advance(at(5.0), 0.0);
+  gait.advance(place_at(5.0), 0.0);
   EXPECT_FALSE(gait.swings());
   for (int number = 0; number < kLimbs; ++number) EXPECT_EQ(gait.limb(number), Pose{});
 }

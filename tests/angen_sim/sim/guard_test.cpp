@@ -98,7 +98,7 @@ std::string probe(const std::string& name, const std::string& where) {
          where + "</throws></plugin></sensor></link></model>";
 }
 
-std::unique_ptr<Simulation> world_of(const std::string& models) {
+std::unique_ptr<Simulation> world_with_bombs(const std::string& models) {
   const auto catalog = std::make_shared<Catalog>();
   catalog->add("bomb.so", std::make_shared<ThrowingPlugin>(false));
   catalog->add("probe.so", std::make_shared<ThrowingPlugin>(true));
@@ -244,7 +244,7 @@ class ADeviceThatThrows : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(In, ADeviceThatThrows, ::testing::Values("update", "report"));
 
 TEST_P(ADeviceThatThrows, IsStoppedAndSaysSoOnce) {
-  const auto simulation = world_of(bomb("bad", GetParam()) + bomb("good", ""));
+  const auto simulation = world_with_bombs(bomb("bad", GetParam()) + bomb("good", ""));
   const std::vector<Event> events = run(*simulation, 1000);
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].source, "bad");
@@ -261,7 +261,7 @@ TEST_P(ADeviceThatThrows, IsStoppedAndSaysSoOnce) {
 }
 
 TEST_P(ADeviceThatThrows, RejectsCommandsAndStartsAgainWithTheWorld) {
-  const auto simulation = world_of(bomb("bad", GetParam()));
+  const auto simulation = world_with_bombs(bomb("bad", GetParam()));
   run(*simulation, 200);
   std::future<Outcome> answer = simulation->post(ToDevice{"bomb", "bad", {"Go", {}, "", 0.0}});
   run(*simulation, 1);
@@ -276,7 +276,7 @@ class ACommandThatThrows : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(In, ACommandThatThrows, ::testing::Values("command", "act"));
 
 TEST_P(ACommandThatThrows, IsAnsweredAndTheDeviceGoesOn) {
-  const auto simulation = world_of(bomb("bad", GetParam()));
+  const auto simulation = world_with_bombs(bomb("bad", GetParam()));
   std::future<Outcome> answer = simulation->post(ToDevice{"bomb", "bad", {"Go", {}, "", 0.0}});
   const std::vector<Event> events = run(*simulation, 1000);
   const Outcome outcome = answer.get();
@@ -293,8 +293,8 @@ INSTANTIATE_TEST_SUITE_P(In, ASensorThatThrows, ::testing::Values("aim", "read")
 
 TEST_P(ASensorThatThrows, IsStoppedAndTheOthersReadAsWithoutIt) {
   const std::string first = probe("first", ""), last = probe("last", "");
-  const auto with = world_of(first + probe("bad", GetParam()) + last);
-  const auto without = world_of(first + last);
+  const auto with = world_with_bombs(first + probe("bad", GetParam()) + last);
+  const auto without = world_with_bombs(first + last);
   std::vector<Event> events;
   for (int i = 0; i < 1000; ++i) {
     const auto a = with->tick(), b = without->tick();
@@ -314,7 +314,7 @@ TEST_P(ASensorThatThrows, IsStoppedAndTheOthersReadAsWithoutIt) {
 }
 
 TEST(Spawn, WithALibraryPathNoFileSystemTakesIsAnswered) {
-  const auto simulation = world_of("");
+  const auto simulation = world_with_bombs("");
   for (const std::string& path :
        {"/" + std::string(300, 'x') + "/lib.so", std::string(5000, 'y') + ".so"}) {
     const std::string model =

@@ -19,7 +19,7 @@ std::uint32_t number_at(const std::string& bytes, std::size_t at) {
 }
 
 // libpng drops a chunk whose checksum is wrong before it reads it.
-std::string with_checksums(std::string bytes) {
+std::string with_png_checksums(std::string bytes) {
   constexpr std::size_t kSignature = 8;
   constexpr std::size_t kHead = 8;  // length and type
   for (std::size_t at = kSignature; at + kHead + 4 <= bytes.size();) {
@@ -39,7 +39,7 @@ std::string with_checksums(std::string bytes) {
 
 void png(const std::string& input) {
   static const MemoryFile file(".png");
-  file.write(with_checksums(input));
+  file.write(with_png_checksums(input));
   answered([&] {
     const load::GrayImage image = load::read_png(file.path(), "picture", 1, {});
     require(image.values.size() == std::size_t{image.width} * image.height, "a value a pixel");
