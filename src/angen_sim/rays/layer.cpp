@@ -8,6 +8,8 @@
 namespace angen::rays {
 namespace {
 
+constexpr std::size_t kMaxLoose = 24;
+
 void bounds(const RTCBoundsFunctionArguments* args) {
   const auto* solids = static_cast<const Solid*>(args->geometryUserPtr);
   *args->bounds_o = padded(solids[args->primID].box);
@@ -17,8 +19,8 @@ template <bool fixed>
 void intersect(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& q = *reinterpret_cast<SceneQuery*>(args->context);
-  const auto* solids = static_cast<const Solid*>(args->geometryUserPtr);
-  if (!q.try_solid(solids[args->primID], fixed)) return;
+  const Solid& solid = static_cast<const Solid*>(args->geometryUserPtr)[args->primID];
+  if (solid.loose || !q.try_solid(solid, fixed)) return;
   reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = reach(q.best.range);
 }
 
@@ -28,7 +30,7 @@ void occluded(const RTCOccludedFunctionNArguments* args) {
   auto& q = *reinterpret_cast<SceneQuery*>(args->context);
   const Solid& solid = static_cast<const Solid*>(args->geometryUserPtr)[args->primID];
   Intersection found;
-  if (!q.wants(solid, fixed)) return;
+  if (solid.loose || !q.wants(solid, fixed)) return;
   if (!find_hit(solid, q.origin, q.direction, q.min, q.best.range, found)) return;
   q.solid = &solid;
   reinterpret_cast<RTCRay*>(args->ray)->tfar = -std::numeric_limits<float>::infinity();
@@ -51,6 +53,14 @@ bool query_inside(RTCPointQueryFunctionArguments* args) {
   return false;  // keeps the query's radius
 }
 
+/// False only where the ray's line misses the ball around the solid's box.
+bool is_near(const Solid& solid, const SceneQuery& q) {
+  constexpr double kRounding = 1e-6;
+  const double radius2 = 0.25 * solid.box.sizes().squaredNorm() * (1.0 + kRounding) + kRounding;
+  const Vec3 offset = solid.box.center() - q.origin;
+  return !solid.box.isEmpty() && offset.cross(q.direction).squaredNorm() <= radius2 * q.length2;
+}
+
 // Embree asserts that coordinates are below 1.8e18.
 bool fit_for_embree(const Vec3& v) { return (v.array().abs() < 1e18).all(); }
 
@@ -67,7 +77,7 @@ bool SceneQuery::prepare(const Vec3& from, const Vec3& towards, double nearest, 
   solid = nullptr;
   anchored = (among & only(Mobility::kAnchored)) != 0;
   moving = (among & only(Mobility::kMoving)) != 0;
-  const double length2 = direction.squaredNorm();
+  length2 = direction.squaredNorm();
   return fit_for_embree(origin) && fit_for_embree(direction) && length2 > 1e-30 && min <= farthest;
 }
 
@@ -97,18 +107,31 @@ void Layer::commit() {
   changed_ = Changed::kNothing;
 }
 
+void Layer::move(std::uint32_t at) {
+  const bool fits = bounded[at].loose || loose_.size() < kMaxLoose;
+  change(fits ? Changed::kFewMoved : Changed::kMoved);
+  if (!fits || bounded[at].loose) return;
+  bounded[at].loose = true;
+  loose_.push_back(at);
+}
+
 // A query of standing shapes needs no rebuild after moving shapes have moved.
 void Layer::prepare(Mobilities among) const {
   const Changed matters = (among & only(Mobility::kMoving)) != 0 ? Changed::kMoved : Changed::kAny;
   if (unbuilt_ < matters) return;
   const std::lock_guard lock(building_);
   if (unbuilt_ < matters) return;
+  for (const Solid& solid : bounded) solid.loose = false;
+  loose_.clear();
   tree_.build(bounded.data(), bounded.size());
   unbuilt_ = Changed::kNothing;
 }
 
 void Layer::nearest(SceneQuery& q) const {
   for (const Solid& plane : planes) q.try_solid(plane, fixed);
+  for (const std::uint32_t at : loose_) {
+    if (is_near(bounded[at], q)) q.try_solid(bounded[at], fixed);
+  }
   if (bounded.empty()) return;
   RTCRayHit ray{};
   aim(ray.ray, q.origin, q.direction, q.min, q.best.range);
@@ -118,11 +141,13 @@ void Layer::nearest(SceneQuery& q) const {
 
 bool Layer::any(SceneQuery& q) const {
   Intersection found;
-  for (const Solid& plane : planes) {
-    if (q.wants(plane, fixed) &&
-        find_hit(plane, q.origin, q.direction, q.min, q.best.range, found)) {
-      return true;
-    }
+  const auto hits = [&](const Solid& solid) {
+    return q.wants(solid, fixed) &&
+           find_hit(solid, q.origin, q.direction, q.min, q.best.range, found);
+  };
+  if (std::any_of(planes.begin(), planes.end(), hits)) return true;
+  for (const std::uint32_t at : loose_) {
+    if (is_near(bounded[at], q) && hits(bounded[at])) return true;
   }
   if (bounded.empty()) return false;
   RTCRay ray{};

@@ -15,6 +15,7 @@ namespace angen::rays {
 struct SceneQuery {
   RTCIntersectContext context;  // first member: Embree returns its address
   Vec3 origin, direction;
+  double length2;  // of the direction
   double min;
   Intersection best;   // range starts at the ray's max
   std::uint64_t rank;  // of the nearest hit; the lower wins a tie
@@ -43,11 +44,12 @@ struct SceneQuery {
   Hit hit() const;
 };
 
-/// Changes of a layer, ascending: none, places of moving shapes, any other.
-enum class Changed { kNothing, kMoved, kAny };
+/// Changes of a layer, ascending: none, places of a few moving shapes, of many, any other.
+enum class Changed { kNothing, kFewMoved, kMoved, kAny };
 
 /// The static shapes or the movable ones: bounded shapes in a hierarchy, and planes, which have no
-/// box.
+/// box. A few shapes that have moved since the hierarchy was built are tested one by one: people
+/// walk in each sample, and a hierarchy of all shapes costs more than some thousand rays.
 class Layer {
  public:
   explicit Layer(bool fixed);
@@ -57,6 +59,8 @@ class Layer {
   bool fixed;
 
   void change(Changed changed) { changed_ = std::max(changed_, changed); }
+  /// A moving shape, at this place in `bounded`, has another pose.
+  void move(std::uint32_t at);
   bool changed() const { return changed_ != Changed::kNothing; }
   /// Makes the changes visible to the next query.
   void commit();
@@ -87,6 +91,7 @@ class Layer {
   mutable std::atomic<Changed> unbuilt_{Changed::kNothing};  // committed since it was built
   mutable std::mutex building_;
   mutable Hierarchy tree_;
+  mutable std::vector<std::uint32_t> loose_;  // places of these in `bounded`
 };
 
 }  // namespace angen::rays

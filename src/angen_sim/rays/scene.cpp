@@ -62,8 +62,8 @@ struct Scene::Impl {
   std::uint64_t forgotten = 1;         // mark of the first entry in `changes`
   mutable std::uint64_t read = 1;      // the latest mark given out
 
-  void touch(std::uint32_t index, Mobility mobility, Changed changed = Changed::kAny) {
-    layer(mobility).change(changed);
+  void touch(std::uint32_t index, Mobility mobility) {
+    layer(mobility).change(Changed::kAny);
     if (mobility != Mobility::kMoving) note_standing(index);
   }
 
@@ -174,8 +174,11 @@ void Scene::move(ShapeId shape, const Pose& pose) {
   if (entry.type == Shape::Type::kEmpty) return;
   Layer& layer = impl_->layer(entry.mobility);
   layer.list(entry.type)[impl_->places[shape.index].at].place(pose);
-  const bool moves = entry.mobility == Mobility::kMoving;
-  impl_->touch(shape.index, entry.mobility, moves ? Changed::kMoved : Changed::kAny);
+  if (entry.mobility == Mobility::kMoving && entry.type != Shape::Type::kPlane) {
+    layer.move(impl_->places[shape.index].at);
+  } else {
+    impl_->touch(shape.index, entry.mobility);
+  }
 }
 
 void Scene::set_anchored(ShapeId shape, bool anchored) {
