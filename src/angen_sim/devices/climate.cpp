@@ -16,6 +16,7 @@ constexpr double kWall = 0.05;               // m: a thing in a wall is near the
 constexpr double kWidestLeaf = 3.0;          // m, from its hinge
 constexpr double kKilogram = 1e-3 / 3600.0;  // a second, for a g/h
 constexpr Range kCelsius{-60.0, 60.0};
+constexpr double kUnheated = kCelsius.min;
 
 }  // namespace
 
@@ -36,6 +37,12 @@ class Climate : public Device {
         3600.0;
     settings.heat_capacity = params.number(
         "heat_capacity", 1.0, "", "of a room's contents, in that of its air", {1.0, 1000.0});
+    settings.heating_power =
+        params.number("heating_power", 50.0, "W/m^3",
+                      "of radiators that are fully open, a volume of the room", kNotNegative);
+    heating_ =
+        params.number("heating", kUnheated, "degC",
+                      "to which radiators heat each room; there are none unless given", kCelsius);
     Air inside;
     inside.temperature = params.number("temperature", 20.0, "degC", "at the start", kCelsius);
     inside.moisture = moisture_of(
@@ -52,6 +59,7 @@ class Climate : public Device {
                   "' has a climate and no rooms; describe them by <angen:room>");
     }
     air_ = RoomAir(settings, std::move(volumes), inside);
+    air_.heat_to(heating_);
     const auto airs = params.rows("air", 2, "degC %",
                                   "temperature and humidity at the start, of each room in its "
                                   "order; of all as above unless given");
@@ -72,7 +80,12 @@ class Climate : public Device {
   }
 
   Verdict command(const Command& command, const View&) override {
-    return Verdict::accept([this, temperature = command.number] {
+    return Verdict::accept([this, heats = command.verb == "Heat", temperature = command.number] {
+      if (heats) {
+        heating_ = temperature;
+        air_.heat_to(heating_);
+        return;
+      }
       outside_.temperature = temperature;
       outside_.moisture = moisture_of(temperature, outside_humidity_);
     });
@@ -112,6 +125,11 @@ class Climate : public Device {
 
   void save(SavedParams& params) const override {
     params.number("outside_temperature", outside_.temperature);
+    if (heating_ == kUnheated) {
+      params.unset("heating");
+    } else {
+      params.number("heating", heating_);
+    }
     for (const Air& air : air_.rooms()) params.row("air", {air.temperature, humidity_of(air)});
   }
 
@@ -129,6 +147,7 @@ class Climate : public Device {
     state.set("humidities", std::move(humidities));
     state.set("outside_temperature", outside_.temperature);
     state.set("outside_humidity", outside_humidity_);
+    if (heating_ != kUnheated) state.set("heating", heating_);
   }
 
  private:
@@ -149,6 +168,7 @@ class Climate : public Device {
   RoomAir air_;
   Air outside_;
   double outside_humidity_ = 0.0;  // percent
+  double heating_ = kUnheated;     // degrees Celsius
   Nanoseconds stepped_at_ = -1;
   Refresh due_{kRate};
 };
@@ -159,12 +179,14 @@ class ClimatePlugin : public Plugin {
     static const Kind kind =
         Kind("climate", "The air in a model's rooms.")
             .verb("Outside", "degrees", "°C", kCelsius, "temperature of the air outdoors")
+            .verb("Heat", "degrees", "°C", kCelsius, "to which radiators heat each room")
             .texts("names", "of each room")
             .numbers("temperatures", "°C", "of each room")
             .shown_by_name("names", 1)
             .numbers("humidities", "%", "of each room, relative")
             .number("outside_temperature", "°C", "outdoors")
-            .number("outside_humidity", "%", "outdoors, relative");
+            .number("outside_humidity", "%", "outdoors, relative")
+            .number("heating", "°C", "to which radiators heat each room; none without radiators");
     return kind;
   }
   bool serves(const ModelInfo&) const override { return true; }

@@ -14,6 +14,7 @@ constexpr double kHeat = 1006.0;        // J/(kg K) of air
 constexpr double kVapor = 0.622;        // molar mass of water over that of dry air
 constexpr double kKelvin = 273.15;
 constexpr double kGravity = 9.81;
+constexpr double kValveBand = 2.0;  // K, at which EN 215 rates a thermostatic valve
 constexpr double kDischarge = 0.6;  // of a sharp-edged opening
 
 // Pa over water, Magnus with Sonntag's constants (1990), -45 to 60 degrees.
@@ -50,6 +51,11 @@ double doorway_flow(const Opening& opening, const Air& a, const Air& b) {
 RoomAir::RoomAir(const Settings& settings, std::vector<double> volumes, const Air& air)
     : settings_(settings), volumes_(std::move(volumes)), rooms_(volumes_.size(), air) {}
 
+// W/m^3 in a room of this temperature.
+double RoomAir::radiator_power(double temperature) const {
+  return settings_.heating_power * std::clamp((heating_ - temperature) / kValveBand, 0.0, 1.0);
+}
+
 void RoomAir::step(double seconds, const Air& outside, const std::vector<double>& heat,
                    const std::vector<Opening>& openings, const std::vector<double>& source) {
   const auto at = [&](int room) -> const Air& {
@@ -62,6 +68,7 @@ void RoomAir::step(double seconds, const Air& outside, const std::vector<double>
     const double leak = settings_.air_change * volumes_[i];
     const double loss = settings_.heat_loss * volumes_[i] + kDensity * kHeat * leak;
     power[i] += loss * (outside.temperature - rooms_[i].temperature);
+    power[i] += volumes_[i] * radiator_power(rooms_[i].temperature);
     vapor[i] += leak * (outside.moisture - rooms_[i].moisture);
   }
   for (const Opening& opening : openings) {

@@ -34,11 +34,16 @@ class RoomAir {
     double heat_loss = 0.0;      // W/(K m^3), through walls and windows
     double air_change = 0.0;     // 1/s, with the outside through cracks
     double heat_capacity = 1.0;  // of the room's contents, in that of its air
+    double heating_power = 0.0;  // W/m^3, of radiators that are fully open
   };
 
   RoomAir() = default;
   /// `volumes` in m^3, all full of `air`.
   RoomAir(const Settings& settings, std::vector<double> volumes, const Air& air);
+
+  /// Radiators heat each room to `temperature` (degrees Celsius): their valves are shut there, and
+  /// fully open 2 K below.
+  void heat_to(double temperature) { heating_ = temperature; }
 
   /// By `seconds`, with `heat` (W) and, where given, `vapor` (kg/s) in each room.
   void step(double seconds, const Air& outside, const std::vector<double>& heat,
@@ -49,7 +54,10 @@ class RoomAir {
   const std::vector<Air>& rooms() const { return rooms_; }
 
  private:
+  double radiator_power(double temperature) const;
+
   Settings settings_;
+  double heating_ = -273.15;  // degrees Celsius
   std::vector<double> volumes_;
   std::vector<Air> rooms_;
 };

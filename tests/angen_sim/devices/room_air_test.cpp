@@ -39,6 +39,21 @@ TEST(RoomAir, ALeakyRoomBecomesAsTheAirOutside) {
               1e-5);
 }
 
+TEST(RoomAir, RadiatorsBalanceTheLossBelowTheTemperatureOfTheirValves) {
+  RoomAir::Settings settings;
+  settings.heat_loss = 0.6;
+  settings.heating_power = 40.0;
+  RoomAir air(settings, {30.0, 30.0}, {25.0, 0.003});
+  air.heat_to(21.0);
+  const Air outside{5.0, 0.003};
+  for (int i = 0; i < 100'000; ++i) air.step(1.0, outside, {0.0, 600.0}, {});
+  // 0.6 (T - 5) = 40 (21 - T) / 2
+  EXPECT_NEAR(air.rooms()[0].temperature, (0.6 * 5.0 + 20.0 * 21.0) / 20.6, 1e-6);
+  EXPECT_NEAR(air.rooms()[1].temperature, 5.0 + 20.0 / 0.6, 1e-6);  // 20 W/m^3 without radiators
+  for (int i = 0; i < 100'000; ++i) air.step(1.0, {-60.0, 0.0}, {0.0, 0.0}, {});
+  EXPECT_NEAR(air.rooms()[0].temperature, -60.0 + 40.0 / 0.6, 1e-6);  // too cold for them
+}
+
 TEST(RoomAir, ThroughADoorwayWhatOneRoomLosesTheOtherGains) {
   const Opening door{0, 1, 0.9, 2.0};
   const Air warm{22.0, 0.0}, cold{18.0, 0.0};

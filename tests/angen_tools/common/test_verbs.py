@@ -15,7 +15,7 @@ from angen_tools.common.catalog import kind_of
     ('heater', '0', 'Set 0'), ('drive', '0.2 -0.1', '0.2 -0.1'), ('drive', '0.2, -0.1', '0.2 -0.1'),
     ('drive', 'stop', 'Stop'), ('person', 'go', 'Go'),
     ('person', 'goto 1.5, -2', 'GoTo 1.5 -2'), ('door', 'unlatch', 'Unlatch'),
-    ('climate', '-5', 'Outside -5'), ('door', '-90deg', 'Set -1.57079633'),
+    ('climate', 'outside -5', 'Outside -5'), ('door', '-90deg', 'Set -1.57079633'),
     ('door', 'set -45°', 'Set -0.785398163'), ('lamp', '40deg', None), ('door', '90degrees', None)])
 def test_values_become_commands(kind: str, words: str, text: str | None) -> None:
     if text is None:
