@@ -10,7 +10,7 @@ from lxml import etree
 from angen_apps.residents.ground import Ground
 from angen_apps.residents.simulated import Simulated
 from angen_apps.robot.entities import Entity, entities_of
-from angen_tools.common.catalog import simulator
+from angen_tools.common.catalog import kinds, simulator
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
 from angen_tools.common.home import Home, Room
@@ -44,6 +44,8 @@ class Sensor:
 
 LETTERS = {'motion': 'M', 'area': 'M', 'door': 'D', 'item': 'I', 'power': 'P', 'temperature': 'T',
            'light': 'LS'}
+HEATING = 21.0  # degrees Celsius; EN 16798-1: 20 at least in living rooms, category II
+OWN = ('contact', 'pressure', 'reed')  # on seats, mats, cabinets: a home keeps its own
 BY_SOURCE = {'pir': 'motion', 'reed': 'door', 'contact': 'item', 'pressure': 'item',
              'plug': 'power',
              'temperature': 'temperature', 'luminosity': 'light'}
@@ -85,8 +87,25 @@ class Site:
         self.ground = Ground(bare, self.home)
         self.simulator = Simulated(self.world, self.home)
         if placed:
+            self._clear()
             _Placer(self, light).place()
+        self._heat()
         self.sensors = self._listed()
+
+    def _clear(self) -> None:
+        """Deletes the world's sensors that the rules replace or that are not in the data: light
+        sensors that nobody reads cost an hour a day."""
+        for kind, name, model, _ in self.world.entities():
+            if kind in kinds('sensor') and kind not in OWN:
+                self.world.delete(name)
+
+    def _heat(self) -> None:
+        """Radiators heat every home whose world does not say to which temperature."""
+        if '<heating>' in self.world.save():
+            return
+        for kind, name, _, _ in self.world.entities():
+            if kind == 'climate':
+                self.simulator.command(kind, name, f'Heat {HEATING:g}')
 
     def _listed(self) -> list[Sensor]:
         """The sensors by id, counted from 1 by kind in the order of their names."""
@@ -154,6 +173,8 @@ class _Placer:
                pitch: float = 0.0) -> None:
         x, y, z, yaw = pose
         with simulator(f'{name}: '):
+            if name in self.world.models:  # in a saved home
+                self.world.delete(name)
             self.world.spawn(what, name, [x, y, z, 0.0, pitch, yaw])
 
     def _cells(self, room: Room) -> None:
@@ -197,6 +218,8 @@ class _Placer:
         """A reed contact at the upper edge of a leaf, on a model with links base and door."""
         model = next((model for kind, name, model, _ in self.world.entities()
                       if (kind, name) == ('door', door)), '')
+        if any(kind == 'reed' and owner == model for kind, _, owner, _ in self.world.entities()):
+            return
         if not {f'{model}::base', f'{model}::door'} <= set(self.world.links):
             return
         width = next(d.width for d in self.home.doors if d.name == door)
