@@ -1,4 +1,5 @@
 """The tick: time, commands, spawn and delete, reset, and the same bytes for the same input."""
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -7,7 +8,7 @@ import numpy as np
 import pytest
 
 import angen
-from sdf_text import box, pir
+from sdf_text import box, pir, sdf_world
 
 
 def test_time_is_ticks_times_step(world):
@@ -93,6 +94,21 @@ def test_reset_brings_everything_back(world):
     w.run(0.4)
     w.reset()
     assert w.time == 0.0 and np.array_equal(w.link_poses, before)
+
+
+RESETS = """import angen
+w = angen.World.from_text(TEXT)
+for _ in range(3):
+    w.run(0.3)
+    w.reset()
+"""
+
+
+def test_reset_uses_no_memory_that_it_has_freed():
+    """The pyroelectric PIR watches the shapes around it. malloc overwrites freed memory here."""
+    text = sdf_world('<include><uri>model://pir_pyroelectric</uri></include>')
+    subprocess.run([sys.executable, '-c', RESETS.replace('TEXT', repr(text))], check=True,
+                   env={**os.environ, 'MALLOC_PERTURB_': '165'})
 
 
 NOISY = pir('eye', '0 0 1 0 0 0').replace(

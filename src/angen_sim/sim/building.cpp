@@ -298,9 +298,7 @@ void Building::displace(const std::string& kind, const std::string& name, const 
   for (SensorInstance& sensor : at->second->sensors) {
     if (sensor.kind != kind || sensor.name != name) continue;
     sensor.pose = sensor.pose * by;
-    sensor.scans.clear();
-    sensor.light.reset();
-    sensor.near.reset();
+    sensor.forget_regions();
     sensor.activity = {};
   }
   note_change(number_of(*at->second));
@@ -346,10 +344,7 @@ void Building::reset(Nanoseconds now) {
   for (auto* names : {&by_name_, &devices_, &sensors_}) names->clear();
   with_device_.clear();
   for (const auto& live : old) {
-    for (SensorInstance& sensor : live->sensors) {  // they refer to the engines
-      sensor.scans.clear();
-      sensor.light.reset();
-    }
+    for (SensorInstance& sensor : live->sensors) sensor.forget_regions();  // of the engines
   }
   make_engines();
   for (const auto& live : old) {

@@ -114,6 +114,12 @@ bool CachedScan::cast(const Engines& engines, MoverIndex::SplitMovers& scratch,
   return same;
 }
 
+void SensorInstance::forget_regions() {
+  scans.clear();
+  light.reset();
+  near.reset();
+}
+
 bool SensorInstance::varies() const {
   if (noisy != nullptr) return noisy->varies();
   return std::any_of(noise.begin(), noise.end(),

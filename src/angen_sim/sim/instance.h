@@ -125,6 +125,8 @@ struct SensorInstance : SensorInfo {
   Nanoseconds cost = 0;  // CPU time that the meter counts
   std::string error;     // text of its exception; it is not called again
 
+  /// Those that it watches; they are found again with its next sample.
+  void forget_regions();
   /// Whether readings of a steady sensor differ from sample to sample.
   bool varies() const;
   /// Makes its readings while nothing changes.
