@@ -93,7 +93,8 @@ Services::Services(Inbox& inbox, const Events& events, const std::string& models
       events_(events),
       paths_(load::SearchPaths::from_environment(models)),
       topics_(topics),
-      threads_(queue_, kServiceThreads) {
+      threads_(queue_, kServiceThreads),
+      loggers_(queue_) {
   ros::NodeHandle node;
   node.setCallbackQueue(&queue_);
   const auto serve_empty = [&](const std::string& name, const sim::Action& action) {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "gazebo/api.h"
+#include "node/logger_services.h"
 #include "node/status_topics.h"
 #include "ros/inbox.h"
 #include "ros/queue_threads.h"
@@ -65,6 +66,7 @@ class Services {
   std::atomic<std::size_t> steps_{0};  // calls that wait
   ros::CallbackQueue queue_;
   QueueThreads threads_;
+  LoggerServices loggers_;
   std::vector<ros::ServiceServer> servers_;
   std::unique_ptr<gazebo::Api> gazebo_;
 };
