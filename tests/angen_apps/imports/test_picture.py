@@ -14,6 +14,7 @@ from angen_apps.plan.model import Plan
 from angen_apps.plan.polygons import area
 from angen_apps.plan.writer import write_world
 from angen_bench import plans
+from angen_tools.common.failure import Failure
 from angen_tools.cli import main as cli
 
 SCALE = 0.025  # m a pixel
@@ -49,6 +50,75 @@ def test_rooms_and_doors_of_a_noisy_scan(noise: float, tmp_path: Path) -> None:
     doors = sorted(opening.width for opening in plan.all_openings() if opening.kind == 'door')
     assert doors == pytest.approx([0.8, 0.9, 1.0], abs=0.08)
     assert plan.entrance
+
+
+def areas(plan: Plan) -> list[float]:
+    return sorted(area(room.polygon) for room in plan.all_rooms())
+
+
+@pytest.mark.parametrize('degrees', [1, -3, 20, 45])
+def test_a_scan_that_is_askew_is_put_upright(degrees: int, tmp_path: Path) -> None:
+    path = tmp_path / 'scan.png'
+    Image.fromarray(picture(0.25)).rotate(degrees, expand=True, fillcolor=235).save(path)
+    plan = read_picture(path, SCALE, True)
+    said = sorted((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in ROOMS)
+    assert areas(plan) == pytest.approx(said, rel=0.05)
+    assert len([o for o in plan.all_openings() if o.kind == 'door']) == 3
+    assert 'the picture is put upright' in plan.remarks[0]
+    corners = [p for room in plan.all_rooms() for p in room.polygon]
+    assert len({round(x, 3) for x, _ in corners}) < 10
+
+
+def test_a_map_with_walls_askew_keeps_its_frame(tmp_path: Path) -> None:
+    """Robots are localized in it."""
+    straight = picture(0.0)
+    Image.fromarray(straight).save(tmp_path / 'scan.png')
+    said = read_picture(tmp_path / 'scan.png', SCALE, True)
+    askew = np.asarray(Image.fromarray(straight).rotate(20, expand=True, fillcolor=235))
+    plan = read_map(write_map(tmp_path, askew, 'map.pgm', 'origin: [-3.0, -2.0, 0.0]\n'), True)
+    assert areas(plan) == pytest.approx(areas(said), rel=0.02)
+    middles = [SCALE * np.array(shape[::-1]) / 2 for shape in (straight.shape, askew.shape)]
+    c, s = np.cos(np.radians(20)), np.sin(np.radians(20))
+    turn = np.array([[c, -s], [s, c]])
+    for room, other in zip(sorted(said.all_rooms(), key=lambda r: area(r.polygon)),
+                           sorted(plan.all_rooms(), key=lambda r: area(r.polygon))):
+        at = turn @ (np.mean(room.polygon, axis=0) - middles[0]) + middles[1] + (-3.0, -2.0)
+        assert np.hypot(*(np.mean(other.polygon, axis=0) - at)) < 0.05
+
+
+@pytest.mark.parametrize('walls, paper', [(150, 250), (10, 100)])
+def test_pale_and_dim_pictures_have_the_same_rooms(walls: int, paper: int, tmp_path: Path) -> None:
+    path = tmp_path / 'scan.png'
+    Image.fromarray(np.where(picture(0.0) < 128, walls, paper).astype(np.uint8)).save(path)
+    assert len(areas(read_picture(path, SCALE, True))) == len(ROOMS)
+
+
+@pytest.mark.parametrize('gray, what', [
+    (255 - picture(0.0), 'more than half of it is dark; walls are dark on light paper'),
+    (np.full((200, 300), 255, np.uint8), 'has no walls'),
+    (np.zeros((200, 300), np.uint8), 'more than half of it is dark')])
+def test_a_picture_without_walls_on_light_paper_is_refused(gray: np.ndarray, what: str,
+                                                           tmp_path: Path) -> None:
+    path = tmp_path / 'scan.png'
+    Image.fromarray(gray).save(path)
+    with pytest.raises(Failure, match=what):
+        read_picture(path, SCALE, True)
+
+
+def test_a_fine_picture_is_read_by_blocks_of_pixels(tmp_path: Path) -> None:
+    path = tmp_path / 'scan.png'
+    Image.fromarray(picture(0.0).repeat(5, 0).repeat(5, 1)).save(path)
+    said = sorted((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in ROOMS)
+    assert areas(read_picture(path, SCALE / 5, True)) == pytest.approx(said, rel=0.02)
+
+
+def test_a_plan_without_a_closed_space_says_so(tmp_path: Path) -> None:
+    gray = np.full((200, 300), 235, np.uint8)
+    gray[20:28, 20:280] = 20
+    path = tmp_path / 'scan.png'
+    Image.fromarray(gray).save(path)
+    assert any('there are no rooms; check --scale' in remark
+               for remark in read_picture(path, SCALE, True).remarks)
 
 
 def test_a_map_has_its_origin_and_resolution(tmp_path: Path) -> None:

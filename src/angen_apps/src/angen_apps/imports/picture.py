@@ -2,14 +2,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import pi
+from math import pi, radians
 from pathlib import Path
+from typing import Sequence
 
 import numpy as np
 import yaml
-from scipy.ndimage import binary_closing, binary_opening, label, median_filter
+from scipy.ndimage import binary_closing, binary_opening, label
 
 from angen_apps.imports.flood import rooms_of
+from angen_apps.imports.raster import (darkness, reduced, straightened, threshold, turn_of,
+                                      without_noise)
 from angen_apps.imports.source import FARTHEST, read_bytes
 from angen_apps.plan.finish import finish, room_at, sides
 from angen_apps.plan.model import Leaf, Opening, Piece, Plan, Point, Storey, Wall, turned
@@ -30,21 +33,32 @@ FURNITURE_HEIGHT = 0.75  # m
 BESIDE = 0.15  # m from a doorway to the wall that ends at it
 LEAST_ROOM = 1.0  # m2: a smaller space that is closed is the inside of a thing
 SPECK = 0.3  # m of a map that are unknown: smaller specks are in a room
+FINEST = 0.02  # m a pixel: finer pictures are read by blocks of pixels
 FINE = 0.035  # m a pixel: thin walls have several pixels across
-PIXELS = 20_000_000
 WALLS = 20_000
 MODES = ('trinary', 'scale', 'raw')  # of map_server; walls are the same in the first two
 SEAM = 1e-4  # m that walls overlap, so that no seam is between them
 JOINT = 2  # pixels between walls that meet
 Box = tuple[int, int, int, int]  # west, south, east, north
 Island = tuple[slice, slice]  # rows and columns
+Origin = tuple[float, float, float]  # x, y and yaw of a picture's lower left corner
 ENDINGS = ('.png', '.pgm', '.jpg', '.jpeg')
 
 
 def read_picture(path: Path, scale: float, with_doors: bool) -> Plan:
     """The plan of a picture whose pixels are `scale` m wide; dark is wall."""
-    dark = np.asarray(_darkness(path, smooth=scale < FINE) > 0.5)
-    return _plan(path, dark, np.ones(dark.shape, bool), scale, (0.0, 0.0, 0.0), with_doors)
+    dark = darkness(path)
+    if scale <= FINEST / 2:
+        factor = min(int(FINEST / scale), *dark.shape)
+        dark, scale = reduced(dark, factor), scale * factor
+    if scale < FINE:
+        dark = without_noise(dark)
+    walls, known, _, remarks = _straight(path, dark, np.ones(dark.shape, bool),
+                                         threshold(path, dark), scale, (0.0, 0.0, 0.0))
+    if remarks:  # the page is put upright
+        known[:] = True
+        remarks = [f'{remarks[0]}; the picture is put upright']
+    return _plan(path, walls, known, scale, (0.0, 0.0, 0.0), with_doors, remarks)
 
 
 def read_map(path: Path, with_doors: bool) -> Plan:
@@ -62,11 +76,11 @@ def read_map(path: Path, with_doors: bool) -> Plan:
               for node in file.list(values['origin'], 'origin')]
     if len(origin) != 3:
         raise file.fail(values['origin'], 'origin must be [x, y, yaw]')
-    threshold = file.number(values['occupied_thresh'], 'occupied_thresh', 0.0, 1.0) \
+    limit = file.number(values['occupied_thresh'], 'occupied_thresh', 0.0, 1.0) \
         if 'occupied_thresh' in values else 0.65
     negate = 'negate' in values and file.number(values['negate'], 'negate', 0, 1) == 1
     mode = file.choice(values['mode'], 'mode', MODES) if 'mode' in values else MODES[0]
-    dark = _darkness(picture)
+    dark = darkness(picture)
     if negate:
         dark = 1 - dark
     if mode == 'raw':  # a value is the occupancy in percent, above 100 it is unknown
@@ -75,9 +89,10 @@ def read_map(path: Path, with_doors: bool) -> Plan:
     free = file.number(values['free_thresh'], 'free_thresh', 0.0, 1.0) \
         if 'free_thresh' in values else 0.196
     across = max(1, round(SPECK / scale))
-    unknown = binary_opening((dark >= free) & (dark <= threshold), np.ones((across, across)))
-    return _plan(path, np.asarray(dark > threshold), ~unknown, scale,
-                 (origin[0], origin[1], origin[2]), with_doors)
+    unknown = binary_opening((dark >= free) & (dark <= limit), np.ones((across, across)))
+    walls, known, place, remarks = _straight(path, dark, ~unknown, limit, scale,
+                                             (origin[0], origin[1], origin[2]))
+    return _plan(path, walls, known, scale, place, with_doors, remarks)
 
 
 def _image(file: YamlFile, node: yaml.Node) -> Path:
@@ -95,39 +110,26 @@ def is_map(path: Path) -> bool:
     return any(line.startswith(b'resolution:') for line in lines)
 
 
-def _darkness(path: Path, smooth: bool = False) -> np.ndarray:
-    """The pixels from 0 (white) to 1 (black); row 0 is the lowest."""
-    import io
-
-    from PIL import Image, UnidentifiedImageError
-    data = read_bytes(path)
-    try:
-        with Image.open(io.BytesIO(data)) as picture:
-            if picture.width * picture.height > PIXELS:
-                raise Failure(f'{path}: has {picture.width} x {picture.height} pixels, at most '
-                              f'{PIXELS // 1_000_000} million are read')
-            if picture.mode in ('RGBA', 'LA', 'P'):  # transparent pixels are paper
-                picture = picture.convert('RGBA')
-                paper = Image.new('RGBA', picture.size, (255, 255, 255, 255))
-                picture = Image.alpha_composite(paper, picture)
-            if picture.mode.startswith('I'):  # 16 bits
-                gray = np.asarray(picture, float) / 257
-            else:
-                gray = np.asarray(picture.convert('L'), float)
-    except Failure:
-        raise
-    except Exception as error:  # Pillow raises many kinds for damaged pictures
-        why = '' if isinstance(error, UnidentifiedImageError) else f': {error}'  # names no file
-        raise Failure(f'{path}: is not a picture that can be read{why}') from None
-    dark = 1 - gray / 255
-    if smooth:  # a median of 3 x 3, twice, takes the noise of a scan away
-        dark = median_filter(median_filter(dark, 3), 3)
-    return np.asarray(dark[::-1])
+def _straight(path: Path, dark: np.ndarray, known: np.ndarray, limit: float, scale: float,
+              origin: Origin) -> tuple[np.ndarray, np.ndarray, Origin, list[str]]:
+    """Dark and known pixels, turned so that walls are along x and y; where they are then."""
+    degrees = turn_of(cleaned_walls(np.asarray(dark > limit), scale))
+    if not degrees:
+        return np.asarray(dark > limit), known, origin, []
+    middle = scale * np.array(dark.shape[::-1]) / 2
+    dark = straightened(dark, degrees, 0.0)
+    known = straightened(known.astype(float), degrees, 0.0) > 0.5
+    x, y, yaw = origin
+    corner = turned((middle[0], middle[1]), radians(degrees),
+                    *(-scale * np.array(dark.shape[::-1]) / 2))
+    x, y = turned((x, y), yaw, *corner)
+    return (np.asarray(dark > limit), known, (x, y, yaw + radians(degrees)),
+            [f'{path}: its walls are turned by {degrees:.1f} degrees'])
 
 
 def _plan(path: Path, dark: np.ndarray, known: np.ndarray, scale: float,
-          origin: tuple[float, float, float], with_doors: bool) -> Plan:
-    """Rooms are where it is known. `origin`: x, y and yaw of the picture's lower left corner."""
+          origin: Origin, with_doors: bool, said: Sequence[str]) -> Plan:
+    """Rooms are where it is known."""
     if max(dark.shape) * scale > FARTHEST:
         raise Failure(f'{path}: is {max(dark.shape) * scale:.0f} m wide at {scale:g} m a pixel, '
                       f'at most {FARTHEST:g} m are read')
@@ -152,9 +154,13 @@ def _plan(path: Path, dark: np.ndarray, known: np.ndarray, scale: float,
     if thick:
         remarks.append(f'{path}: {len(thick)} dark spots at walls are read as wall, the largest '
                        f'{max(thick):.1f} m wide; furniture there needs a gap to its wall')
+    if not storey.rooms:
+        remarks.append(f'{path}: no space of {LEAST_ROOM:g} m2 is closed by walls, so that there '
+                       'are no rooms; check --scale')
     storey.walls += [_over(opening) for opening in storey.openings]
     _move(storey, origin)
-    return finish(Plan(slug(path.name.partition('.')[0], 'plan'), [storey], remarks=remarks))
+    return finish(Plan(slug(path.name.partition('.')[0], 'plan'), [storey],
+                       remarks=[*said, *remarks]))
 
 
 def _storey(path: Path, dark: np.ndarray, known: np.ndarray, scale: float, with_doors: bool,
@@ -234,7 +240,7 @@ def _piece(rows: slice, columns: slice, scale: float) -> Piece:
                  FURNITURE_HEIGHT)
 
 
-def _move(storey: Storey, origin: tuple[float, float, float]) -> None:
+def _move(storey: Storey, origin: Origin) -> None:
     """Turns and shifts a storey that was read in the picture's frame."""
     x, y, yaw = origin
 
