@@ -14,14 +14,21 @@ from geometry_msgs.msg import Point, Pose
 from harness import Angen, Inbox, Master, end
 from std_srvs.srv import Empty
 
-WORLD = '''<?xml version="1.0"?>
+LONG = 'x' * 200
+WORLD = f'''<?xml version="1.0"?>
 <sdf version="1.6" xmlns:angen="angen"><world name="home">
-  <angen:storey name="Ground floor" number="0"><angen:elevation>0</angen:elevation>
-    <angen:height>2.7</angen:height></angen:storey>
+  <angen:storey name="&lt;img src=x onerror=alert(2)&gt;" number="0">
+    <angen:elevation>0</angen:elevation><angen:height>2.7</angen:height></angen:storey>
   <angen:room name="kitchen0"><angen:use>kitchen</angen:use>
     <angen:polygon>-4 0  4 0  4 6  -4 6</angen:polygon></angen:room>
   <angen:room name="hall0"><angen:use>hall</angen:use>
-    <angen:polygon>-4 -5  4 -5  4 0  -4 0</angen:polygon></angen:room>
+    <angen:polygon>-4 -4  4 -4  4 0  -4 0</angen:polygon></angen:room>
+  <angen:room name="&lt;img src=x onerror=alert(1)&gt;">
+    <angen:polygon>-4 -5  -1 -5  -1 -4  -4 -4</angen:polygon></angen:room>
+  <angen:room name="__proto__">
+    <angen:polygon>-1 -5  2 -5  2 -4  -1 -4</angen:polygon></angen:room>
+  <angen:room name="a/b 'c' &quot;d&quot; \u53a8\u623f $x^2${LONG}">
+    <angen:polygon>2 -5  4 -5  4 -4  2 -4</angen:polygon></angen:room>
   <model name="ground"><static>true</static><link name="link">
     <collision name="c"><geometry><plane><normal>0 0 1</normal></plane></geometry></collision>
     <visual name="v"><geometry><plane><normal>0 0 1</normal></plane></geometry></visual>
@@ -137,6 +144,10 @@ def test_hostile_names_are_text(home: Angen, page: Page) -> None:
                HOSTILE)
     page.run('angen.show(angen.home.entities.find((e) => e.name === arguments[0]))', HOSTILE)
     assert page.text('#card h2') == HOSTILE
+    page.run('angen.panels.open("rooms")')
+    shown = page.text('#panel')
+    for room in page.run('return angen.home.rooms.map((room) => room.name)'):
+        assert room.rstrip('0').replace('_', ' ').strip().lower() in shown.replace('_', ' ').lower()
     assert page.run('return document.querySelectorAll("img[src=x]").length') == 0
     home.call('/angen/delete', Delete, name=HOSTILE)
 
