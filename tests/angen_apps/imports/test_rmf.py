@@ -97,6 +97,16 @@ def test_leaves_slide_and_turn_in_the_world(tmp_path: Path) -> None:
     assert {'L1_slider', 'L1_main_left', 'L1_main_right'} <= names
 
 
+def test_a_telescope_slides_and_a_door_may_have_no_name(tmp_path: Path) -> None:
+    path = building(tmp_path)
+    path.write_text(path.read_text().replace('[1, sliding], name: [1, L1_slider]',
+                                             '[1, telescope], name: [1, ""]'))
+    ground = read_rmf(path).storeys[0]
+    door, = (o for o in ground.openings if o.name != 'L1_main')
+    assert door.name == 'room0' or door.name == 'store0'
+    assert [abs(leaf.slide) for leaf in door.leaves] == [pytest.approx(1.0)]
+
+
 def test_measurements_that_are_missing_are_an_error(tmp_path: Path) -> None:
     path = building(tmp_path)
     path.write_text(path.read_text().replace('measurements', 'guesses'))

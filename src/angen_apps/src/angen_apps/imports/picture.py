@@ -12,7 +12,7 @@ from scipy.ndimage import binary_closing, binary_opening, label
 
 from angen_apps.imports.flood import rooms_of
 from angen_apps.imports.raster import (darkness, reduced, straightened, threshold, turn_of,
-                                      without_noise)
+                                       without_noise)
 from angen_apps.imports.source import FARTHEST, read_bytes
 from angen_apps.plan.finish import finish, room_at, sides
 from angen_apps.plan.model import Leaf, Opening, Piece, Plan, Point, Storey, Wall, turned

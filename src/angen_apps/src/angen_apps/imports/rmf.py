@@ -26,6 +26,7 @@ HEIGHT = 2.5  # m of a wall, unless the file says
 SLAB = 0.2  # m
 DOOR_HEIGHT = 2.1  # m
 LAP = 0.03  # m of a leaf before the jamb, where it slides before the wall
+SLIDING = ('sliding', 'telescope')  # panels that slide one behind the other are built as one
 LIMIT = 20_000  # entries of a list
 READ = ('vertices', 'walls', 'doors', 'measurements', 'fiducials', 'elevation', 'drawing')
 ALIASES = 100
@@ -218,8 +219,7 @@ class _Building:
             start, width = _clear(storey.walls, start, yaw, width)
             end = turned(start, yaw, width, 0.0)
             leaves = self._leaves(item, kind, width, texts)
-            name = plain_name(self.file.text(texts['name'], 'name'), '') \
-                if 'name' in texts else ''
+            name = plain_name(str(getattr(texts.get('name'), 'value', '') or ''), '')
             storey.openings.append(Opening(
                 'door', (start[0] + end[0]) / 2, (start[1] + end[1]) / 2, yaw, width,
                 level.elevation, level.elevation + DOOR_HEIGHT, (-THICK / 2, THICK / 2), leaves,
@@ -234,7 +234,7 @@ class _Building:
         at_end = 'motion_axis' in texts and self.file.text(texts['motion_axis'], '') == 'end'
         turn = (1 if way > 0 else -1) * min(abs(degrees), 170) * pi / 180
         half = width / 2
-        if kind in ('hinged', 'telescope') and not at_end:
+        if kind == 'hinged' and not at_end:
             return (Leaf((-half + 0.005, 0.0), width - 0.01, 0.0, turn),)
         if kind == 'hinged':
             return (Leaf((half - 0.005, 0.0), width - 0.01, pi, -turn),)
@@ -245,14 +245,14 @@ class _Building:
             return (Leaf((-half + 0.005, 0.0), left - 0.01, 0.0, turn),
                     Leaf((half - 0.005, 0.0), width - left - 0.01, pi, -turn))
         v = THICK / 2 + 0.01  # it slides along the wall's face
-        west = Leaf((-half - LAP, v), (width if kind == 'sliding' else half) + LAP, 0.0, 0.0)
+        west = Leaf((-half - LAP, v), (width if kind in SLIDING else half) + LAP, 0.0, 0.0)
         east = Leaf((half + LAP, v + LEAF_THICK), west.width, pi, 0.0)
-        if kind == 'sliding':
+        if kind in SLIDING:
             return (replace(east if at_end else west, slide=-width),)
-        if kind == 'double_sliding':
+        if kind in ('double_sliding', 'double_telescope'):
             return replace(west, slide=-half), replace(east, slide=-half)
-        raise self.file.fail(item, f'the door is {kind}; hinged, double_hinged, sliding and '
-                             'double_sliding are known')
+        raise self.file.fail(item, f'the door is {kind}, must be hinged, double_hinged, '
+                             'sliding, double_sliding, telescope or double_telescope')
 
     def _lifts(self, plan: Plan, levels: list[_Level]) -> None:
         numbers = {level.name: i for i, level in enumerate(levels)}
