@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable
+from typing import Any, Callable, Collection, Sequence
 
 import numpy as np
 from scipy.ndimage import binary_propagation, distance_transform_edt
@@ -95,17 +95,19 @@ def load_world(path: str, seed: int = 0) -> Any:
         return angen.Replay(path).world() if _is_log(path) else angen.World(path, seed)
 
 
-def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH) -> GridMap:
+def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH,
+             but: Collection[str] = ()) -> GridMap:
     """The map of a floor: everything between LOW and `high` (m) above it. Changes the world.
 
     Robots and people are left out; elevators are at that floor with open doors, where they
-    serve it. Doors are left out (`doors='away'`), `'open'` or `'shut'`. FREE is floor
+    serve it. Doors are left out (`doors='away'`), `'open'` or `'shut'`, but those named in `but`
+    are shut. FREE is floor
     that is connected to a place where a robot fits; the insides of walls and furniture, and
     ground that is not a floor, are UNKNOWN. Failure where the world has no such floor; it
     names those it has.
     """
     height = Home.of_world(world).elevation(floor)
-    _prepare(world, floor, doors)
+    _prepare(world, floor, doors, but)
     surveyor = _Surveyor(world, high)
     bounds = surveyor.bounds(height)
     if bounds is None:
@@ -145,7 +147,7 @@ def models_with(world: Any, joint: str) -> list[str]:
     return [name.removesuffix(ends) for name in world.joints if name.endswith(ends)]
 
 
-def _prepare(world: Any, floor: int, doors: str) -> None:
+def _prepare(world: Any, floor: int, doors: str, but: Collection[str]) -> None:
     """Removes everything that no map shows, and moves doors and elevators to their mapped state."""
     leave_out = world.devices('person') + models_with(world, 'left_wheel_joint')
     if doors == 'away':
@@ -153,23 +155,26 @@ def _prepare(world: Any, floor: int, doors: str) -> None:
     for name in leave_out:
         world.delete(name)
     # Leaves of a model that is more than a door are not in the way either.
-    text, mode = ('Close', 'CLOSED') if doors == 'shut' else ('Open', 'OPEN')
-    _send(world, 'door', text, lambda s: s['mode'] == mode)
-    _send(world, 'elevator', f'Floor{floor}',
+    opened = [name for name in world.devices('door') if doors != 'shut' and name not in but]
+    others = [name for name in world.devices('door') if name not in opened]
+    _send(world, 'door', opened, 'Open', lambda s: s['mode'] == 'OPEN')
+    _send(world, 'door', others, 'Close', lambda s: s['mode'] == 'CLOSED')
+    _send(world, 'elevator', world.devices('elevator'), f'Floor{floor}',
           lambda s: s['floor'] == floor and s['mode'] == 'IDLE' and s['door_mode'] == 'OPEN')
 
 
-def _send(world: Any, kind: str, text: str, done: Callable[[dict[str, Any]], bool]) -> None:
-    names = []
-    for name in world.devices(kind):
+def _send(world: Any, kind: str, names: Sequence[str], text: str,
+          done: Callable[[dict[str, Any]], bool]) -> None:
+    sent = []
+    for name in names:
         try:
             world.command(kind, name, text)
-            names.append(name)
+            sent.append(name)
         except angen_module().Error:
             continue  # an elevator that does not serve this floor stays where it is
     for _ in range(int(SETTLE / 0.5)):
         world.run(0.5)
-        if all(done(world.device(kind, name)) for name in names):
+        if all(done(world.device(kind, name)) for name in sent):
             break
 
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Collection
 
 import numpy as np
 from lxml import etree
@@ -23,10 +23,11 @@ class Survey:
     """A world's geometry: its floors' maps with doors open and shut, and its doors.
 
     `world` and `shut` are two worlds of the same file; it changes both: they lose robots and
-    people, and their doors are open and shut.
+    people, and their doors are open and shut; those named in `but` are shut in both.
     """
 
-    def __init__(self, world: Any, shut: Any, only: set[int] | None = None) -> None:
+    def __init__(self, world: Any, shut: Any, only: set[int] | None = None,
+                 but: Collection[str] = ()) -> None:
         self.world, self.shut_world = world, shut
         self.home = Home.of_world(world)
         self.maps: dict[int, GridMap] = {}
@@ -34,7 +35,7 @@ class Survey:
         self.shut: dict[int, GridMap] = {}
         known = set(floors(world))
         for floor in sorted(known if only is None else only & known):
-            self.maps[floor] = make_map(world, floor, 'open')
+            self.maps[floor] = make_map(world, floor, 'open', but=but)
             self.shut[floor] = make_map(shut, floor, 'shut')
             both = np.maximum(self.maps[floor].cells, self.shut[floor].cells)
             self.landmarks[floor] = replace(self.shut[floor], cells=both)

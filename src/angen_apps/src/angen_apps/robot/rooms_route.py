@@ -6,6 +6,7 @@ import sys
 from dataclasses import replace
 from math import cos, hypot, sin
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from lxml import etree
@@ -56,7 +57,7 @@ def by_rooms(route: Route, world: Path, to: Path) -> tuple[Route, Path, Survey]:
     at the main entrance and a person in the last room in `to`, where the world has none."""
     shut = load_world(str(world))
     entities = entities_of(shut)
-    survey = Survey(load_world(str(world)), shut)
+    survey = Survey(load_world(str(world)), shut, but=_kept_shut(shut, entities, route))
     planners = {floor: Planner(grid, route.clearance) for floor, grid in survey.maps.items()}
     start, floor, heading = _start(route, survey, planners, entities, world)
     lift = lift_of(survey.home, planners[floor], floor)
@@ -66,6 +67,18 @@ def by_rooms(route: Route, world: Path, to: Path) -> tuple[Route, Path, Survey]:
     made = replace(route, waypoints=waypoints, elevator=lift if any(
         waypoint.floor != floor for waypoint in waypoints) else None)
     return made, _peopled(made, survey, entities, (start, floor, heading), world, to), survey
+
+
+def _kept_shut(world: Any, entities: list[Entity], route: Route) -> set[str]:
+    """The leaves of the main entrance, for a robot that is inside: open they may fill a hall."""
+    home = Home.of_world(world)
+    at = next((e for e in entities if (e.kind, e.name) == ('drive', route.robot)), None)
+    if at is not None:
+        room = home.room_at(at.pose[0], at.pose[1], at.pose[2] + 0.1)
+        if room is None or room.use in OUTSIDE:
+            return set()
+    return {name for door in home.doors if door.name == home.entrance
+            for name in (door.name, door.partner) if name}
 
 
 def _start(route: Route, survey: Survey, planners: dict[int, Planner], entities: list[Entity],
