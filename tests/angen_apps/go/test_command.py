@@ -2,7 +2,9 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,7 +15,7 @@ from angen_apps.maps.gridmap import GridMap
 from angen_apps.robot.planner import Planner
 from angen_apps.robot.rooms_route import lift_of
 from angen_tools.common.failure import Failure, WrongWords
-from angen_tools.common.home import Elevator, Home, Landing, Room
+from angen_tools.common.home import Elevator, Home, Landing, Room, Storey
 
 WALL, TABLE = 100, (slice(35, 46), slice(15, 26))  # a table in the middle of the room
 
@@ -55,15 +57,27 @@ def test_a_wrong_goal_is_named(words: list[str], part: str, planners: dict[int, 
     assert part in str(caught.value)
 
 
-def test_a_wrong_room_is_named_before_the_building_is_surveyed(
-        monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize('words, robot, part', [
+    (['hal0'], '', "'hal0' is neither a room .* did you mean hall0"),
+    (['1', '2', '7'], '', 'there is no floor 7; known are 0'),
+    (['hall0'], 'bot2', 'the world has no robot bot2; did you mean bot'),
+    (['hall0'], '', 'it is surveyed')])
+def test_wrong_words_are_named_before_the_building_is_surveyed(
+        words: list[str], robot: str, part: str, monkeypatch: pytest.MonkeyPatch) -> None:
     class Client:
         def home(self) -> Home:
-            return HOME
+            return replace(HOME, storeys=[Storey(0, 'Floor 0', 0.0, 2.8)])
 
-    monkeypatch.setattr(command, 'Client', Client)  # without entities, saved world, …
-    with pytest.raises(Failure, match="'hal0' is neither a room .* did you mean hall0"):
-        command.go(['hal0'], '', False)
+        def entities(self, kind: str) -> list[SimpleNamespace]:
+            return [SimpleNamespace(name='bot')]
+
+    def survey(*_: object) -> None:
+        raise Failure('it is surveyed')
+
+    monkeypatch.setattr(command, 'Client', Client)
+    monkeypatch.setattr(command, 'Surveyed', survey)
+    with pytest.raises(Failure, match=part):
+        command.go(words, robot, False)
 
 
 def test_it_waits_before_the_doors_of_the_elevator_on_its_own_floor() -> None:

@@ -57,10 +57,12 @@ class Arrived:
 def go(words: Sequence[str], robot: str, json: bool) -> int:
     """Drives to a room, or to X Y [FLOOR]; 0 once it is there. Failure says why it is not."""
     client = Client()
-    named(words, client.home())  # before the survey, which takes seconds
+    check(words, client.home())  # before the survey, which takes seconds
     robots = [entity.name for entity in client.entities('drive')]
     if not robots:
         raise Failure('the world has no robot; angen spawn model turtlebot turtlebot adds one')
+    if robot and robot not in robots:
+        raise Failure(f'the world has no robot {robot}; {did_you_mean(robot, robots)}')
     with tempfile.TemporaryDirectory(prefix='angen_go_') as folder:
         place = Surveyed(client, Path(folder) / 'now.world')
     route = Route(Path('angen go'), [], robot or robots[0], elevator=None,
@@ -146,6 +148,15 @@ def goal_of(words: Sequence[str], home: Home, planners: Mapping[int, Planner]) -
     if floor not in planners:
         raise Failure(f'there is no floor {floor:g}; known are {", ".join(map(str, planners))}')
     return Waypoint(f'{found[0]:g} {found[1]:g}', int(floor), (found[0], found[1]), 0)
+
+
+def check(words: Sequence[str], home: Home) -> None:
+    """Failure where the words name no room or floor of a home."""
+    found = named(words, home)
+    if isinstance(found, Room) or len(found) < 3 or not home.described:
+        return
+    if found[2] not in (known := [storey.number for storey in home.storeys]):
+        raise Failure(f'there is no floor {found[2]:g}; known are {", ".join(map(str, known))}')
 
 
 def named(words: Sequence[str], home: Home) -> Room | list[float]:
