@@ -14,7 +14,7 @@ from angen_apps.viewer.views import framed
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
 
-LIMIT = 20.0  # s that scene and home take to come
+LIMIT = 120.0  # s that scene and home take to come: until a large world is loaded
 
 
 def received(config: dict[str, Any]) -> dict[str, Any]:
