@@ -35,7 +35,8 @@ def add_care(commands: Any) -> None:
                    'care --world worlds/care/wrong.world --day worlds/care/wrong.csv --for 24h')
     care.set_defaults(parser=care)
     care.add_argument('rules', metavar='RULES', nargs='?', type=Path,
-                      help='a YAML file (config/care.yaml of angen_apps)')
+                      help='a YAML file of rules, as docs/care.md describes it (config/care.yaml '
+                      'of angen_apps)')
     care.add_argument('--world', metavar='WORLD', type=Path,
                       help='simulates this world as fast as possible')
     care.add_argument('--for', metavar='TIME', dest='span', type=checked(duration),

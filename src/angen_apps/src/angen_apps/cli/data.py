@@ -118,7 +118,8 @@ def add_generate(commands: Any) -> None:
     made.add_argument('--days', metavar='N', type=checked(at_least(1, 36525)), default=1,
                       help='days of each home (1)')
     made.add_argument('--residents', metavar='WHO', type=checked(residents), default=('2',),
-                      help='how many, or profiles between commas: names or YAML files (2)')
+                      help='how many, or profiles between commas: retired, worker, student, … or '
+                      'YAML files, as docs/data.md describes them (2)')
     add_seed(made, 'of everything')
     made.add_argument('--format', metavar='LIST', type=checked(formats), default=('casas',),
                       help=f'formats between commas: {", ".join(NAMES)} (casas)')
@@ -129,7 +130,8 @@ def add_generate(commands: Any) -> None:
     made.add_argument('--own-sensors', action='store_true',
                       help="uses the world's sensors and adds none")
     made.add_argument('--light', action='store_true', help='adds a light sensor to each room; slow')
-    made.add_argument('--faults', metavar='FILE', type=Path, help='a YAML file of faults')
+    made.add_argument('--faults', metavar='FILE', type=Path,
+                      help='a YAML file of faults of sensors, as docs/data.md describes it')
     made.add_argument('--homes', metavar='N', type=checked(at_least(1, 100_000)), default=1,
                       help='homes, each in a folder of its own (1)')
     made.add_argument('--processes', metavar='N', type=checked(at_least(1, 1000)),

@@ -21,5 +21,5 @@ def add_go(commands: Any) -> None:
     parser.add_argument('goal', metavar='ROOM|X Y [FLOOR]', nargs='+',
                         help='a room, or a place in the world in m and its floor (0)')
     parser.add_argument('--robot', metavar='NAME', default='',
-                        help='as angen list --kind drive shows it (the first)')
+                        help='which robot, as angen list --kind drive shows it (the first)')
     add_json(parser)

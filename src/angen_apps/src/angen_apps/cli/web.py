@@ -36,7 +36,7 @@ def add_web(commands: Any) -> None:
     web.add_argument('--world', metavar='FILE', type=Path,
                      help='the world of --replay, where a home of your own was generated')
     web.add_argument('--port', metavar='N', type=checked(port), default=PORT,
-                     help=f'of HTTP ({PORT})')
+                     help=f'port of the page ({PORT})')
     web.add_argument('--host', metavar='ADDRESS', default='127.0.0.1',
                      help='an address of this machine that other machines reach, or 0.0.0.0: the '
                      'address that it prints then has a token (127.0.0.1)')

@@ -126,7 +126,8 @@ def add_sensor(choices: Any, kind: Plugin) -> None:
     add_name(sensor)
     sensor.add_argument('--on', metavar='MODEL::LINK', type=checked(link), required=on_link,
                         help='the link that carries it'
-                        + ('' if on_link else '; a static model without')
+                        + ('' if on_link else '; without it, the sensor is a model of its own, '
+                           'fixed in the world')
                         + ('; it watches all collisions of that link unless --set collision=NAME'
                            if has_parameter(kind, 'contact/collision') else ''))
     complete.completed_by(
@@ -294,7 +295,8 @@ def add_watch(commands: Any) -> None:
 
 def add_top(commands: Any) -> None:
     top = command(commands, 'top', run_top,
-                  'shows the costs of each device and sensor, live; space turns the page, q quits',
+                  'shows the CPU time of each device and sensor, live; space turns the page, '
+                  'q quits',
                   'top', 'top --once')
     top.add_argument('--once', action='store_true', help='prints one table')
     top.add_argument('--json', action='store_true', help='prints one table as JSON')
@@ -304,5 +306,6 @@ def add_drive(commands: Any) -> None:
     parser = command(commands, 'drive', run_drive, 'drives a robot by the arrow keys',
                      'drive', 'drive --robot robot2')
     complete.completed_by(parser.add_argument(
-        '--robot', metavar='NAME', help='as angen list --kind drive shows it (the first)'),
+        '--robot', metavar='NAME',
+        help='which robot, as angen list --kind drive shows it (the first)'),
         complete.names_of('drive'))
