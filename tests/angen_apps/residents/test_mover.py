@@ -9,8 +9,10 @@ from random import Random
 from angen_apps.data.site import Site, apartment as furnished
 from angen_apps.plan.apartment import apartment
 from angen_apps.plan.writer import write_world
+from angen_apps.residents.activities import Step
 from angen_apps.residents.ground import BODY
 from angen_apps.residents.household import Household
+from angen_apps.residents.places import Places, Spot
 from angen_apps.residents.profiles import read
 from angen_apps.residents.resident import Resident
 
@@ -60,3 +62,46 @@ def test_a_resident_rides_the_elevator_up_and_down(tmp_path):
     for arrived, storey, away, inside, z in seen:
         assert arrived and inside and away < 0.2 and abs(z - floors[storey]) < 0.02
     assert not household.held
+
+
+def test_who_is_blocked_shuts_leaves_that_nobody_holds(tmp_path):
+    furnished(tmp_path / 'home.world')
+    site, household, anna = home_of(tmp_path / 'home.world')
+    doors = ('kitchen0', 'bathroom0', 'bedroom0')
+    for door in doors:
+        site.world.command('door', door, 'Open')
+    household.run(6.0)
+    place = {d.name: d.pose for d in site.home.doors if d.kind == 'door'}
+    x, y = ((place['kitchen0'][i] + place['bathroom0'][i]) / 2 for i in (0, 1))
+    at = site.ground.near(x, y, 0.0)
+    anna.enter(Spot(at, 0, 0.0, 'entrance0'))
+    held = [door for door in doors if math.dist(at, place[door][:2]) < 2.5][0]
+    household.take(('door', held), 'bert')
+    anna._shut_around()
+    household.run(household.now + 8.0)
+    for door in doors:
+        near = door != held and math.dist(at, place[door][:2]) < 2.5
+        assert site.simulator.state('door', door)['mode'] == ('CLOSED' if near else 'OPEN'), door
+
+
+def test_nobody_sits_where_a_table_covers_the_seat(tmp_path):
+    path = tmp_path / 'home.world'
+    furnished(path)
+    _, household, _ = home_of(path)
+    chairs = household.places.spots(Step(at=('chair',), posture='sit'))
+    x, y, z = chairs[0].place.pose[:3]
+    board = (f'<model name="board"><static>true</static><pose>{x} {y} {z + 0.3} 0 0 0</pose>'
+             '<link name="l"><collision name="c"><geometry><box><size>0.5 0.5 0.03</size></box>'
+             '</geometry></collision></link></model>')
+    path.write_text(path.read_text().replace('</world>', board + '</world>'))
+    _, household, _ = home_of(path)
+    left = household.places.spots(Step(at=('chair',), posture='sit'))
+    assert {c.key for c in chairs} - {c.key for c in left} == {chairs[0].key}
+
+
+def test_who_cannot_get_near_a_thing_stands_in_its_room(tmp_path, monkeypatch):
+    furnished(tmp_path / 'home.world')
+    site, _, _ = home_of(tmp_path / 'home.world')
+    monkeypatch.setattr(site.ground, 'near', lambda *_: None)
+    spots = Places(site.ground).spots(Step(at=('fridge',)))
+    assert spots and all(spot.room == 'kitchen0' and not spot.thing for spot in spots)

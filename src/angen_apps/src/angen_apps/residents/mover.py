@@ -19,6 +19,7 @@ TRIES = 3
 DOOR_WAIT = 20.0  # s to wait for another person in a doorway
 OPENS_IN = 12.0  # s
 LIFT_WAIT = 90.0  # s for an elevator, or for somebody else in it
+LEAVES_AROUND = 2.5  # m to the middle of their doorways
 ASIDE = 0.55  # m between the middles of two people
 NEARER = 0.05  # m
 BACK = 0.25  # m: a step back
@@ -134,6 +135,7 @@ class Mover:
             if self.arrived:
                 return
             if attempt + 1 < TRIES:
+                self._shut_around()
                 yield from self._aside(attempt)
 
     def _ride(self, storey: int) -> Process:
@@ -194,9 +196,10 @@ class Mover:
                         return
                     held = leg.door
                 for j, point in enumerate(leg.points):
-                    last = i == len(legs) - 1 and j == len(leg.points) - 1
+                    ends = j == len(leg.points) - 1
+                    last = ends and i == len(legs) - 1
                     yield from self._walk(point, THERE if last else PASSED, held)
-                    if not self._came:
+                    if not self._came and ends:  # a leaf or a chair may be at another point
                         return
                     if held and math.dist(self.at, held.pose[:2]) > SWING:
                         self._let_go(held)
@@ -272,6 +275,18 @@ class Mover:
         if shuts and beyond and self.profile.body == 'person' \
                 and self.household.doorway_free(*door.pose[:2], self.storey, self.name):
             self.household.do(self.name, 'door', door.name, 'CloseByHand')
+
+    def _shut_around(self) -> None:
+        """Shuts open leaves nearby that nobody uses: two of them can close off a corridor."""
+        for door in self.ground.home.doors:
+            x, y, z, _ = door.pose
+            if (door.kind == 'door' and self.profile.body == 'person'
+                    and PASSED < math.dist(self.at, (x, y)) < LEAVES_AROUND
+                    and self.ground.storey_at(z) == self.storey
+                    and ('door', door.name) not in self.household.held
+                    and self.household.doorway_free(x, y, self.storey, self.name)
+                    and self.simulator.state('door', door.name).get('mode') == 'OPEN'):
+                self.household.do(self.name, 'door', door.name, 'CloseByHand')
 
     def _aside(self, attempt: int) -> Process:
         """Steps aside before another try."""

@@ -12,8 +12,10 @@ from angen_tools.common.home import Place, Room, Thing
 
 FAR = 1.9  # m from a standing person to the middle of a bed
 TOWARDS = 0.62  # m from the middle of a thing without places to its user
+COVERED = 0.12  # m above a seat: a table there, under which the chair is pushed
 LIE = 8  # people on the floor of a room
 OUTSIDE, ENTRANCE = 'outside', 'entrance'
+IN_ROOM = 'in room'  # in place of a posture
 UNUSED = ('landing', 'outdoor')
 
 
@@ -55,6 +57,8 @@ class Places:
         """The spots for a step, the best first; empty if no thing and no room serves."""
         posture = 'stand' if step.posture == 'roam' else step.posture
         found = [spot for what in step.at for spot in self._of(what, posture)]
+        if not found and posture == 'stand':
+            found = [spot for what in step.at for spot in self._of(what, IN_ROOM)]
         if not found and step.room:
             found = self.free(step.room, Random(step.room), 1)
         return found
@@ -111,8 +115,17 @@ class Places:
         found = []
         for thing in sorted(self.home.things, key=lambda t: t.name):
             if thing.type == kind and (not use or self.use(thing.room) == use):
-                found += self._at(thing, posture)
+                found += self._in_room(thing) if posture == IN_ROOM else self._at(thing, posture)
         return found
+
+    def _in_room(self, thing: Thing) -> list[Spot]:
+        """On the open floor of a thing's room: for one that nobody gets near to."""
+        room = self._rooms.get(thing.room)
+        if room is None or room.storey not in self.ground.planners:
+            return []
+        z = self.ground.elevation(room.storey)
+        return [Spot(point, room.storey, z, room.name)
+                for point in self.ground.spots(room.name, 1, Random(thing.name))]
 
     def _at(self, thing: Thing, posture: str) -> list[Spot]:
         room = self._rooms.get(thing.room)
@@ -130,7 +143,10 @@ class Places:
                 continue
             seat = None
             if posture != 'stand':
-                seat = replace(place, pose=(x, y, self.ground.support(place), place.pose[3]))
+                support = self.ground.support(place)
+                if posture == 'sit' and support > place.pose[2] + COVERED:
+                    continue
+                seat = replace(place, pose=(x, y, support, place.pose[3]))
             found.append(Spot(stand, room.storey, floor, thing.room, thing.name, seat))
         return found
 
