@@ -172,6 +172,9 @@ def test_a_phone_shows_a_plan_to_tap(home: Angen, server: Server, page: Page) ->
     box = page.until('''const e = document.querySelector("g.item.lamp .touch")
         ?.getBoundingClientRect(); return e && [e.x + e.width / 2, e.y + e.height / 2, e.width]''')
     assert box[2] >= 24  # px, the least target of WCAG 2.2
+    leaf = page.run('''const l = document.querySelector("g.item.door .leaf"), at = (name) =>
+        l.getAttribute(name); return Math.hypot(at("x1") - at("x2"), at("y1") - at("y2"))''')
+    assert leaf == pytest.approx(0.99, abs=0.02)  # m, as wide as its door
     page.click(*box[:2])
     with Inbox(f'/angen/lamp/{LAMP}', LampState) as states:
         page.press('#card [data-verb="Off"]')

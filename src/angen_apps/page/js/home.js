@@ -1,6 +1,6 @@
 /** The state that the server sends, and what is derived from it; views listen to its parts. */
 import { Connection } from './connection.js';
-import { notice } from './dom.js';
+import { clockText, notice } from './dom.js';
 
 /** @typedef {{kind: string, name: string, model: string, topic: string, type: string, room: string, pose: number[]}} Entity */
 /** @typedef {{kind: string, name: string, text: string, alarm: boolean, stamp: number, values: (number | null)[]}} Row */
@@ -193,6 +193,15 @@ export class Home {
 
   // --- derived
 
+  /**
+   * The clock of the home.
+   * @param {number} time s since the start of the run
+   */
+  clock(time) {
+    const start = /T(\d+):(\d+):(\d+)/.exec(this.described?.start ?? '');
+    return clockText(start ? (Number(start[1]) * 3600 + Number(start[2]) * 60 + Number(start[3]) + time) % 86400 : time);
+  }
+
   /** @param {number} link @returns {ArrayLike<number>} */
   pose(link) {
     return this.poses.get(link) ?? this.scene.links[link].pose;
@@ -313,4 +322,16 @@ export function inside(polygon, x, y) {
     if ((yi > y) !== (yj > y) && x < ((xj - xi) * (y - yi)) / (yj - yi) + xi) is = !is;
   }
   return is;
+}
+
+/** @param {number[][]} polygon @returns {number[]} */
+export function middleOf(polygon) {
+  let area = 0, x = 0, y = 0;
+  polygon.forEach(([x0, y0], i) => {
+    const [x1, y1] = polygon[(i + 1) % polygon.length], cross = x0 * y1 - x1 * y0;
+    area += cross;
+    x += (x0 + x1) * cross;
+    y += (y0 + y1) * cross;
+  });
+  return area ? [x / (3 * area), y / (3 * area)] : polygon[0];
 }

@@ -1,9 +1,12 @@
 /** Names of rooms and people over the 3D view. */
 import * as THREE from '../vendor/three/three.module.min.js';
 import { by, el } from './dom.js';
-import { inside } from './home.js';
+import { inside, middleOf } from './home.js';
+import { Taken } from './places.js';
 
 const MOST = 26; // rooms with a label
+const LINE = 24; // px of a label's height
+const NEAR = [0, 1, -1].map((line) => [0, line * LINE]), OTHERS = [0, -1, 1, -2, -3, 2, 3].map((line) => [0, line * LINE]); // px
 
 export class Labels {
   constructor() {
@@ -12,7 +15,7 @@ export class Labels {
   }
 
   /**
-   * Places them as the camera sees them; where two would cover each other, the first one stays.
+   * Places them as the camera sees them; where two would cover each other, the second one moves up or down.
    * @param {import('./view3d.js').View3d} view
    */
   place(view) {
@@ -36,8 +39,7 @@ export class Labels {
     for (const [key, label] of this.shown) {
       if (!due.has(key)) { label.remove(); this.shown.delete(key); }
     }
-    /** @type {number[][]} */
-    const taken = [];
+    const taken = new Taken();
     for (const [key, { at, text, lit, person, small, behind }] of due) {
       let label = this.shown.get(key);
       if (!label) {
@@ -53,10 +55,9 @@ export class Labels {
       label.classList.toggle('behind', Boolean(behind));
       point.fromArray(at).project(view.viewpoint.camera);
       const x = ((point.x + 1) / 2) * width, y = ((1 - point.y) / 2) * height, half = label.half || 40;
-      const free = point.z < 1 && !taken.some(([u, v, w]) => Math.abs(u - x) < half + w + 4 && Math.abs(v - y) < 24);
-      if (free) taken.push([x, y, half]);
+      const free = point.z < 1 ? taken.put([x, y, half + 2, LINE / 2], person ? OTHERS : NEAR) : null;
       label.style.visibility = free ? '' : 'hidden';
-      label.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
+      if (free) label.style.transform = `translate(${x + free[0]}px, ${y + free[1]}px) translate(-50%, -50%)`;
     }
   }
 }
@@ -72,18 +73,6 @@ function isBehind(view, rooms, at) {
     const part = (room.floor - at[2]) / (eye.z - at[2]);
     return inside(room.polygon, at[0] + part * (eye.x - at[0]), at[1] + part * (eye.y - at[1]));
   });
-}
-
-/** @param {number[][]} polygon @returns {number[]} */
-export function middleOf(polygon) {
-  let area = 0, x = 0, y = 0;
-  polygon.forEach(([x0, y0], i) => {
-    const [x1, y1] = polygon[(i + 1) % polygon.length], cross = x0 * y1 - x1 * y0;
-    area += cross;
-    x += (x0 + x1) * cross;
-    y += (y0 + y1) * cross;
-  });
-  return area ? [x / (3 * area), y / (3 * area)] : polygon[0];
 }
 
 /**

@@ -1,10 +1,15 @@
 /** The plan of one floor, as SVG: large targets, and each item reached by the keyboard. */
-import { by, svg } from './dom.js';
+import { by, el, svg } from './dom.js';
 import { fieldShape } from './fields.js';
-import { middleOf, roomText } from './labels.js';
+import { roomText } from './labels.js';
 import { MOVES, scanPoints } from './overlays.js';
+import { Taken, around, nameOf } from './places.js';
 
 const SHOWN = new Set(['lamp', 'door', 'window', 'elevator', 'stove', 'heater', 'appliance', 'cabinet']);
+const LETTER = 0.66; // of a text's height: the width of a letter
+const MARGIN = 0.6; // m around all that is shown
+const BODY = 0.22; // m: half of a person's mark
+const HEIGHT = 0.9; // m of walls over their floor that are drawn where the home has no rooms
 
 export class Plan {
   /** @param {import('./home.js').Home} home @param {(hit: any) => void} onPick */
@@ -16,6 +21,9 @@ export class Plan {
     this.withFields = false;
     this.stale = true;
     this.goal = /** @type {number[] | null} */ (null);
+    this.text = 0; // m of height
+    /** @type {number[][]} */
+    this.names = []; // boxes of the rooms' names
     this.element = by('plan');
     /** @type {Map<string, any>} */
     this.items = new Map();
@@ -47,16 +55,19 @@ export class Plan {
     this.stale = false;
     this.items.clear();
     const { home } = this, number = this.number();
-    const rooms = home.rooms.filter((room) => room.storey === number);
-    const corners = rooms.flatMap((room) => room.polygon);
-    if (!corners.length) {
-      this.element.replaceChildren(svg('svg', {}, svg('text', { x: 200, y: 60 }, 'This home names no rooms.')));
+    const rooms = home.rooms.filter((room) => room.storey === number), shown = home.entities.filter((e) => this.isShown(e, number));
+    const walls = rooms.length ? [] : this.walls(number);
+    const places = [...rooms.flatMap((room) => room.polygon), ...walls.map((/** @type {any} */ shape) => this.placeOf(shape)),
+      ...shown.filter((e) => !rooms.length || !home.isMover(e)).map((e) => Array.from(home.place(e)))];
+    if (!places.length) {
+      this.root = null;
+      this.element.replaceChildren(el('p', { class: 'soft' }, 'This world has no rooms and no devices.'));
       return;
     }
-    const xs = corners.map(([x]) => x), ys = corners.map(([, y]) => y), margin = 0.6;
-    const left = Math.min(...xs) - margin, top = -Math.max(...ys) - margin;
-    const width = Math.max(...xs) + margin - left, height = -Math.min(...ys) + margin - top;
-    const text = Math.max(0.24, Math.min(0.42, width / 30));
+    const xs = places.map(([x]) => x), ys = places.map(([, y]) => y);
+    const left = Math.min(...xs) - MARGIN, top = -Math.max(...ys) - MARGIN;
+    const width = Math.max(...xs) + MARGIN - left, height = -Math.min(...ys) + MARGIN - top;
+    this.text = Math.max(0.24, Math.min(0.42, width / 30));
     this.root = svg('svg', { viewBox: `${left} ${top} ${width} ${height}`, role: 'group', 'aria-label': `Plan of floor ${number}` });
     this.root.addEventListener('click', (/** @type {MouseEvent} */ e) => this.click(e));
     const path = (/** @type {number[][]} */ p) => `M${p.map(([x, y]) => `${x.toFixed(3)} ${(-y).toFixed(3)}`).join('L')}Z`;
@@ -65,25 +76,66 @@ export class Plan {
       this.items.set(`room/${room.name}`, shape);
       this.root.append(shape);
     }
-    this.root.append(this.furniture(number));
+    this.root.append(svg('g', {}, ...walls.map((/** @type {any} */ shape) => this.rect(shape, 'walls'))), this.furniture(number));
     this.fields = svg('g');
     this.scan = svg('g', { class: 'scan' });
     this.root.append(this.fields);
-    for (const room of rooms) {
-      const [x, y] = middleOf(room.polygon);
-      this.root.append(svg('text', { x, y: -y + text * 2.3, 'font-size': text }, roomText(room)));
-    }
     for (const door of home.described?.doors ?? []) {
       const [x, y, z, yaw] = door.pose;
       if (home.storeyAt(z + 0.2) !== number) continue;
       const [dx, dy] = [(door.width / 2) * Math.cos(yaw), (door.width / 2) * Math.sin(yaw)];
       this.root.append(svg('line', { class: 'gap', x1: x - dx, y1: -(y - dy), x2: x + dx, y2: -(y + dy) }));
     }
-    for (const e of home.entities) this.addItem(e, number, text);
+    this.name(rooms, shown);
+    for (const e of [...shown].sort((a, b) => Number(home.isMover(a)) - Number(home.isMover(b)))) this.addItem(e); // people over lamps
     this.root.append(this.scan);
     this.element.replaceChildren(this.root);
     this.showGoal(this.goal);
     this.update();
+  }
+
+  /**
+   * Names of rooms, where they cover little.
+   * @param {any[]} rooms @param {any[]} shown
+   */
+  name(rooms, shown) {
+    const { home, text } = this;
+    const taken = new Taken();
+    for (const e of shown) {
+      if (!home.isMover(e)) taken.boxes.push([home.place(e)[0], home.place(e)[1], 0.2, 0.2]);
+    }
+    /** @type {number[][]} */
+    const names = []; // which those of people do not cover
+    for (const room of rooms) {
+      const name = roomText(room), [x, y] = nameOf(room.polygon, (LETTER / 2) * text * name.length, text / 2, taken);
+      names.push(taken.boxes[taken.boxes.length - 1]);
+      this.root.append(svg('text', { x, y: -y + 0.35 * text, 'font-size': text }, name));
+    }
+    this.names = names;
+  }
+
+  /** @param {any} shape a box of the scene @returns {number[]} x y yaw of its middle */
+  placeOf(shape) {
+    const link = this.home.scene.links[shape.link].pose, yaw = 2 * Math.atan2(link[5], link[6]), [c, s] = [Math.cos(yaw), Math.sin(yaw)];
+    return [link[0] + c * shape.pose[0] - s * shape.pose[1], link[1] + s * shape.pose[0] + c * shape.pose[1], yaw + 2 * Math.atan2(shape.pose[5], shape.pose[6])];
+  }
+
+  /** @param {any} shape a box of the scene @param {string} cls */
+  rect(shape, cls) {
+    const [x, y, yaw] = this.placeOf(shape), [width, depth] = shape.size;
+    return svg('rect', { class: cls, x: -width / 2, y: -depth / 2, width, height: depth, rx: 0.04, transform: `translate(${x} ${-y}) rotate(${(-yaw * 180) / Math.PI})` });
+  }
+
+  /**
+   * What stands on a floor without rooms.
+   * @param {number} number @returns {any[]} shapes
+   */
+  walls(number) {
+    const { scene } = this.home;
+    return scene.shapes.filter((/** @type {any} */ shape) => {
+      const link = scene.links[shape.link], z = link.pose[2] + shape.pose[2];
+      return shape.type === 0 && !link.moves && shape.size[2] > HEIGHT && this.home.storeyAt(z) === number;
+    });
   }
 
   /** @param {number} number */
@@ -93,31 +145,30 @@ export class Plan {
       if (home.storeyAt(thing.pose[2] + 0.2) !== number || thing.type === 'window' || thing.type === 'lamp') continue;
       const links = home.linksOf(thing.name);
       for (const shape of home.scene.shapes) {
-        if (shape.type !== 0 || !links.includes(shape.link) || shape.size[0] * shape.size[1] < 0.03) continue;
-        const link = home.scene.links[shape.link].pose, yaw = 2 * Math.atan2(link[5], link[6]);
-        const [c, s] = [Math.cos(yaw), Math.sin(yaw)], x = link[0] + c * shape.pose[0] - s * shape.pose[1];
-        const y = link[1] + s * shape.pose[0] + c * shape.pose[1], own = yaw + 2 * Math.atan2(shape.pose[5], shape.pose[6]);
-        group.append(svg('rect', { class: 'furniture', x: -shape.size[0] / 2, y: -shape.size[1] / 2, width: shape.size[0], height: shape.size[1],
-          rx: 0.04, transform: `translate(${x} ${-y}) rotate(${(-own * 180) / Math.PI})` }));
+        if (shape.type === 0 && links.includes(shape.link) && shape.size[0] * shape.size[1] >= 0.03) group.append(this.rect(shape, 'furniture'));
       }
     }
     return group;
   }
 
-  /** @param {any} e @param {number} number @param {number} text */
-  addItem(e, number, text) {
+  /** @param {any} e @param {number} number */
+  isShown(e, number) {
+    const { home } = this, moves = home.isMover(e), kind = home.kinds[e.kind], sensor = kind?.role === 'sensor';
+    const alarms = kind?.fields.some((/** @type {any} */ f) => f.alarm);
+    if (!moves && !SHOWN.has(e.kind) && !(sensor && alarms)) return false;
+    if (sensor && home.scene.links[home.linksOf(e.model)[0]]?.moves) return false;
+    return moves || home.storeyAt(home.place(e)[2]) === number;
+  }
+
+  /** @param {any} e */
+  addItem(e) {
     const { home } = this, moves = home.isMover(e), sensor = home.kinds[e.kind]?.role === 'sensor';
-    const alarms = home.kinds[e.kind]?.fields.some((/** @type {any} */ f) => f.alarm);
-    if (!moves && !SHOWN.has(e.kind) && !(sensor && alarms)) return;
-    if (sensor && home.scene.links[home.linksOf(e.model)[0]]?.moves) return;
-    const z = home.place(e)[2];
-    if (!moves && home.storeyAt(z) !== number) return;
-    const size = moves ? 0.22 : e.kind === 'lamp' ? 0.2 : sensor ? 0.1 : 0.14;
+    const size = moves ? BODY : e.kind === 'lamp' ? 0.2 : sensor ? 0.1 : 0.14;
     const item = svg('g', { class: `item ${e.kind}${home.isRobot(e) ? ' robot' : ''}${MOVES.has(e.kind) ? ' moves' : ''}`, tabindex: 0, role: 'button' },
       e.kind === 'door' ? svg('line', { class: 'leaf' }) : null,
       svg('circle', { class: 'face', r: size, visibility: e.kind === 'door' ? 'hidden' : null }),
       moves ? svg('path', { class: 'face', d: `M${size * 1.5} 0L${size * 0.7} ${-size * 0.5}V${size * 0.5}Z` }) : null,
-      moves ? svg('text', { y: -size * 1.5, 'font-size': text * 0.8 }, e.name) : null,
+      moves ? svg('text', { class: 'who', 'font-size': this.text * 0.8 }, e.name) : null,
       svg('circle', { class: 'touch', r: Math.max(0.4, size) }));
     const pick = (/** @type {Event} */ event) => { event.stopPropagation(); this.onPick({ entity: e }); };
     item.addEventListener('click', pick);
@@ -132,7 +183,12 @@ export class Plan {
 
   update() {
     if (this.hidden || !this.root || this.stale) return;
-    const { home } = this, number = this.number();
+    const { home } = this, number = this.number(), taken = new Taken(), high = 0.4 * this.text;
+    taken.boxes.push(...this.names);
+    for (const e of home.movers) {
+      const [x, y, z] = Array.from(home.place(e));
+      if (home.storeyAt(z + 0.2) === number) taken.boxes.push([x, y, BODY, BODY]);
+    }
     for (const e of home.entities) {
       const item = this.items.get(`${e.kind}/${e.name}`);
       if (!item) continue;
@@ -142,7 +198,12 @@ export class Plan {
       const yaw = Math.atan2(2 * (pose[6] * pose[5] + pose[3] * pose[4]), 1 - 2 * (pose[4] ** 2 + pose[5] ** 2));
       const door = e.kind === 'door' ? this.door(e) : null;
       item.setAttribute('transform', door ? `translate(${door.x} ${-door.y})` : `translate(${pose[0]} ${-pose[1]})`);
-      if (moves) item.querySelector('path').setAttribute('transform', `rotate(${(-yaw * 180) / Math.PI})`);
+      if (moves) {
+        item.querySelector('path').setAttribute('transform', `rotate(${(-yaw * 180) / Math.PI})`);
+        const wide = high * LETTER * e.name.length, shifts = around(BODY, wide, high);
+        const [dx, dy] = (item.style.display ? null : taken.put([pose[0], pose[1], wide, high], shifts)) ?? shifts[0];
+        item.querySelector('text').setAttribute('transform', `translate(${dx} ${0.7 * high - dy})`);
+      }
       if (door) {
         const leaf = item.querySelector('.leaf');
         for (const [name, value] of Object.entries({ x1: door.ends[0], y1: -door.ends[1], x2: door.ends[2], y2: -door.ends[3] })) leaf.setAttribute(name, value);
@@ -162,16 +223,16 @@ export class Plan {
    */
   door(e) {
     const { home } = this, described = home.described?.doors?.find((/** @type {any} */ d) => d.name === e.name && d.kind === e.kind);
-    const leaf = home.linksOf(e.model).find((link) => home.scene.links[link].moves);
-    if (!described || leaf === undefined) {
+    const links = home.linksOf(e.model).filter((link) => home.scene.links[link].moves);
+    if (!described || !links.length) {
       const [x, y] = Array.from(e.pose);
       return { x, y, ends: [-0.4, 0, 0.4, 0] };
     }
     const [x, y, , yaw] = described.pose, half = described.width / 2;
-    const box = home.scene.shapes.filter((/** @type {any} */ s) => s.link === leaf && s.type === 0)
+    const box = home.scene.shapes.filter((/** @type {any} */ s) => links.includes(s.link) && s.type === 0)
       .sort((/** @type {any} */ a, /** @type {any} */ b) => b.size[0] * b.size[1] * b.size[2] - a.size[0] * a.size[1] * a.size[2])[0];
     if (!box) return { x, y, ends: [-half * Math.cos(yaw), -half * Math.sin(yaw), half * Math.cos(yaw), half * Math.sin(yaw)] };
-    const p = home.pose(leaf), turn = 2 * Math.atan2(p[5], p[6]), [c, s] = [Math.cos(turn), Math.sin(turn)];
+    const p = home.pose(box.link), turn = 2 * Math.atan2(p[5], p[6]), [c, s] = [Math.cos(turn), Math.sin(turn)];
     const along = box.size[0] > box.size[1] ? [box.size[0] / 2, 0] : [0, box.size[1] / 2];
     const mx = p[0] + c * box.pose[0] - s * box.pose[1] - x, my = p[1] + s * box.pose[0] + c * box.pose[1] - y;
     const [dx, dy] = [c * along[0] - s * along[1], s * along[0] + c * along[1]];

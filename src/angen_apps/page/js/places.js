@@ -1,0 +1,59 @@
+/** Places of texts that do not cover each other. */
+import { inside, middleOf } from './home.js';
+
+const STEPS = 10; // places across a room that are tried for its name
+
+/** Boxes that are taken: x y of the middle, half a width, half a height. */
+export class Taken {
+  constructor() {
+    /** @type {number[][]} */
+    this.boxes = [];
+  }
+
+  /** @param {number[]} box @returns {number} how many it covers */
+  covered([x, y, w, h]) {
+    return this.boxes.filter(([u, v, s, t]) => Math.abs(u - x) < w + s && Math.abs(v - y) < h + t).length;
+  }
+
+  /**
+   * Takes the first free one of some places for a box.
+   * @param {number[]} box @param {number[][]} shifts of the box
+   * @returns {number[] | null} the shift; null where none is free
+   */
+  put([x, y, w, h], shifts) {
+    const free = shifts.find(([dx, dy]) => !this.covered([x + dx, y + dy, w, h])) ?? null;
+    if (free) this.boxes.push([x + free[0], y + free[1], w, h]);
+    return free;
+  }
+}
+
+/**
+ * Takes a place for the name of a room: within its walls, near its middle, over few other things.
+ * @param {number[][]} polygon @param {number} w half of its width @param {number} h half of its height @param {Taken} taken
+ * @returns {number[]} x y
+ */
+export function nameOf(polygon, w, h, taken) {
+  const [mx, my] = middleOf(polygon), xs = polygon.map(([x]) => x), ys = polygon.map(([, y]) => y);
+  const left = Math.min(...xs), below = Math.min(...ys), wide = Math.max(...xs) - left, high = Math.max(...ys) - below;
+  let best = [mx, my], least = Infinity;
+  for (let i = 1; i < STEPS; i++) {
+    for (let j = 1; j < STEPS; j++) {
+      const x = i === STEPS / 2 ? mx : left + (i / STEPS) * wide, y = j === STEPS / 2 ? my : below + (j / STEPS) * high;
+      if (![[-w, -h], [w, -h], [w, h], [-w, h]].every(([dx, dy]) => inside(polygon, x + dx, y + dy))) continue;
+      const cost = taken.covered([x, y, w, h]) + 0.2 * Math.hypot(x - mx, y - my);
+      if (cost < least) { least = cost; best = [x, y]; }
+    }
+  }
+  taken.boxes.push([...best, w, h]);
+  return best;
+}
+
+/**
+ * Where a label may be around a thing: over it, below, beside, then further away.
+ * @param {number} gap to the thing's middle @param {number} w half of its width @param {number} h half of its height
+ * @returns {number[][]} shifts x y
+ */
+export function around(gap, w, h) {
+  const lines = [1, 2, 3, 4].map((line) => gap + h * (2 * line - 1));
+  return [[0, lines[0]], [0, -lines[0]], [gap + w, 0], [-gap - w, 0], ...lines.slice(1).flatMap((y) => [[0, y], [0, -y]])];
+}
