@@ -293,6 +293,7 @@ export class View3d {
     this.renderer.setSize(width, height);
     this.viewpoint.resize(width, height);
     if (!this.framed) this.look();
+    this.drawnAt = -Infinity; // at once: the canvas is empty now
     this.dirty = true;
   }
 
