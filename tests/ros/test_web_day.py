@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import asyncio
 import gzip
+import itertools
 import json
 import math
 from pathlib import Path
@@ -12,6 +13,7 @@ import pytest
 from aiohttp import ClientSession, WSMsgType
 from browser import LIMIT, Page, Server
 from harness import Cli, Master
+from selenium.webdriver.common.action_chains import ActionChains
 
 from angen_apps.data.generate import sha256
 from angen_apps.data.site import apartment
@@ -21,6 +23,7 @@ TRUTH = '''start,end,resident,activity,cause,phase,room,thing,posture,x,y,note
 100.000,110.000,anna,wash,free,goes,bedroom0,,stand,1.990,8.450,
 110.000,200.000,anna,wash,free,does,bathroom0,bathroom_washbasin0,stand,4.900,7.000,
 200.000,86400.000,anna,work,scheduled,away,,,stand,nan,nan,
+0.000,86400.000,bert,sleep,scheduled,does,bedroom0,bedroom_bed0,lie,1.210,8.450,
 '''
 TRACK = 'time,resident,x,y,storey\n101.0,anna,2.500,8.450,0\n102.0,anna,2.500,7.450,0\n'
 LOADS = '''time,kind,device,watts
@@ -49,7 +52,8 @@ def day(tmp_path: Path) -> Path:
             file.write(text)
     (folder / 'layout.json').write_text(json.dumps({
         'start': '2026-03-21T00:00:00', 'days': 1, 'sensors': SENSORS,
-        'residents': [{'name': 'anna', 'profile': 'worker', 'speed': 1.0}]}))
+        'residents': [{'name': name, 'profile': 'worker', 'speed': 1.0}
+                      for name in ('anna', 'bert')]}))
     (folder / 'home.json').write_text(json.dumps({'settings': {
         'world': '', 'seed': 1, 'own_sensors': False, 'light': False}}))
     return folder
@@ -115,7 +119,7 @@ def test_a_day_is_played(server: Server) -> None:
         'ON 73.2 W', 'OFF 0.5 W']  # on standby
     assert found['line']['ribbon'] == [['anna', [
         [0.0, 100.0, 'sleep'], [100.0, 110.0, 'wash'], [110.0, 200.0, 'wash'],
-        [200.0, 86400.0, 'work']]]]
+        [200.0, 86400.0, 'work']]], ['bert', [[0.0, 86400.0, 'sleep']]]]
     assert found['home']['start'] == '2026-03-21T00:00:00'
 
 
@@ -142,6 +146,16 @@ def test_the_cabin_of_an_elevator_rides(master: Master, tmp_path: Path, day: Pat
     assert rides == [(50.5, 1.5), (51.0, 2.0)]
 
 
+def apart(page: Page, selector: str) -> int:
+    """How many elements are seen, of which none covers another."""
+    boxes = page.run('''return [...document.querySelectorAll(arguments[0])].filter(
+        (e) => getComputedStyle(e).visibility === "visible").map((e) => e.getBoundingClientRect())
+        .filter((r) => r.width).map((r) => [r.left, r.right, r.top, r.bottom])''', selector)
+    for (a, b, c, d), (e, f, g, h) in itertools.combinations(boxes, 2):
+        assert b <= e or f <= a or d <= g or h <= c, boxes
+    return len(boxes)
+
+
 def test_a_link_opens_at_its_time(server: Server, tmp_path: Path) -> None:
     page = Page(tmp_path, 500, 400)  # opened before the day is read
     try:
@@ -157,6 +171,15 @@ def test_a_link_opens_at_its_time(server: Server, tmp_path: Path) -> None:
         assert page.run('return angen.player.time') == 160  # of the next event
         page.run('angen.player.seek(195)')
         page.until(lit.replace('return ', 'return !'))
+        assert page.run('return document.querySelector("#player").scrollWidth') <= 500
+        page.run('document.querySelector("#replay").focus()')
+        ActionChains(page.driver, duration=0).send_keys(' ').perform()
+        assert page.run('return angen.player.playing')
+        page.run('angen.player.playing = false; angen.player.seek(50)')
+        assert apart(page, '#plan .who') == 2  # both in one bed
+        page.press('#view-3d')
+        page.first_view()
+        assert apart(page, '.label.person') == 2
         assert page.errors() == []
     finally:
         page.close()

@@ -1,5 +1,5 @@
 /** The page: what is chosen, the clock, the keys. */
-import { by, clockText, el, notice } from './dom.js';
+import { by, el, notice } from './dom.js';
 import { Card } from './card.js';
 import { Goal } from './goal.js';
 import { Home } from './home.js';
@@ -75,12 +75,11 @@ class Page {
   }
 
   showClock() {
-    const { stats, described, status } = this.home;
+    const { stats, status } = this.home;
     if (!this.time) return;
     const since = Math.min(1.2, (performance.now() - this.home.statsAt) / 1000);
     const now = stats.time + (stats.paused || !status.node ? 0 : since * stats.factor);
-    const start = /T(\d+):(\d+):(\d+)/.exec(described?.start ?? '');
-    const text = start ? clockText((Number(start[1]) * 3600 + Number(start[2]) * 60 + Number(start[3]) + now) % 86400) : clockText(now);
+    const text = this.home.clock(now);
     if (this.time.textContent !== text) this.time.textContent = text;
     this.time.title = `${now.toFixed(1)} s simulated`;
     const play = stats.paused ? '▶' : '❚❚';
@@ -99,6 +98,7 @@ class Page {
     by('theme').textContent = theme === 'dark' ? '☀' : '☾';
     this.view?.setTheme(theme === 'dark');
     this.panels.plots.restyle();
+    this.player.ribbonStale = true;
   }
 
   /** @param {string} id */
@@ -109,6 +109,7 @@ class Page {
     for (const other of ['3d', 'plan']) by(`view-${other}`).setAttribute('aria-pressed', String(other === id));
     if (this.view) this.view.hidden = id !== '3d';
     this.plan.hidden = id !== 'plan';
+    for (const control of by('layers').children) control.hidden = id === 'plan' && control !== this.fieldsButton;
     this.plan.stale = true;
     this.plan.draw();
     this.view?.resize();
@@ -161,7 +162,7 @@ class Page {
   /** What one can do, until one has done it. */
   welcome() {
     const narrow = matchMedia('(max-width: 820px)').matches;
-    by('welcome').textContent = narrow ? 'Tap a lamp, door, person or room' : 'Click a lamp, door, person or room · drag turns the view';
+    by('welcome').textContent = `${narrow ? 'Tap' : 'Click'} a lamp, door, person or room${narrow ? '' : ' · drag turns the 3D view'}`;
     by('welcome').hidden = localStorage.getItem('welcome') === 'seen';
     const seen = () => { by('welcome').hidden = true; localStorage.setItem('welcome', 'seen'); };
     by('stage').addEventListener('pointerdown', seen, { once: true, capture: true }); // also one that sets a goal
@@ -242,11 +243,12 @@ class Page {
       else this.card.close();
       return;
     }
-    const { storeys } = this.home;
+    const { storeys, status: { replay } } = this.home;
     /** @type {Record<string, () => void>} */
     const keys = {
-      ' ': () => { if (this.home.status.replay) this.player.playing = !this.player.playing; else if (target.tagName !== 'BUTTON' && target.getAttribute?.('role') !== 'button') this.play.click(); },
-      '.': () => this.home.order({ do: 'step', seconds: 1 }), h: () => this.whole(), p: () => this.view?.look(true),
+      ' ': () => { if (target.tagName !== 'BUTTON' && target.getAttribute?.('role') !== 'button') (replay ? this.player : this).play?.click(); },
+      '.': () => { if (!replay) this.home.order({ do: 'step', seconds: 1 }); }, n: () => { if (replay) this.player.next(); },
+      h: () => this.whole(), p: () => this.view?.look(true),
       f: () => this.fieldsButton.click(), t: () => by('theme').click(), v: () => this.setView(this.plan.hidden ? 'plan' : '3d'),
       '*': () => this.setStorey(null), '?': () => this.help(),
     };
@@ -257,7 +259,7 @@ class Page {
 
   help() {
     const rows = [['Click', 'a door, lamp, person, sensor or floor: what it is and does'], ['Drag', 'turns the view; with the right button or two fingers it moves'], ['Wheel', 'zooms'],
-      ['Space', 'pauses'], ['.', 'one second on, while paused'], ['0 – 9, *', 'a floor, all floors'], ['H, P', 'the whole home, from above'], ['V', '3D or plan'], ['F', 'sensor fields'],
+      ['Space', 'pauses'], ['.', 'one second on, while paused'], ['N', 'the next event, in a recording'], ['0 – 9, *', 'a floor, all floors'], ['H, P', 'the whole home, from above'], ['V', '3D or plan'], ['F', 'sensor fields'],
       ['T', 'light or dark'], ['W A S D', 'drive the robot, in its tab'], ['Drag the robot', 'its goal'], ['Esc', 'closes']];
     by('dialog').replaceChildren(el('h2', {}, 'Keys'), el('dl', {}, ...rows.flatMap(([key, text]) => [el('dt', {}, el('kbd', {}, key)), el('dd', {}, text)])),
       el('form', { method: 'dialog' }, el('button', { class: 'main' }, 'Close')));

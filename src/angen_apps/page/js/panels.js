@@ -1,5 +1,5 @@
 /** The lists beside the view: rooms, sensors with plots, events, costs, robots. */
-import { by, clockText, el, words } from './dom.js';
+import { by, el, words } from './dom.js';
 import { thingRow } from './card.js';
 import { Plots } from './plots.js';
 import { RobotPanel } from './robot.js';
@@ -211,7 +211,7 @@ export class Panels {
   refreshEvents() {
     const word = this.eventFilter.value.trim().toLowerCase();
     const shown = this.home.events.filter(([, ...texts]) => !word || texts.join(' ').toLowerCase().includes(word)).slice(-200).reverse();
-    this.list.replaceChildren(...shown.map(([time, kind, source, event, detail]) => el('li', {}, el('time', { class: 'soft number' }, clockText(time)),
+    this.list.replaceChildren(...shown.map(([time, kind, source, event, detail]) => el('li', {}, el('time', { class: 'soft number' }, this.home.clock(time)),
       el('span', { class: event }, el('b', {}, source), ` ${kind} ${event}`, detail ? el('span', { class: 'soft' }, ` ${detail}`) : ''))));
     if (!shown.length) this.list.append(el('li', {}, '', el('span', { class: 'soft' }, 'No events.')));
   }

@@ -5,7 +5,7 @@ import { inside } from './home.js';
 const SPEEDS = [0.5, 1, 2, 5, 20, 100, 1000];
 const LINE = 14; // px of a person's line
 const NAMES = 44; // px of their names
-const COLORS = ['#0f766e', '#b45309', '#7c3aed', '#2563eb', '#be185d', '#4d7c0f', '#0e7490', '#a16207', '#9333ea', '#dc2626', '#475569', '#059669'];
+const COLORS = ['#0f766e', '#b45309', '#7c3aed', '#2563eb', '#be185d', '#4d7c0f', '#0e7490', '#a16207', '#9333ea', '#dc2626', '#475569', '#047857'];
 
 /** What one thing was over time. */
 class Track {
@@ -115,10 +115,10 @@ export class Player {
       const copied = () => notice('The address of this moment is copied.'), shown = () => notice('The address above opens at this moment.');
       (navigator.clipboard?.writeText(url.href) ?? Promise.reject()).then(copied, shown);
     } }, 'Link');
-    this.bar = el('div', { id: 'player', role: 'group', 'aria-label': 'Recording' }, this.play, el('button', { type: 'button', title: 'To the next event', onclick: () => this.next() }, 'Next event'),
-      speed, el('div', { class: 'line' }, this.ribbon, this.slider), this.label, share);
-    by('stage').append(this.bar);
-    by('stage').classList.add('replay');
+    this.bar = el('section', { id: 'player', 'aria-label': 'Recording' }, el('div', { class: 'line' }, this.ribbon, this.slider),
+      el('div', { class: 'tools' }, this.play, el('button', { type: 'button', title: 'To the next event (N)', onclick: () => this.next() }, 'Next event'), speed, this.label, el('span', { class: 'grow' }), share));
+    by('side').before(this.bar);
+    new ResizeObserver(() => { this.ribbonStale = true; }).observe(this.bar);
     const frame = () => { requestAnimationFrame(frame); this.frame(); };
     frame();
   }
@@ -245,13 +245,7 @@ export class Player {
   textAt(e) {
     const person = this.drawn?.[Math.floor(e.offsetY / LINE)], time = this.timeAt(e);
     const span = person?.spans.find(([start, end]) => time >= start && time < end);
-    return span ? `${person?.name}: ${span[2].replaceAll('_', ' ')}, ${clockText(time + this.midnight())}` : '';
-  }
-
-  /** s of the day at which the recording begins */
-  midnight() {
-    const start = /T(\d+):(\d+):(\d+)/.exec(this.home.described?.start ?? '');
-    return start ? Number(start[1]) * 3600 + Number(start[2]) * 60 + Number(start[3]) : 0;
+    return span ? `${person?.name}: ${span[2].replaceAll('_', ' ')}, ${this.home.clock(time)}` : '';
   }
 }
 
