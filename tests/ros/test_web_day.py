@@ -29,6 +29,7 @@ TRACK = 'time,resident,x,y,storey\n101.0,anna,2.500,8.450,0\n102.0,anna,2.500,7.
 LOADS = '''time,kind,device,watts
 0.000,lamp,bathroom0,0.000
 150.000,lamp,bathroom0,10.000
+155.000,appliance,workroom_stereo0,0.500
 160.000,appliance,livingroom_tv0,73.200
 170.000,appliance,livingroom_tv0,0.500
 190.000,lamp,bathroom0,0.000
@@ -117,13 +118,14 @@ def test_a_day_is_played(server: Server) -> None:
         'OFF 0 W', 'ON 10 W', 'OFF 0 W']
     assert [row[2] for row in rows if row[:2] == ['appliance', 'livingroom_tv0']][-2:] == [
         'ON 73.2 W', 'OFF 0.5 W']  # on standby
+    assert [row[2] for row in rows if row[1] == 'workroom_stereo0'][-1] == 'OFF 0.5 W'
     assert found['line']['ribbon'] == [['anna', [
         [0.0, 100.0, 'sleep'], [100.0, 110.0, 'wash'], [110.0, 200.0, 'wash'],
         [200.0, 86400.0, 'work']]], ['bert', [[0.0, 86400.0, 'sleep']]]]
     assert found['home']['start'] == '2026-03-21T00:00:00'
 
 
-def test_the_cabin_of_an_elevator_rides(master: Master, tmp_path: Path, day: Path) -> None:
+def test_a_cabin_rides_with_who_is_in_it(master: Master, tmp_path: Path, day: Path) -> None:
     world = tmp_path / 'lift.world'
     apartment(world)
     world.write_text(world.read_text().replace('</world>', '''<include>
@@ -134,6 +136,8 @@ def test_the_cabin_of_an_elevator_rides(master: Master, tmp_path: Path, day: Pat
     with gzip.open(day / 'cabins.csv.gz', 'wt', encoding='utf-8') as file:
         file.write('time,model,link,x,y,z\n0.000,lift,cabin,30.0,0.0,0.0\n'
                    '50.500,lift,cabin,30.0,0.0,1.5\n51.000,lift,cabin,30.0,0.0,2.0\n')
+    with gzip.open(day / 'track.csv.gz', 'wt', encoding='utf-8') as file:
+        file.write(f'{TRACK}40.0,anna,30.2,0.0,0\n60.0,anna,20.0,0.0,0\n')
     server = Server(master, tmp_path, '--replay', str(day), '--world', str(world))
     try:
         found, entries = asyncio.run(played(server.port))
@@ -144,6 +148,11 @@ def test_the_cabin_of_an_elevator_rides(master: Master, tmp_path: Path, day: Pat
                  if (link['model'], link['name']) == ('lift', 'cabin'))
     rides = [(e[1], e[3][2]) for e in entries if e[0] == 'p' and cabin in e[2] and e[1] > 0.0]
     assert rides == [(50.5, 1.5), (51.0, 2.0)]
+    anna = scene['ids'][[link['model'] for link in scene['links']].index('anna')]
+    heights = {e[1]: e[3][e[2].index(anna) * 7 + 2] for e in entries
+               if e[0] == 'p' and anna in e[2]}
+    floor = heights[40.0]
+    assert [heights[time] - floor for time in (50.5, 51.0, 60.0)] == pytest.approx([1.5, 2.0, 0.0])
 
 
 def apart(page: Page, selector: str) -> int:
@@ -167,7 +176,7 @@ def test_a_link_opens_at_its_time(server: Server, tmp_path: Path) -> None:
         assert not page.run(lit)
         page.run('angen.player.seek(155)')
         assert page.until(lit)
-        page.run('angen.player.playing = false; angen.player.seek(150.5); angen.player.next()')
+        page.run('angen.player.playing = false; angen.player.seek(155.5); angen.player.next()')
         assert page.run('return angen.player.time') == 160  # of the next event
         page.run('angen.player.seek(195)')
         page.until(lit.replace('return ', 'return !'))

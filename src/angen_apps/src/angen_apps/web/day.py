@@ -16,6 +16,7 @@ from angen_apps.data.validate import homes, rows
 from angen_apps.residents.figures import walker
 from angen_apps.web.feed import row_of
 from angen_apps.web.played import Played
+from angen_apps.web.rides import Cabin, Rider, cabins
 from angen_tools.common.catalog import simulator
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
@@ -23,6 +24,7 @@ from angen_tools.common.wait import wait
 
 DAY = 86400.0  # s
 STANDBY = 0.05  # of the most W of an appliance: with less it is off
+LEAST = 1.0  # W of an appliance that is on: one that nobody used has its standby as its most
 RATE = 20.0  # simulated s per s, while leaves are measured
 LIMIT = 120.0  # s of wall time, for the node to serve what is read of it
 POSTURES = {'stand': 'standing', 'sit': 'sitting', 'lie': 'lying'}
@@ -89,6 +91,7 @@ class Day(Played):
         self._people = [resident['name'] for resident in self._layout['residents']]
         self._poses: dict[int, Any] = {}  # by link, as the node has them
         self._has_rows = False
+        self._cabins: list[Cabin] = []
         super().__init__(self._layout['days'] * DAY, folder.name)
         self._write_world(world)
 
@@ -175,10 +178,10 @@ class Day(Played):
         self._closed, self._opened = closed, opened
         for link, pose in closed.items():
             self._place(0.0, link, pose)
+        self._play_cabins()
         self._play_residents()
         self._play_events()
         self._play_loads()
-        self._play_cabins()
         ribbon = [[name, [[float(r['start']), float(r['end']), r['activity']]
                           for r in self._truth() if r['resident'] == name]]
                   for name in self._people]
@@ -208,17 +211,20 @@ class Day(Played):
         link = self._links[name][0]
         floor = next((m.floor for m in moments if m.floor is not None), 0.0)
         above = float(self._closed[link][2]) - floor  # of the body's origin
+        rider = Rider(self._cabins, floor)
         at, yaw = (0.0, 0.0), 0.0
-        for m in moments:
+        ends = [*(m.time for m in moments[1:]), self._line['end']]
+        for m, end in zip(moments, ends):
             if math.isnan(m.x):  # away
                 m = m._replace(x=at[0], y=at[1])
             if m.yaw is not None:
                 yaw = m.yaw
             elif math.dist((m.x, m.y), at) > 0.02:
                 yaw = math.atan2(m.y - at[1], m.x - at[0])
-            at, floor = (m.x, m.y), floor if m.floor is None else m.floor
-            self._place(m.time, link, (m.x, m.y, floor + above, 0, 0, math.sin(yaw / 2),
-                                       math.cos(yaw / 2)))
+            at = (m.x, m.y)
+            for time, floor in rider.step(m.time, m.x, m.y, m.floor, end):
+                self._place(time, link, (m.x, m.y, floor + above, 0, 0, math.sin(yaw / 2),
+                                         math.cos(yaw / 2)))
             if m.text:
                 self.store.put_rows([('person', name, m.text, False, m.time,
                                       self._values('person', 'speed', m.speed))], False)
@@ -273,7 +279,7 @@ class Day(Played):
             most[f'{kind}/{name}'] = max(most[f'{kind}/{name}'], watts)
         for time, kind, name, watts in loads:
             share = watts / most[f'{kind}/{name}'] if watts else 0.0
-            word = 'ON' if share > STANDBY else 'OFF'
+            word = 'ON' if share > STANDBY and (kind == 'lamp' or watts > LEAST) else 'OFF'
             if kind == 'lamp':
                 self._shine(time, name, share)
             self.store.put_rows([(kind, name, f'{word} {watts:g} W', False, time,
@@ -281,19 +287,27 @@ class Day(Played):
             if time > 0.0:
                 self.store.add_event([time, kind, name, word.lower(), f'{watts:g} W'])
 
-    def _play_cabins(self) -> None:
+    def _slides(self) -> list[dict[str, str]]:
         path = self._data / CABINS
-        if not path.is_file():
-            return  # no elevator, or data of an earlier version
+        return list(rows(path)) if path.is_file() else []  # no elevator, or data of before
+
+    def _play_cabins(self) -> None:
         links = self.store.scene['links'] if self.store.scene else []
         found = {(link['model'], link['name']): i for i, link in enumerate(links)}
-        for row in rows(path):
+        slides = self._slides()
+        for row in slides:
             link = found.get((row['model'], row['link']))
             if link is None:
                 continue
             pose = [float(row[axis]) for axis in 'xyz']
             self._place(float(row['time']), link, [*pose, *self._closed.get(
                 link, links[link]['pose'])[3:]])
+        models = {e['name']: e['model'] for e in self.store.part('entities')
+                  if e['kind'] == 'elevator'}
+        middles = {models.get(one['name'], one['name']): (one['pose'][0], one['pose'][1])
+                   for one in self.store.part('home')['elevators']}
+        self._cabins = cabins([(float(row['time']), row['model'], row['link'], float(row['z']))
+                               for row in slides], middles)
 
     def _shine(self, time: float, lamp: str, share: float) -> None:
         lights = np.array(self._lights.get(lamp, []), np.uint32)
