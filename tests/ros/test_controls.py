@@ -65,6 +65,15 @@ def test_a_click_opens_a_door_and_another_closes_it(home: Angen, markers: Inbox)
         states.wait(lambda state: state.mode == DoorState.CLOSING, 'a closing door')
 
 
+def test_an_elevator_is_clicked_on_each_landing(home: Angen, markers: Inbox) -> None:
+    lift = home.wait('/angen/home', HomeMessage).elevators[0]
+    button = marker(markers, 'elevator/elevator').controls[0]
+    balls = [ball.pose.position for ball in button.markers]
+    places = [landing.pose.position for landing in lift.landings]
+    assert [(at.x, at.y) for at in balls] == [(at.x, at.y) for at in places]
+    assert [ball.z - at.z for ball, at in zip(balls, places)] == pytest.approx([1.05, 1.05])
+
+
 def choose(inbox: Inbox, name: str, title: str) -> None:
     """An entry of a menu."""
     entry = next(one for one in marker(inbox, name).menu_entries if one.title == title)
@@ -93,7 +102,7 @@ def test_the_menu_sends_a_person_to_a_room(home: Angen, markers: Inbox) -> None:
     until(lambda: sendable(marker(markers, 'person/person')) == lower, 'the rooms of floor 0')
     choose(markers, 'person/person', 'bathroom0')
     until(lambda: home.call('/angen/list', List, kind='person').entities[0].room == 'bathroom0',
-          'the person is there', 60.0)
+          'the person is there', 120.0)
 
 
 def test_the_menu_sends_a_robot_by_navigation(markers: Inbox) -> None:

@@ -4,11 +4,11 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import pytest
-from angen_apps.controls.offers import SEND, offers, pair, toggled
+from angen_apps.controls.offers import SEND, offers, pair, toggled, walk
 
 from angen_tools.common.catalog import kinds
 
-PLACES = [('kitchen0', (4.5, -2.25, 0.0, 1.57)), ('hall0', (0.0, 1.0, 0.0, 0.0))]
+ROOMS = ['kitchen0', 'hall0']
 
 
 def texts(kind: str, *floors: int) -> list[str]:
@@ -24,18 +24,16 @@ def test_menus_have_verbs_floors_and_percents() -> None:
 def test_each_text_is_a_command_of_its_kind() -> None:
     from angen_tools.common.verbs import parse
     for kind in kinds('device').values():
-        for offer in offers(kind, [0, 1], PLACES):
-            assert offer.goal or parse(kind, offer.text.split()).verb
+        for offer in offers(kind, [0, 1], ROOMS):
+            assert offer.under == SEND or parse(kind, offer.text.split()).verb
 
 
-def test_people_walk_to_rooms_and_robots_get_them_as_goals() -> None:
-    def sent(kind: str) -> list[tuple[str, str, object]]:
-        return [(offer.label, offer.text, offer.goal) for offer in offers(kinds()[kind], (), PLACES)
-                if offer.under == SEND]
+def test_people_and_robots_are_sent_to_rooms() -> None:
+    def sent(kind: str) -> list[str]:
+        return [o.label for o in offers(kinds()[kind], (), ROOMS) if o.under == SEND]
 
-    assert sent('person') == [('kitchen0', 'GoTo 4.50 -2.25', None),
-                              ('hall0', 'GoTo 0.00 1.00', None)]
-    assert sent('drive') == [('kitchen0', '', (4.5, -2.25, 1.57)), ('hall0', '', (0.0, 1.0, 0.0))]
+    assert sent('person') == sent('drive') == ROOMS
+    assert walk(kinds()['person']) == 'GoTo' and not walk(kinds()['drive'])
     assert not sent('lamp') and not sent('elevator')
 
 

@@ -16,9 +16,9 @@ from interactive_markers.interactive_marker_server import InteractiveMarkerServe
 from interactive_markers.menu_handler import MenuHandler
 from visualization_msgs.msg import InteractiveMarker, InteractiveMarkerControl, Marker
 
-from angen_apps.controls.offers import Offer, offers, pair, toggled
-from angen_apps.controls.places import places
-from angen_apps.navigation.goal import TOPIC, publish_goal
+from angen_apps.controls.offers import SEND, Offer, offers, pair, toggled, walk
+from angen_apps.controls.places import Taken, place, rooms, things
+from angen_apps.navigation.goal import TOPIC, is_robot, publish_goal
 from angen_tools.common.catalog import kinds
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home
@@ -26,6 +26,7 @@ from angen_tools.live.states import states_by_name
 
 SERVER = 'angen_controls'
 HANDLE = 0.16  # m, diameter of a button
+MOVER = 0.3  # m, of a person's or robot's: seen from above, their label covers less
 HAND = 1.05  # m over the foot of a door, where its button is
 OVER = {'person': 2.2, 'drive': 0.9}  # m over a mover's origin: over its label
 SCENE_LIMIT = 10.0  # s that the scene takes to come
@@ -34,6 +35,18 @@ COLORS = {'lamp': (1.0, 0.8, 0.2), 'door': (0.06, 0.46, 0.43)}
 OTHER = (0.3, 0.5, 0.9)
 CHANGES = ('spawned', 'deleted', 'reset', 'arrived')  # the last: an elevator, perhaps with a mover
 QUIET = 0.3  # s without such an event, after which the markers are made again
+
+
+def ball(kind: str, x: float, y: float, z: float) -> Marker:
+    """What one clicks."""
+    made = Marker()
+    made.type = Marker.SPHERE
+    made.scale.x = made.scale.y = made.scale.z = MOVER if kind in OVER else HANDLE
+    made.pose.orientation.w = 1.0
+    made.pose.position.x, made.pose.position.y, made.pose.position.z = x, y, z
+    made.color.r, made.color.g, made.color.b = COLORS.get(kind, OTHER)
+    made.color.a = 0.9
+    return made
 
 
 class Controls:
@@ -94,12 +107,16 @@ class Controls:
 
     def _offers(self, entity: Any) -> list[Offer]:
         return offers(kinds()[entity.kind], self._floors(entity),
-                      places(self._home, entity.pose.position.z))
+                      [room.name for room in rooms(self._home, entity.pose.position.z)])
+
+    @staticmethod
+    def _scene() -> Any:
+        return rospy.wait_for_message('/angen/scene', Scene, SCENE_LIMIT)
 
     def _moving_frames(self) -> dict[str, str]:
         """The frame of each model's first link that moves: a marker in it follows the model."""
         frames: dict[str, str] = {}
-        for link in rospy.wait_for_message('/angen/scene', Scene, SCENE_LIMIT).links:
+        for link in self._scene().links:
             if link.moves:
                 frames.setdefault(link.model, f'{link.model}/{link.name}')
         return frames
@@ -124,20 +141,23 @@ class Controls:
         marker.header.frame_id = frame or 'world'
         marker.pose = Pose() if frame else self._doors.get(key, entity.pose)
         marker.pose.orientation.w = marker.pose.orientation.w or 1.0
-        ball = Marker()
-        ball.type = Marker.SPHERE
-        ball.scale.x = ball.scale.y = ball.scale.z = HANDLE
-        ball.pose.orientation.w = 1.0
-        ball.pose.position.z = HAND if key in self._doors else OVER.get(entity.kind, 0.0)
-        ball.color.r, ball.color.g, ball.color.b = COLORS.get(entity.kind, OTHER)
-        ball.color.a = 0.9
         control = InteractiveMarkerControl()
         control.interaction_mode = InteractiveMarkerControl.BUTTON
         control.name = 'button'
         control.always_visible = True
-        control.markers.append(ball)
+        landings = self._landings(entity)
+        if landings:
+            marker.pose, marker.pose.orientation.w = Pose(), 1.0
+        over = HAND if key in self._doors else OVER.get(entity.kind, 0.0)
+        control.markers = [ball(entity.kind, *at) for at in landings or [(0.0, 0.0, over)]]
         marker.controls.append(control)
         return marker
+
+    def _landings(self, entity: Any) -> list[tuple[float, float, float]]:
+        """Where one calls an elevator: its cabin hides what is in it."""
+        return [(x, y, z + HAND) for one in self._home.elevators
+                if (entity.kind, entity.name) == ('elevator', one.name)
+                for x, y, z, _ in (landing.pose for landing in one.landings)]
 
     def _menu(self, entity: Any, offered: list[Offer]) -> MenuHandler:
         menu = MenuHandler()
@@ -179,12 +199,33 @@ class Controls:
 
     def _send(self, entity: Any, offer: Offer) -> None:
         try:
-            if offer.goal is not None:
-                publish_goal(self._goal, *offer.goal)
+            text = self._to_room(entity, offer.label) if offer.under == SEND else offer.text
+            if not text:
                 return
-            answer = self._command(f'{entity.kind}/{entity.name}', offer.text)
-        except (rospy.ServiceException, Failure) as error:
+            answer = self._command(f'{entity.kind}/{entity.name}', text)
+        except (rospy.ServiceException, rospy.ROSException, Failure) as error:
             rospy.logwarn('%s: %s', offer.text or offer.label, error)
             return
         if not answer.success:
             rospy.logwarn('%s', answer.message)
+
+    def _to_room(self, entity: Any, name: str) -> str:
+        """The command that sends a person there; '' for a robot, which gets a goal."""
+        kind, room = kinds()[entity.kind], self._home.room(name)
+        at = place(self._home, room, self._taken(entity, room.floor)) if room else None
+        if at is None:
+            raise Failure(f'no place is free there for {entity.kind} {entity.name}')
+        x, y, _, yaw = at
+        if is_robot(kind):
+            publish_goal(self._goal, x, y, yaw)
+            return ''
+        return f'{walk(kind)} {x:.2f} {y:.2f}'
+
+    def _taken(self, entity: Any, floor: float) -> Taken:
+        """What is in the way of a mover on a floor."""
+        movers = [e for e in self._list('').entities if e.kind in kinds('device') and (
+            is_robot(kinds()[e.kind]) or walk(kinds()[e.kind]))]
+        storey = self._home.storey_at(floor)
+        at = [e.pose.position for e in movers if e.model != entity.model]
+        return Taken(things(self._scene(), floor, {e.model for e in movers}),
+                     [(p.x, p.y) for p in at if self._home.storey_at(p.z) == storey])

@@ -6,7 +6,6 @@ from typing import Any, Sequence
 
 from angen_apps.navigation.goal import is_robot
 from angen_tools.common.catalog import Plugin
-from angen_tools.common.home import FloorPose
 
 PAIRS = (('On', 'Off'), ('Open', 'Close'))
 PARTS = 5  # choices of a number with limits
@@ -15,19 +14,17 @@ SEND = 'Send to'
 
 @dataclass(frozen=True)
 class Offer:
-    """A line of a menu, and the command that it sends, or the goal x y yaw of a robot; `under` is
-    the line that has it in its submenu."""
+    """A line of a menu, and the command that it sends; under SEND it is a room, to which one is
+    sent. `under` is the line that has it in its submenu."""
 
     label: str
     text: str = ''
-    goal: tuple[float, float, float] | None = None
     under: str = ''
 
 
-def offers(kind: Plugin, floors: Sequence[int] = (),
-           places: Sequence[tuple[str, FloorPose]] = ()) -> list[Offer]:
-    """Verbs without a number, floors, some numbers of verbs with limits, and the rooms with their
-    places to which a person or a robot may be sent."""
+def offers(kind: Plugin, floors: Sequence[int] = (), rooms: Sequence[str] = ()) -> list[Offer]:
+    """Verbs without a number, floors, some numbers of verbs with limits, and the rooms to which a
+    person or a robot may be sent."""
     found: list[Offer] = []
     for verb in kind['verbs']:
         name = verb['name']
@@ -38,16 +35,14 @@ def offers(kind: Plugin, floors: Sequence[int] = (),
         elif verb['count'] == 1 and verb['unit'] == '%' and verb['max'] is not None:
             found += [Offer(f'{name} {value:g} {verb["unit"]}', f'{name} {value:g}', under=name)
                       for value in parts(verb['min'] or 0.0, verb['max'])]
-    return found + _sent(kind, places)
+    if is_robot(kind) or walk(kind):
+        found += [Offer(room, under=SEND) for room in rooms]
+    return found
 
 
-def _sent(kind: Plugin, places: Sequence[tuple[str, FloorPose]]) -> list[Offer]:
-    """The rooms: by the first verb that takes a place, or as goals of navigation."""
-    if is_robot(kind):
-        return [Offer(room, goal=(x, y, yaw), under=SEND) for room, (x, y, _, yaw) in places]
-    verb = next((v for v in kind['verbs'] if v['count'] == 2 and v['unit'] == 'm'), None)
-    return [Offer(room, f'{verb["name"]} {x:.2f} {y:.2f}', under=SEND)
-            for room, (x, y, _, _) in places] if verb else []
+def walk(kind: Plugin) -> str:
+    """The verb that takes a place, '' where there is none."""
+    return next((v['name'] for v in kind['verbs'] if v['count'] == 2 and v['unit'] == 'm'), '')
 
 
 def parts(low: float, high: float) -> list[float]:

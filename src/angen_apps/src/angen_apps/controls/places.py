@@ -2,37 +2,104 @@
 from __future__ import annotations
 
 import math
-from typing import Iterator
+from dataclasses import dataclass, field
+from typing import Any, Iterator
 
 from angen_tools.common.home import FloorPose, Home, Room
+from angen_tools.common.geometry import yaw_of
 
 INSIDE = 0.8  # m from the middle of a door into its room
 SEAT = 0.5  # m around the place of one who sits or lies, where a seat may be in the way
+STEP = 0.4  # m between places of a room that are tried last
+AROUND = 0.3  # m that one needs to what stands there
+APART = 0.7  # m between the middles of two who stand
+LOW, HIGH = 0.1, 1.5  # m over the floor: what is between is in the way
+BOX, CYLINDER = 0, 2  # as angen_msgs/SceneShape
 
 
-def places(home: Home, z: float) -> list[tuple[str, FloorPose]]:
-    """The rooms of the storey of a mover at height z, each with a place in it."""
-    if not home.rooms:
-        return []
-    storey = home.storey_at(z)
-    return [(room.name, place(home, room)) for room in home.rooms if room.storey == storey]
+@dataclass(frozen=True)
+class Box:
+    """What covers a part of the floor: its middle, turn and half lengths."""
+
+    x: float
+    y: float
+    yaw: float
+    half: tuple[float, float]
+
+    def distance(self, x: float, y: float) -> float:
+        c, s = math.cos(self.yaw), math.sin(self.yaw)
+        dx, dy = x - self.x, y - self.y
+        return math.hypot(max(0.0, abs(c * dx + s * dy) - self.half[0]),
+                          max(0.0, abs(c * dy - s * dx) - self.half[1]))
 
 
-def place(home: Home, room: Room) -> FloorPose:
-    """Where one stands to use a thing, or inside the first door, or the middle of a room."""
-    return next((at for at in _candidates(home, room) if room.contains(*at[:2])),
-                (*room.center, room.floor, 0.0))
+@dataclass(frozen=True)
+class Taken:
+    """What is in the way: things, and people and robots, by their middles."""
+
+    things: list[Box] = field(default_factory=list)
+    movers: list[tuple[float, float]] = field(default_factory=list)
+
+    def apart(self, x: float, y: float) -> bool:
+        return all(math.dist((x, y), other) > APART for other in self.movers)
+
+    def is_free(self, x: float, y: float) -> bool:
+        return self.apart(x, y) and all(box.distance(x, y) > AROUND for box in self.things)
 
 
-def _candidates(home: Home, room: Room) -> Iterator[FloorPose]:
+def things(scene: Any, floor: float, movers: set[str]) -> list[Box]:
+    """Boxes and cylinders of an angen_msgs/Scene that stand on a floor, without those of some
+    models."""
+    found = []
+    for shape in scene.shapes:
+        link = scene.links[shape.link]
+        at, low = link.pose.position, floor + LOW
+        z, half = at.z + shape.pose.position.z, shape.size.z / 2
+        if shape.type not in (BOX, CYLINDER) or link.model in movers or not (
+                z + half > low and z - half < floor + HIGH):
+            continue
+        yaw = yaw_of(link.pose.orientation)
+        c, s, own = math.cos(yaw), math.sin(yaw), shape.pose.position
+        found.append(Box(at.x + c * own.x - s * own.y, at.y + s * own.x + c * own.y,
+                         yaw + yaw_of(shape.pose.orientation),
+                         (shape.size.x / 2, shape.size.y / 2)))
+    return found
+
+
+def rooms(home: Home, z: float) -> list[Room]:
+    """Those of the storey of a mover at height z."""
+    storey = home.storey_at(z) if home.rooms else None
+    return [room for room in home.rooms if room.storey == storey]
+
+
+def place(home: Home, room: Room, taken: Taken) -> FloorPose | None:
+    """Where one stands to use a thing, or inside a door, or in the middle, or anywhere in the room;
+    None where no place is free."""
+    at_things = (at for at in _at_things(home, room) if taken.apart(*at[:2]))
+    others = (at for at in _others(home, room) if taken.is_free(*at[:2]))
+    return next((at for places in (at_things, others) for at in places
+                 if room.contains(*at[:2])), None)
+
+
+def _at_things(home: Home, room: Room) -> Iterator[FloorPose]:
     spots = [spot for thing in home.things if thing.room == room.name for spot in thing.places]
     seats = [spot.pose[:2] for spot in spots if spot.posture != 'stand']
     for spot in spots:
         if spot.posture == 'stand' and all(math.dist(spot.pose[:2], seat) > SEAT
                                            for seat in seats):
             yield spot.pose
+
+
+def _others(home: Home, room: Room) -> Iterator[FloorPose]:
     for door in home.doors:
         if door.kind != 'window' and room.name in door.rooms:
             x, y, z, yaw = door.pose
             heading = yaw + math.pi / 2 * (1 if door.rooms[0] == room.name else -1)
             yield (x + INSIDE * math.cos(heading), y + INSIDE * math.sin(heading), z, heading)
+    xs, ys = ([corner[axis] for corner in room.polygon] for axis in (0, 1))
+    grid = [(min(xs) + STEP * i, min(ys) + STEP * j)
+            for i in range(1, math.ceil((max(xs) - min(xs)) / STEP))
+            for j in range(1, math.ceil((max(ys) - min(ys)) / STEP))]
+    for x, y in [room.center, *sorted(grid, key=lambda at: math.dist(at, room.center))]:
+        if room.distance(x, y) > AROUND:
+            yield (x, y, room.floor, 0.0)
