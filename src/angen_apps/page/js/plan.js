@@ -7,6 +7,7 @@ import { Taken, around, nameOf } from './places.js';
 
 const SHOWN = new Set(['lamp', 'door', 'window', 'elevator', 'stove', 'heater', 'appliance', 'cabinet']);
 const LETTER = 0.66; // of a text's height: the width of a letter
+const LEAST = 11, FACE = 4, TOUCH = 12; // px of a text's height, of the radius of a mark and of its target
 const MARGIN = 0.6; // m around all that is shown
 const BODY = 0.22; // m: half of a person's mark
 const HEIGHT = 0.9; // m of walls over their floor that are drawn where the home has no rooms
@@ -21,6 +22,7 @@ export class Plan {
     this.withFields = false;
     this.stale = true;
     this.goal = /** @type {number[] | null} */ (null);
+    this.scale = 1; // px of a meter
     this.text = 0; // m of height
     /** @type {number[][]} */
     this.names = []; // boxes of the rooms' names
@@ -31,6 +33,7 @@ export class Plan {
     home.on('rows', () => this.update());
     home.on('poses', () => this.later());
     home.on('scan', (scan) => this.showScan(scan));
+    new ResizeObserver(() => { this.stale = true; this.draw(); }).observe(this.element);
   }
 
   /** @param {number | null} storey */
@@ -67,7 +70,8 @@ export class Plan {
     const xs = places.map(([x]) => x), ys = places.map(([, y]) => y);
     const left = Math.min(...xs) - MARGIN, top = -Math.max(...ys) - MARGIN;
     const width = Math.max(...xs) + MARGIN - left, height = -Math.min(...ys) + MARGIN - top;
-    this.text = Math.max(0.24, Math.min(0.42, width / 30));
+    this.scale = Math.min(this.element.clientWidth / width, this.element.clientHeight / height) || 1;
+    this.text = Math.max(Math.min(0.42, width / 30), LEAST / this.scale);
     this.root = svg('svg', { viewBox: `${left} ${top} ${width} ${height}`, role: 'group', 'aria-label': `Plan of floor ${number}` });
     this.root.addEventListener('click', (/** @type {MouseEvent} */ e) => this.click(e));
     const path = (/** @type {number[][]} */ p) => `M${p.map(([x, y]) => `${x.toFixed(3)} ${(-y).toFixed(3)}`).join('L')}Z`;
@@ -104,14 +108,13 @@ export class Plan {
     for (const e of shown) {
       if (!home.isMover(e)) taken.boxes.push([home.place(e)[0], home.place(e)[1], 0.2, 0.2]);
     }
-    /** @type {number[][]} */
-    const names = []; // which those of people do not cover
+    const written = new Taken();
     for (const room of rooms) {
-      const name = roomText(room), [x, y] = nameOf(room.polygon, (LETTER / 2) * text * name.length, text / 2, taken);
-      names.push(taken.boxes[taken.boxes.length - 1]);
+      const name = roomText(room), wide = (LETTER / 2) * text * name.length, [x, y] = nameOf(room.polygon, wide, text / 2, taken);
+      if (!written.put([x, y, wide, text / 2], [[0, 0]])) continue; // the room is smaller than its name
       this.root.append(svg('text', { x, y: -y + 0.35 * text, 'font-size': text }, name));
     }
-    this.names = names;
+    this.names = written.boxes;
   }
 
   /** @param {any} shape a box of the scene @returns {number[]} x y yaw of its middle */
@@ -163,13 +166,13 @@ export class Plan {
   /** @param {any} e */
   addItem(e) {
     const { home } = this, moves = home.isMover(e), sensor = home.kinds[e.kind]?.role === 'sensor';
-    const size = moves ? BODY : e.kind === 'lamp' ? 0.2 : sensor ? 0.1 : 0.14;
+    const size = Math.max(FACE / this.scale, moves ? BODY : e.kind === 'lamp' ? 0.2 : sensor ? 0.1 : 0.14);
     const item = svg('g', { class: `item ${e.kind}${home.isRobot(e) ? ' robot' : ''}${MOVES.has(e.kind) ? ' moves' : ''}`, tabindex: 0, role: 'button' },
       e.kind === 'door' ? svg('line', { class: 'leaf' }) : null,
       svg('circle', { class: 'face', r: size, visibility: e.kind === 'door' ? 'hidden' : null }),
       moves ? svg('path', { class: 'face', d: `M${size * 1.5} 0L${size * 0.7} ${-size * 0.5}V${size * 0.5}Z` }) : null,
       moves ? svg('text', { class: 'who', 'font-size': this.text * 0.8 }, e.name) : null,
-      svg('circle', { class: 'touch', r: Math.max(0.4, size) }));
+      svg('circle', { class: 'touch', r: Math.max(0.4, TOUCH / this.scale) }));
     const pick = (/** @type {Event} */ event) => { event.stopPropagation(); this.onPick({ entity: e }); };
     item.addEventListener('click', pick);
     item.addEventListener('keydown', (/** @type {KeyboardEvent} */ event) => {
