@@ -133,8 +133,8 @@ def live(sandbox: Sandbox) -> None:
 def replay(sandbox: Sandbox) -> None:
     """A generated day."""
     day = sandbox.folder / 'day'
-    subprocess.run(['angen', 'generate', '--days', '1', '--residents', 'retired', '--seed', '7',
-                    '-o', str(day)], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(['angen', 'generate', '--days', '1', '--seed', '7', '-o', str(day)],
+                   check=True, stdout=subprocess.DEVNULL)
     with page_of(sandbox, (WIDTH, HEIGHT), '--replay', str(day)) as page:
         page.run('angen.setTheme("light")')
         page.until('return angen.player.loaded >= 86400')
