@@ -201,6 +201,21 @@ def test_a_sensor_is_added_where_one_taps_and_deleted(home: Angen, page: Page) -
     page.until('return !angen.home.entities.some((e) => e.kind === "pir")')
 
 
+def test_a_browser_without_webgl_has_the_plan(server: Server, page: Page) -> None:
+    script = page.driver.execute_cdp_cmd('Page.addScriptToEvaluateOnNewDocument', {'source': '''
+        const get = HTMLCanvasElement.prototype.getContext;
+        HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+            return kind.startsWith("webgl") ? null : get.call(this, kind, ...more); };'''})
+    page.open(server.url)
+    page.until('return document.querySelectorAll("#plan g.item").length > 0')
+    assert 'WebGL' in page.run('''const e = document.querySelector("#view-3d");
+        return e.disabled && e.title''')
+    assert page.run('return document.querySelector("#scene").hidden')
+    page.driver.execute_cdp_cmd('Page.removeScriptToEvaluateOnNewDocument', script)
+    page.errors()  # of three.js
+    page.open(server.url)
+
+
 def status(url: str, **headers: str) -> int:
     try:
         request = urllib.request.Request(url, headers=headers)

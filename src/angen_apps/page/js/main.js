@@ -8,6 +8,7 @@ import { Plan } from './plan.js';
 import { Player } from './player.js';
 import { View3d } from './view3d.js';
 
+const NO_3D = 'This browser has no WebGL, which the 3D view needs: the plan has everything.';
 const RATES = [0.1, 0.5, 1, 2, 5, 10, 100, 0];
 
 class Page {
@@ -22,7 +23,8 @@ class Page {
     try {
       this.view = new View3d(this.home, pick);
     } catch {
-      this.view = null; // no WebGL: the plan has everything
+      this.view = null;
+      notice(NO_3D, true);
     }
     this.goal = new Goal(this.home, this);
     this.card = new Card(this.home, this);
@@ -57,7 +59,7 @@ class Page {
       el('button', { type: 'button', class: 'wide', title: 'One second on, while paused (.)', onclick: ask('step', { seconds: 1 }) }, '+1 s'), this.rate,
       el('button', { type: 'button', class: 'wide', title: 'To the start', onclick: ask('reset') }, 'Reset'), this.factor);
     for (const [id, text] of [['3d', '3D'], ['plan', 'Plan']]) {
-      by('views').append(el('button', { type: 'button', id: `view-${id}`, disabled: id === '3d' && !this.view, onclick: () => this.setView(id) }, text));
+      by('views').append(el('button', { type: 'button', id: `view-${id}`, disabled: id === '3d' && !this.view, title: id === '3d' && !this.view && NO_3D, onclick: () => this.setView(id) }, text));
     }
     by('theme').addEventListener('click', () => this.setTheme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark'));
     by('help').addEventListener('click', () => this.help());
