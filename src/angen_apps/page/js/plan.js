@@ -67,9 +67,9 @@ export class Plan {
       this.element.replaceChildren(el('p', { class: 'soft' }, 'This world has no rooms and no devices.'));
       return;
     }
-    const xs = places.map(([x]) => x), ys = places.map(([, y]) => y);
-    const left = Math.min(...xs) - MARGIN, top = -Math.max(...ys) - MARGIN;
-    const width = Math.max(...xs) + MARGIN - left, height = -Math.min(...ys) + MARGIN - top;
+    const xs = places.map(([x]) => x), ys = places.map(([, y]) => y), margin = rooms.length ? MARGIN : 2 * MARGIN; // leaves open
+    const left = Math.min(...xs) - margin, top = -Math.max(...ys) - margin;
+    const width = Math.max(...xs) + margin - left, height = -Math.min(...ys) + margin - top;
     this.scale = Math.min(this.element.clientWidth / width, this.element.clientHeight / height) || 1;
     this.text = Math.max(Math.min(0.42, width / 30), LEAST / this.scale);
     this.root = svg('svg', { viewBox: `${left} ${top} ${width} ${height}`, role: 'group', 'aria-label': `Plan of floor ${number}` });
