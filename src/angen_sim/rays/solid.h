@@ -19,7 +19,7 @@ struct Solid {
   std::uint32_t slot = UINT32_MAX;
   bool aligned = true;  // rotation is exactly the identity
   bool anchored = false;
-  mutable bool loose = false;  // has moved since its layer's hierarchy was built
+  mutable bool loose = false;                // has moved since its layer's hierarchy was built
   std::shared_ptr<const TriangleTree> mesh;  // also of a heightmap, which is a mesh here
   Eigen::AlignedBox3d box;                   // m, world; empty for a plane, bad sizes or a bad pose
 

@@ -9,7 +9,7 @@ from angen_tools.cli import main as cli
 
 
 @pytest.mark.parametrize('source, part', [
-    ('http://a/b', 'model://NAME'), ('nowhere', 'neither a file nor a model'), ('', 'model.sdf')])
+    ('http://a/b', 'model://NAME'), ('nowhere', 'neither a file nor a model'), ('', 'give a path')])
 def test_what_is_no_model_is_told(source: str, part: str, tmp_path: Path,
                                   monkeypatch: pytest.MonkeyPatch,
                                   capsys: pytest.CaptureFixture[str]) -> None:
