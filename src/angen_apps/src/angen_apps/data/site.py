@@ -216,9 +216,10 @@ class _Placer:
 
     def _contact(self, door: str) -> None:
         """A reed contact at the upper edge of a leaf, on a model with links base and door."""
-        model = next((model for kind, name, model, _ in self.world.entities()
+        entities = self.world.entities()
+        model = next((model for kind, name, model, _ in entities
                       if (kind, name) == ('door', door)), '')
-        if any(kind == 'reed' and owner == model for kind, _, owner, _ in self.world.entities()):
+        if any(kind == 'reed' and owner == model for kind, _, owner, _ in entities):
             return
         if not {f'{model}::base', f'{model}::door'} <= set(self.world.links):
             return
