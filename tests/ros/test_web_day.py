@@ -110,6 +110,9 @@ def test_a_day_is_played(server: Server) -> None:
         ('lying · sleep', 0.0), ('walking · wash', 100.0), ('standing · wash', 110.0),
         ('away · work', 200.0)]
     assert [row[2] for row in rows if row[1] == 'bathroom0_temperature'][-1] == '19.5 °C'
+    assert [row[2] for row in rows if row[1] == 'bathroom0_temperature'][0] == ''  # none before
+    assert [row[2] for row in rows if row[1] == 'bathroom0_contact'][0] != ''
+    assert {row[2] for row in rows if row[0] == 'stove'} == {''}  # not in the files
     light = scene['light_ids'][next(i for i, one in enumerate(scene['lights'])
                                     if one['model'] == 'bathroom_lamp0')]
     assert [(e[1], e[3]) for e in entries if e[0] == 'l' and light in e[2]] == [

@@ -9,7 +9,10 @@ namespace angen {
 
 namespace {
 
+constexpr char kNone[] = "–";  // of a value that there is not, as the temperature without a climate
+
 std::string fixed(double value, int decimals) {
+  if (std::isnan(value)) return kNone;
   std::ostringstream text;
   const double scale = std::pow(10.0, decimals);
   const double rounded = std::round(value * scale) / scale + 0.0;  // never -0
@@ -33,6 +36,7 @@ std::string shown_value(const Field& field, const Value& value) {
         } else if constexpr (std::is_same_v<T, std::int64_t>) {
           return std::to_string(held) + unit;
         } else if constexpr (std::is_same_v<T, double>) {
+          if (std::isnan(held)) return kNone;
           if (field.as_percent) return fixed(100.0 * held, field.decimals) + " %";
           return fixed(held, field.decimals) + unit;
         } else if constexpr (std::is_same_v<T, std::string>) {

@@ -43,6 +43,22 @@ TEST(Summary, NamesNumbers) {
   EXPECT_EQ(summary(kind, reading), "kitchen 20.0, hall 0.0 °C");
 }
 
+TEST(Summary, OfAValueThatThereIsNotIsADash) {
+  const Kind kind = Kind("air", "")
+                        .number("temperature", "°C", "")
+                        .shown(1)
+                        .number("charge", "1", "")
+                        .shown_as_percent()
+                        .numbers("rooms", "°C", "")
+                        .shown(1);
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  Reading reading;
+  reading.set("temperature", none);
+  reading.set("charge", -none);
+  reading.set("rooms", std::vector<double>{20.0, none});
+  EXPECT_EQ(summary(kind, reading), "–  –  20.0 – °C");
+}
+
 TEST(Summary, OfAKindThatShowsNothingIsEveryField) {
   Reading reading;
   reading.set("count", 3);

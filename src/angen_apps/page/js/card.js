@@ -162,8 +162,8 @@ export class Card {
 
   refresh() {
     if (this.state && this.shown?.entity) {
-      const row = this.home.row(this.shown.entity);
-      const text = row?.text || 'no reading yet';
+      const row = this.home.row(this.shown.entity), isSensor = this.home.kinds[this.shown.entity.kind]?.role === 'sensor';
+      const text = row?.text || (isSensor ? 'no reading yet' : '–');
       if (this.state.textContent !== text) this.state.textContent = text;
       this.state.classList.toggle('alarm', Boolean(row?.alarm));
       for (const follow of this.follow) follow();

@@ -31,6 +31,7 @@ POSTURES = {'stand': 'standing', 'sit': 'sitting', 'lie': 'lying'}
 LEAVES = ('door', 'window', 'cabinet')
 WORDS = {'motion': ('MOTION', 'still'), 'area': ('MOTION', 'still'), 'door': ('open', 'closed'),
          'item': ('pressed', 'free'), 'power': ('on', 'off')}  # as summaries have them
+TOLD = (*LEAVES, 'lamp', 'appliance', 'person')  # devices whose states the files have
 FIRST = ('ON', 'OPEN', 'PRESENT')
 UNITS = {'temperature': ('temperature', '°C'), 'light': ('illuminance', 'lx')}
 
@@ -145,7 +146,11 @@ class Day(Played):
     def _on_summary(self, message: Any) -> None:
         if self._has_rows:
             return
-        self.store.put_rows([(*row[:4], 0.0, row[5]) for row in map(row_of, message.entries)], True)
+        told = {*TOLD, *(self._sources[sensor['name']][0] for sensor in self._layout['sensors']
+                         if sensor['kind'] in WORDS and sensor['name'] in self._sources)}
+        self.store.put_rows([  # the node's own air, light and cabins are not those of the day
+            (*row[:4], 0.0, row[5]) if row[0] in told else (*row[:2], '', False, 0.0, [])
+            for row in map(row_of, message.entries)], True)
         self._has_rows = bool(message.complete)
 
     def _on_stats(self, message: Any) -> None:
