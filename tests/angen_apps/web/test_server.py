@@ -62,14 +62,15 @@ class Running:
                                        headers={'Origin': f'http://{self.host}', **headers})
 
 
-def run(test: Callable[[Running], Awaitable[None]], host: str = '127.0.0.1') -> None:
+def run(test: Callable[[Running], Awaitable[None]], host: str = '127.0.0.1', page: Path = PAGE
+        ) -> None:
     async def go() -> None:
         from socket import socket
         with socket() as free:
             free.bind(('127.0.0.1', 0))
             port = int(free.getsockname()[1])
         source, guard = Source(), Guard(host, port, set())
-        runner = web.AppRunner(Server(source, guard, PAGE, {'lamp': {}}).app)
+        runner = web.AppRunner(Server(source, guard, page, {'lamp': {}}).app)
         await runner.setup()
         await web.TCPSite(runner, '127.0.0.1', port, shutdown_timeout=0.5).start()
         try:
@@ -99,6 +100,30 @@ def test_it_serves_its_own_files_and_no_others() -> None:
                      '/page/js/..%2f..%2f..%2fpackage.xml', '/etc/passwd', '/page/'):
             assert (await server.get(path))[0] in (403, 404), path
     run(test)
+
+
+def test_files_are_compressed_and_sent_once(tmp_path: Path) -> None:
+    async def test(server: Running) -> None:
+        total = 0
+        for path in (*PAGE.rglob('*.js'), *PAGE.rglob('*.css'), PAGE / 'index.html'):
+            url = f'http://{server.host}/page/{path.relative_to(PAGE)}'
+            async with server.session.get(url) as answer:
+                assert await answer.read() == path.read_bytes()
+                total += int(answer.headers['Content-Length'])
+                tag = answer.headers['ETag']
+            async with server.session.get(url, headers={'If-None-Match': tag}) as answer:
+                assert (answer.status, await answer.read()) == (304, b'')
+        assert total < 400_000  # bytes: two seconds of a slow network
+
+    run(test)
+    page = tmp_path / 'page'
+    page.mkdir()
+
+    async def changed(server: Running) -> None:
+        for content in ('one', 'another'):
+            (page / 'a.js').write_text(content)
+            assert (await server.get('/page/a.js'))[1] == content
+    run(changed, page=page)
 
 
 @pytest.mark.parametrize('host', ['evil.example', '127.0.0.1:1', 'localhost.evil.example:8080', ''])

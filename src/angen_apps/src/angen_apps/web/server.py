@@ -10,6 +10,7 @@ from typing import Any, Awaitable, Callable, Protocol
 
 from aiohttp import WSMsgType, web
 
+from angen_apps.web.files import Files
 from angen_apps.web.guard import Budget, Guard
 from angen_apps.web.store import Store
 from angen_apps.web.threads import in_thread
@@ -21,6 +22,7 @@ MOST_PENDING = 20  # orders of a browser
 PERIOD = 0.05  # s between updates of a browser
 PULSE = 20.0  # s between pings, which notice a browser that went away
 COST = 'cost'
+PACKED = {'Content-Encoding': 'gzip'}
 log = logging.getLogger('angen.web')
 
 
@@ -82,8 +84,8 @@ class Server:
 
     def __init__(self, source: Source, guard: Guard, page: Path, kinds: dict[str, Any]) -> None:
         self._source = source
-        self._page = page
-        self._kinds = json.dumps(kinds).encode()
+        self._files = Files(page)
+        self._kinds = gzip.compress(json.dumps(kinds).encode())
         self._browsers: set[Browser] = set()
         self._scene: tuple[int, bytes] = (0, b'')
         self._tasks: set[asyncio.Task[None]] = set()
@@ -92,7 +94,7 @@ class Server:
         self.app.add_routes([web.get('/', self._index), web.get('/socket', self._socket),
                              web.get('/scene.json', self._get_scene),
                              web.get('/kinds.json', self._get_kinds),
-                             web.static('/page', page, append_version=False)])
+                             web.get('/page/{name:.+}', self._files.get)])
         self.app.on_startup.append(self._start)
         self.app.on_shutdown.append(self._stop)
 
@@ -132,11 +134,11 @@ class Server:
         topics = {topic for browser in self._browsers for topic in browser.requested}
         self._source.request(topics if self._browsers else None)
 
-    async def _index(self, _: web.Request) -> web.StreamResponse:
-        return web.FileResponse(self._page / 'index.html')
+    async def _index(self, request: web.Request) -> web.StreamResponse:
+        return await self._files.answer(request, 'index.html')
 
     async def _get_kinds(self, _: web.Request) -> web.Response:
-        return web.Response(body=self._kinds, content_type='application/json')
+        return web.Response(body=self._kinds, content_type='application/json', headers=PACKED)
 
     async def _get_scene(self, _: web.Request) -> web.Response:
         scene = self._source.store.scene
@@ -145,8 +147,7 @@ class Server:
         if self._scene[0] != scene['number']:
             packed = await in_thread(pack, scene)
             self._scene = (scene['number'], packed)
-        return web.Response(body=self._scene[1], content_type='application/json',
-                            headers={'Content-Encoding': 'gzip'})
+        return web.Response(body=self._scene[1], content_type='application/json', headers=PACKED)
 
     async def _socket(self, request: web.Request) -> web.StreamResponse:
         if request.headers.get('Origin') is None:  # each browser sends it
