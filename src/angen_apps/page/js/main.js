@@ -35,9 +35,11 @@ class Page {
     this.home.on('status', () => this.showStatus());
     this.home.on('stats', () => this.showClock());
     this.home.on('home', () => this.buildFloors());
+    for (const topic of ['status', 'scene', 'home', 'entities']) this.home.on(topic, () => this.showNothing());
     setInterval(() => this.showClock(), 200);
     addEventListener('keydown', (e) => this.key(e));
     addEventListener('hashchange', () => { if (location.hash === '#home') this.whole(); });
+    this.showNothing();
     this.setTheme(localStorage.getItem('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
     this.setView(this.view && !matchMedia('(max-width: 820px)').matches ? '3d' : 'plan');
     if (matchMedia('(max-width: 820px)').matches) by('side').classList.add('low');
@@ -74,6 +76,16 @@ class Page {
     by('clock').classList.toggle('replay', home.status.replay);
     for (const control of by('clock').querySelectorAll('button, select')) control.disabled = !home.connected || !home.status.node;
     this.showClock();
+  }
+
+  /** Why there is no home to see. */
+  showNothing() {
+    const { connected, status, scene, described, rooms, entities } = this.home, known = scene && described;
+    const text = known ? (rooms.length || entities.some((e) => e.kind !== 'model') ? '' : 'This world has no rooms and no devices.')
+      : !connected ? 'Connecting to the server …' : status.replay ? 'Reading the recording …'
+        : status.node ? 'Loading the home …' : 'Waiting for a simulator: ./angen run starts one';
+    by('nothing').textContent = text;
+    by('nothing').hidden = !text;
   }
 
   showClock() {

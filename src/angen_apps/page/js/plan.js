@@ -1,5 +1,5 @@
 /** The plan of one floor, as SVG: large targets, and each item reached by the keyboard. */
-import { by, el, svg } from './dom.js';
+import { by, svg } from './dom.js';
 import { fieldShape } from './fields.js';
 import { roomText } from './labels.js';
 import { MOVES, scanPoints } from './overlays.js';
@@ -64,7 +64,7 @@ export class Plan {
       ...shown.filter((e) => !rooms.length || !home.isMover(e)).map((e) => Array.from(home.place(e)))];
     if (!places.length) {
       this.root = null;
-      this.element.replaceChildren(el('p', { class: 'soft' }, 'This world has no rooms and no devices.'));
+      this.element.replaceChildren();
       return;
     }
     const xs = places.map(([x]) => x), ys = places.map(([, y]) => y), margin = rooms.length ? MARGIN : 2 * MARGIN; // leaves open

@@ -4,6 +4,7 @@ import * as THREE from '../vendor/three/three.module.min.js';
 const BOX = 0, SPHERE = 1, CYLINDER = 2;
 export const CUT = 1.15; // m over the floor, where walls are cut
 const FINE = 1e-5, COARSE = 0.035; // m: corners of a mesh that are nearer are one; coarse where the processor draws
+const MOST = 20000, COARSER = 1.5, COARSEST = 0.2; // triangles of all copies of a mesh there, above which it gets coarser
 const scratch = new THREE.Matrix4(), moved = new THREE.Matrix4(), place = new THREE.Vector3(), turn = new THREE.Quaternion(), size = new THREE.Vector3();
 
 /** @param {ArrayLike<number>} p x y z and quaternion @param {any} into a Matrix4 */
@@ -21,6 +22,20 @@ export function classOf(group) {
 function storeyOf(group) {
   const found = / (-?\d+)$/.exec(group);
   return found ? Number(found[1]) : null;
+}
+
+/**
+ * As fine as the processor draws so many in time.
+ * @param {any} mesh @param {number} copies
+ */
+function plainGeometry(mesh, copies) {
+  let cell = COARSE, geometry = meshGeometry(mesh, cell);
+  while (copies * geometry.getIndex().count > 3 * MOST && cell < COARSEST) {
+    const before = geometry;
+    geometry = meshGeometry(mesh, cell *= COARSER);
+    if (!geometry.getIndex().count) return before; // nothing would be left
+  }
+  return geometry;
 }
 
 /**
@@ -112,12 +127,17 @@ export class Shapes {
     for (const [key, shapes] of batches) this.addBatch(scene, key, shapes, geometries, paint);
   }
 
+  /** @param {any} mesh @param {number} copies */
+  meshOf(mesh, copies) {
+    return this.plain ? plainGeometry(mesh, copies) : meshGeometry(mesh, FINE);
+  }
+
   /** @param {any} scene @param {string} key @param {any[]} shapes @param {Map<string, any>} geometries @param {any} paint */
   addBatch(scene, key, shapes, geometries, paint) {
     const [type, mesh, cls, clear] = key.split('|');
     const isMesh = Number(type) > CYLINDER, isWall = cls === 'wall' && type === '0';
     const shapeKey = isMesh ? `mesh ${mesh}` : `${type} ${cls}`;
-    if (!geometries.has(shapeKey)) geometries.set(shapeKey, isMesh ? meshGeometry(scene.meshes[shapes[0].mesh], this.plain ? COARSE : FINE) : geometryOf(type, cls, this.plain));
+    if (!geometries.has(shapeKey)) geometries.set(shapeKey, isMesh ? this.meshOf(scene.meshes[shapes[0].mesh], shapes.length) : geometryOf(type, cls, this.plain));
     const material = cls === 'ground' ? new THREE.MeshBasicMaterial() : new THREE.MeshLambertMaterial({ vertexColors: isWall, flatShading: isMesh });
     if (clear) Object.assign(material, { transparent: true, opacity: Math.max(0.15, Number(clear)), depthWrite: false });
     const batch = new THREE.InstancedMesh(geometries.get(shapeKey), material, shapes.length);

@@ -79,6 +79,12 @@ export class View3d {
   listen() {
     const { home } = this;
     for (const topic of ['scene', 'home', 'entities']) home.on(topic, () => this.buildSoon());
+    let rooms = '[]';
+    home.on('home', () => {
+      const before = rooms;
+      rooms = JSON.stringify(home.rooms.map((room) => room.polygon));
+      if (before !== rooms) this.framed = false; // another home
+    });
     home.on('poses', (links) => this.follow(links));
     home.on('levels', () => this.relight());
     home.on('stats', () => this.shine());
@@ -316,8 +322,9 @@ export class View3d {
    */
   look(above = false) {
     if (!this.shapes) return;
-    this.framed = this.home.rooms.length > 0 && this.element.clientWidth > 0; // until then what is seen may change, or its size
     const box = this.box(), many = this.storey === null && this.home.storeys.length > 1;
+    if (box.isEmpty()) return;
+    this.framed = this.home.described !== null && this.element.clientWidth > 0; // until then what is seen may change, or its size
     this.viewpoint.look(box, above ? new THREE.Vector3(0, -0.02, 1) : new THREE.Vector3(-0.5, -0.92, many ? 0.72 : 1.05));
     this.sky.cover(box.getCenter(new THREE.Vector3()), 0.5 * box.getSize(new THREE.Vector3()).length());
     this.shadowsAt = 0;

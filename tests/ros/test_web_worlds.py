@@ -1,0 +1,73 @@
+"""The page of angen web before its node, with an empty world, without rooms, with many lamps."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Iterator
+
+import pytest
+from angen_msgs.srv import Spawn
+from browser import Page, Server
+from geometry_msgs.msg import Point, Pose
+from harness import ROOT, Angen, Master, end
+
+LAMPS = 300
+MOST = 70_000  # triangles
+LAMP = '<include><uri>model://ceiling_lamp</uri><name>l{n}_lamp</name>' \
+    '<pose>{x} {y} 2.5 0 0 0</pose></include>'
+WORLD = '<sdf version="1.6"><world name="lamps">' + ''.join(
+    LAMP.format(n=n, x=3 * (n % 20), y=3 * (n // 20)) for n in range(LAMPS)) + '</world></sdf>'
+NOTHING = 'return !document.querySelector("#nothing").hidden && ' \
+    'document.querySelector("#nothing").textContent === arguments[0]'
+
+
+@pytest.fixture(scope='module')
+def page(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
+         ) -> Iterator[Page]:
+    """Opened while there is no node."""
+    server = Server(master, tmp_path_factory.mktemp('web'))
+    opened = Page(tmp_path_factory.mktemp('browser'), 900, 600)
+    try:
+        opened.driver.get(server.url)
+        yield opened
+        assert opened.errors() == []
+    finally:
+        opened.close()
+        assert server.end() == 0, server.log()
+
+
+def test_the_page_waits_for_its_node_and_says_that_a_world_is_empty(
+        master: Master, page: Page, tmp_path: Path) -> None:
+    page.until(NOTHING, 'Waiting for a simulator: ./angen run starts one')
+    process = master.node(ROOT / 'worlds/empty.world', tmp_path / 'log')
+    try:
+        for view in ('3d', 'plan'):
+            page.press(f'#view-{view}')
+            page.until(NOTHING, 'This world has no rooms and no devices.')
+    finally:
+        end(process)
+    page.press('#view-3d')
+
+
+def test_many_lamps_are_drawn_by_few_triangles_and_the_view_stays(
+        master: Master, page: Page, tmp_path: Path) -> None:
+    (tmp_path / 'lamps.world').write_text(WORLD)
+    node = Angen(master, master.node(tmp_path / 'lamps.world', tmp_path / 'log'), tmp_path / 'log')
+    try:
+        page.until('return angen.home.entities.filter((e) => e.kind === "lamp").length '
+                   '=== arguments[0]', LAMPS)
+        page.first_view()
+        assert page.run('return document.querySelector("#nothing").hidden')
+        page.run('angen.view.frames = 0; angen.view.dirty = true')
+        page.until('return angen.view.frames > 0')
+        assert 0 < page.run('return angen.view.renderer.info.render.triangles') < MOST
+        page.run('angen.view.viewpoint.camera.position.z += 5')
+        camera = page.run('return angen.view.viewpoint.camera.position.toArray()')
+        answer = node.call('/angen/spawn', Spawn, name='eye', xml='model://pir',
+                           pose=Pose(position=Point(1.0, 1.0, 2.0)))
+        assert answer.success
+        page.until('return angen.view.shapes.parts.length === angen.home.scene.links.length && '
+                   'angen.home.linksOf("eye").length > 0 && !angen.view.viewpoint.goal')
+        assert page.run('return angen.view.viewpoint.camera.position.toArray()') == pytest.approx(
+            camera, abs=1e-3)
+    finally:
+        end(node.process)
