@@ -58,6 +58,7 @@ def test_a_click_opens_a_door_and_another_closes_it(home: Angen, markers: Inbox)
     door = next(door for door in home.wait('/angen/home', HomeMessage).doors
                 if door.name == 'bathroom0')
     assert shown.pose == door.pose
+    assert shown.controls[0].markers[0].color.a == 1.0  # walls that are seen through cover it less
     with Inbox('/angen/door/bathroom0', DoorState) as states:
         press('door/bathroom0', InteractiveMarkerFeedback.BUTTON_CLICK)
         states.wait(lambda state: state.mode == DoorState.OPEN, 'an open door')

@@ -25,13 +25,13 @@ from angen_tools.common.home import Home
 from angen_tools.live.states import states_by_name
 
 SERVER = 'angen_controls'
-HANDLE = 0.16  # m, diameter of a button
+HANDLE = 0.2  # m, diameter of a button
 MOVER = 0.3  # m, of a person's or robot's: seen from above, their label covers less
 HAND = 1.05  # m over the foot of a door, where its button is
 OVER = {'person': 2.2, 'drive': 0.9}  # m over a mover's origin: over its label
 SCENE_LIMIT = 10.0  # s that the scene takes to come
 STATE_LIMIT = 1.0  # s that a latched state takes to come
-COLORS = {'lamp': (1.0, 0.8, 0.2), 'door': (0.06, 0.46, 0.43)}
+COLORS = {'lamp': (1.0, 0.8, 0.2), 'door': (0.0, 0.85, 0.75)}
 OTHER = (0.3, 0.5, 0.9)
 CHANGES = ('spawned', 'deleted', 'reset', 'arrived')  # the last: an elevator, perhaps with a mover
 QUIET = 0.3  # s without such an event, after which the markers are made again
@@ -45,7 +45,7 @@ def ball(kind: str, x: float, y: float, z: float) -> Marker:
     made.pose.orientation.w = 1.0
     made.pose.position.x, made.pose.position.y, made.pose.position.z = x, y, z
     made.color.r, made.color.g, made.color.b = COLORS.get(kind, OTHER)
-    made.color.a = 0.9
+    made.color.a = 1.0  # else rviz draws it among the see-through walls, also over it those behind
     return made
 
 
