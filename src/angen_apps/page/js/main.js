@@ -117,6 +117,7 @@ class Page {
 
   /** @param {string} id */
   setView(id) {
+    if (!this.view) id = 'plan';
     by('scene').hidden = id !== '3d';
     by('labels').hidden = id !== '3d';
     by('plan').hidden = id !== 'plan';
@@ -176,7 +177,7 @@ class Page {
   /** What one can do, until one has done it. */
   welcome() {
     const narrow = matchMedia('(max-width: 820px)').matches;
-    by('welcome').textContent = `${narrow ? 'Tap' : 'Click'} a lamp, door, person or room${narrow ? '' : ' · drag turns the 3D view'}`;
+    by('welcome').textContent = `${narrow ? 'Tap' : 'Click'} a lamp, door, person or room${narrow || !this.view ? '' : ' · drag turns the 3D view'}`;
     by('welcome').hidden = localStorage.getItem('welcome') === 'seen';
     const seen = () => { by('welcome').hidden = true; localStorage.setItem('welcome', 'seen'); };
     by('stage').addEventListener('pointerdown', seen, { once: true, capture: true }); // also one that sets a goal
