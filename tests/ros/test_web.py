@@ -12,6 +12,7 @@ from angen_msgs.srv import Delete, Spawn
 from browser import LIMIT, Page, Server
 from geometry_msgs.msg import Point, Pose
 from harness import Angen, Inbox, Master, end
+from selenium.webdriver.common.action_chains import ActionChains
 from std_srvs.srv import Empty
 
 LONG = 'x' * 200
@@ -133,6 +134,13 @@ def test_the_clock_pauses_and_goes_on(home: Angen, page: Page) -> None:
                            '!== arguments[0]', seen)
 
 
+def test_an_order_waits_for_a_connection_that_comes_back(home: Angen, page: Page) -> None:
+    answer = page.driver.execute_async_script('''angen.home.connection.socket.close();
+        angen.home.order({do: "command", target: "lamp/kitchen0", text: "On"}).then(
+            arguments[0])''')
+    assert answer['ok'], answer
+
+
 def test_hostile_names_are_text(home: Angen, page: Page) -> None:
     answer = home.call('/angen/spawn', Spawn, name=HOSTILE, xml='model://pir',
                        pose=Pose(position=Point(1.0, -1.0, 2.0)))
@@ -210,7 +218,8 @@ def test_a_browser_without_webgl_has_the_plan(server: Server, page: Page) -> Non
     page.until('return document.querySelectorAll("#plan g.item").length > 0')
     assert 'WebGL' in page.run('''const e = document.querySelector("#view-3d");
         return e.disabled && e.title''')
-    assert page.run('return document.querySelector("#scene").hidden')
+    ActionChains(page.driver, duration=0).send_keys('v').perform()  # the key of 3D or plan
+    assert page.run('return document.querySelector("#scene").hidden && !angen.plan.hidden')
     page.driver.execute_cdp_cmd('Page.removeScriptToEvaluateOnNewDocument', script)
     page.errors()  # of three.js
     page.open(server.url)

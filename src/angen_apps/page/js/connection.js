@@ -19,6 +19,8 @@ export class Connection {
     this.last = 0;
     /** @type {Map<string, string[]>} */
     this.topics = new Map();
+    /** @type {(() => void)[]} of orders that wait for it */
+    this.awaiting = [];
     /** @type {WebSocket | null} */
     this.socket = null;
     this.open();
@@ -31,6 +33,7 @@ export class Connection {
     socket.onopen = () => {
       this.onState(true);
       this.sendTopics();
+      for (const go of this.awaiting.splice(0)) go();
     };
     socket.onmessage = (event) => {
       if (typeof event.data !== 'string') {
@@ -55,6 +58,17 @@ export class Connection {
   /** @param {any} message */
   send(message) {
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+  }
+
+  /** @param {number} limit ms @returns {Promise<void>} when it is open, or after the limit */
+  opened(limit) {
+    return new Promise((resolve) => {
+      if (this.socket?.readyState === WebSocket.OPEN) resolve();
+      else {
+        this.awaiting.push(resolve);
+        setTimeout(resolve, limit);
+      }
+    });
   }
 
   /** @param {any} order @returns {Promise<Answer>} */

@@ -10,6 +10,7 @@ import { clockText, notice } from './dom.js';
 const POSES = 1, LEVELS = 2, PICTURE = 3, SCAN = 4; // as store.py
 export const HISTORY = 300; // s
 const MOST = 3000; // values of a series
+const PATIENCE = 8000; // ms
 
 export class Home {
   constructor() {
@@ -301,8 +302,12 @@ export class Home {
     return found ? [found] : [];
   }
 
-  /** @param {any} order */
+  /**
+   * A connection that was lost may be back in a moment.
+   * @param {any} order
+   */
   async order(order) {
+    await this.connection.opened(PATIENCE);
     const answer = await this.connection.ask(order);
     if (!answer.ok) notice(answer.text ?? 'The simulator refused.', true);
     return answer;
