@@ -91,6 +91,20 @@ def test_validate_finds_walls_and_seats(lived, tmp_path):
     assert len(validate(tmp_path).wrong['nobody crossed a wall']) == 1
 
 
+def test_validate_lets_a_step_pass_an_opening_aslant(lived, tmp_path):
+    FORMATS['csv'](tmp_path, lived)
+    write_truth(tmp_path, lived)
+    door = next(d for d in lived.home.doors if d.name == 'kitchen0')
+    x, y = door.pose[0] + 0.45 * door.width, door.pose[1]  # of its edge; its leaf is along x
+    lines = ['time,resident,x,y,storey', f'5000.0,anna,{x - 0.1},{y - 0.1},0',
+             f'5000.5,anna,{x + 0.35},{y + 0.4},0', f'6000.0,anna,{x + 0.3},{y - 0.1},0',
+             f'6000.5,anna,{x + 0.35},{y + 0.4},0']
+    with gzip.open(tmp_path / 'track.csv.gz', 'wt') as file:
+        file.write('\n'.join(lines) + '\n')
+    wrong, = validate(tmp_path).wrong['nobody crossed a wall']
+    assert wrong.startswith('anna at 6000.5')
+
+
 def test_validate_finds_activities_elsewhere_and_ways_that_are_given_up(lived, tmp_path):
     does = next(i for i in lived.truth if i.phase == 'does')
     cooks = replace(does, activity='cook', room='bathroom0', thing='')

@@ -18,7 +18,7 @@ from angen_tools.common.failure import Failure
 
 DAY = 86400.0
 FASTER = 1.35  # times the speed of a profile that a person may reach
-SLACK = 0.25  # m beside an opening, in a wall
+SLACK = 0.5  # m from the middle of an opening to the end of a step to its room
 SITS = (3.0, 1.0)  # s after the begin and before the end of sitting, when the seat is pressed
 SHOWN = 3  # findings of a kind that are listed
 GIVEN_UP = 0.02  # of a resident's places that it may not reach
@@ -117,10 +117,10 @@ def _walls(findings: Findings, layout: Any, folder: Path) -> None:
                      f'{who} at {time}: {way:.2f} m in {time - before[0]:.2f} s')
         rooms = [_room(layout, *before[1:]), _room(layout, x, y, storey)]
         if rooms[0] != rooms[1]:
-            middle = ((before[1] + x) / 2, (before[2] + y) / 2)
-            near = any(_in_opening(door, middle) for door in layout['doors'])
+            near = any(_through(door, before[1:3], (x, y)) for door in layout['doors'])
             findings.say('nobody crossed a wall', near,
-                         f'{who} at {time}: from {rooms[0]} to {rooms[1]} at {middle}')
+                         f'{who} at {time}: from {rooms[0]} at {before[1]} {before[2]} to '
+                         f'{rooms[1]} at {x} {y}')
 
 
 def _room(layout: Any, x: float, y: float, storey: int) -> str:
@@ -129,13 +129,15 @@ def _room(layout: Any, x: float, y: float, storey: int) -> str:
                  and contains(room['polygon'], x, y)), '')
 
 
-def _in_opening(door: Any, at: tuple[float, float]) -> bool:
+def _through(door: Any, start: tuple[float, float], end: tuple[float, float]) -> bool:
+    """Whether a step leads through a door or opening, or begins or ends close before it."""
     x, y, _, yaw = door['pose']
-    dx, dy = at[0] - x, at[1] - y
-    along = math.cos(yaw) * dx + math.sin(yaw) * dy
-    across = math.cos(yaw) * dy - math.sin(yaw) * dx
-    return (door['kind'] != 'window' and abs(along) <= door['width'] / 2 + 0.05
-            and abs(across) <= SLACK + 0.25)
+    (u0, v0), (u1, v1) = ((math.cos(yaw) * (a - x) + math.sin(yaw) * (b - y),
+                           math.cos(yaw) * (b - y) - math.sin(yaw) * (a - x))
+                          for a, b in (start, end))
+    share = min(max(v0 / (v0 - v1), 0.0), 1.0) if v0 != v1 else 0.5  # of the step, at the door
+    return (door['kind'] != 'window' and abs(u0 + share * (u1 - u0)) <= door['width'] / 2 + 0.05
+            and abs(v0 + share * (v1 - v0)) <= SLACK)
 
 
 def _rooms(findings: Findings, layout: Any, truth: list[dict[str, str]]) -> None:
