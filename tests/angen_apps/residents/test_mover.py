@@ -3,18 +3,27 @@ from __future__ import annotations
 
 import datetime
 import math
+from dataclasses import replace
 from pathlib import Path
 from random import Random
 
+import numpy as np
+import pytest
+
 from angen_apps.data.site import Site, apartment as furnished
+from angen_apps.imports.sweethome import read_sweethome
+from angen_apps.maps.gridmap import OCCUPIED
 from angen_apps.plan.apartment import apartment
 from angen_apps.plan.writer import write_world
 from angen_apps.residents.activities import Step
 from angen_apps.residents.ground import BODY
 from angen_apps.residents.household import Household
+from angen_apps.residents.mover import away_from
 from angen_apps.residents.places import Places, Spot
 from angen_apps.residents.profiles import read
 from angen_apps.residents.resident import Resident
+from angen_apps.residents.survey import middles
+from angen_apps.robot.planner import Planner
 
 LEAF = 0.9  # m
 
@@ -77,8 +86,8 @@ def test_who_is_blocked_shuts_leaves_that_nobody_holds(tmp_path):
     anna.enter(Spot(at, 0, 0.0, 'entrance0'))
     held = [door for door in doors if math.dist(at, place[door][:2]) < 2.5][0]
     household.take(('door', held), 'bert')
-    anna._shut_around()
-    household.run(household.now + 8.0)
+    household.add(anna._shut_around())
+    household.run(household.now + 12.0)
     for door in doors:
         near = door != held and math.dist(at, place[door][:2]) < 2.5
         assert site.simulator.state('door', door)['mode'] == ('CLOSED' if near else 'OPEN'), door
@@ -105,3 +114,90 @@ def test_who_cannot_get_near_a_thing_stands_in_its_room(tmp_path, monkeypatch):
     monkeypatch.setattr(site.ground, 'near', lambda *_: None)
     spots = Places(site.ground).spots(Step(at=('fridge',)))
     assert spots and all(spot.room == 'kitchen0' and not spot.thing for spot in spots)
+
+
+WALLS = ((0, 0, 800, 0), (800, 0, 800, 400), (800, 400, 0, 400), (0, 400, 0, 0),
+         (0, 250, 500, 250), (500, 0, 500, 400))
+ROOMS = {'Kitchen': (0, 0, 500, 250), 'Hall': (0, 250, 500, 400), 'Living': (500, 0, 800, 400)}
+DOORS = {'Front door': (0, 325, 1.5708), 'Door': (250, 250, 3.1416),
+         'Inner door': (500, 325, 1.5708)}
+
+
+def narrow(folder: Path) -> Path:
+    """A home whose kitchen door opens into a narrow hall, between its entrance and living room."""
+    xml = ''.join('<wall xStart="%d" yStart="%d" xEnd="%d" yEnd="%d" thickness="20"/>' % wall
+                  for wall in WALLS)
+    for name, (west, north, east, south) in ROOMS.items():
+        corners = ((west, north), (east, north), (east, south), (west, south))
+        xml += f'<room name="{name}">' + ''.join(
+            f'<point x="{x}" y="{y}"/>' for x, y in corners) + '</room>'
+    for name, (x, y, angle) in DOORS.items():
+        xml += (f'<doorOrWindow catalogId="door" name="{name}" x="{x}" y="{y}" angle="{angle}" '
+                'width="90" depth="20" height="210"><sash xAxis="0.015" yAxis="0.5" width="0.97" '
+                'startAngle="0" endAngle="1.5707964"/></doorOrWindow>')
+    (folder / 'home.xml').write_text(f'<home>{xml}</home>')
+    write_world(read_sweethome(folder / 'home.xml'), folder / 'home.world', 'none')
+    return folder / 'home.world'
+
+
+def test_a_door_whose_leaf_closes_off_a_hall_is_always_shut(tmp_path):
+    site, household, anna = home_of(narrow(tmp_path))
+    assert site.ground.in_way == {'kitchen0'}
+    anna.profile = replace(anna.profile, closes_doors=0.0)
+    kitchen = household.places.free('kitchen', Random(1), 1)[0]
+    found = []
+
+    def script():
+        anna.enter(kitchen)
+        for goal in ((6.5, -2.0), kitchen.stand):
+            yield from anna.go(goal, 0)
+            yield anna.now + 6.0
+            found.append((anna.arrived, {name: site.simulator.state('door', name)['mode']
+                                         for name in ('kitchen0', 'living0')}))
+
+    household.add(script())
+    household.run(120.0)
+    assert found == [(True, {'kitchen0': 'CLOSED', 'living0': 'OPEN'})] * 2
+
+
+def test_a_leaf_before_the_entrance_closes_off_the_outside(tmp_path):
+    site, _, _ = home_of(narrow(tmp_path))
+    planner = site.ground.planners[0]
+    x, y = middles(planner.grid, *np.indices(planner.grid.cells.shape))
+    rooms = {'hall0', 'kitchen0', 'living0'}
+    assert site.ground._reached(planner, x, y) == rooms | {''}
+    leaf = (abs(x - 0.3) < 0.1) & (abs(y + 3.0) < 0.4)
+    cells = np.where(leaf, OCCUPIED, planner.grid.cells).astype(np.int8)
+    assert site.ground._reached(Planner(replace(planner.grid, cells=cells), BODY), x, y) == rooms
+
+
+def test_a_resident_waits_for_another_one_who_is_in_the_way(tmp_path):
+    site, household, anna = home_of(narrow(tmp_path))
+    bert = Resident(household, 'bert', 1, read('retired'))
+    household.residents.append(bert)
+    hall = Spot((2.5, -3.25), 0, 0.0, 'hall0')
+    far = Spot((6.5, -2.0), 0, 0.0, 'living0')
+
+    def stays():
+        bert.enter(hall)
+        yield 120.0
+        yield from bert.go((1.0, -1.0), 0)
+
+    def goes():
+        anna.enter(Spot((0.6, -3.25), 0, 0.0, 'hall0'))
+        assert anna.blocker(far) is bert
+        yield from anna._reach(far, 'relax')
+
+    household.add(stays())
+    household.add(goes())
+    household.run(220.0)
+    anna.diary.end(household.now)
+    phases = [i.phase for i in anna.diary.closed]
+    assert anna.arrived and phases == ['goes', 'waits', 'goes']
+    assert not any(i.note for i in anna.diary.closed)
+
+
+def test_distance_from_a_line():
+    line = [(0.0, 0.0), (2.0, 0.0), (2.0, 0.0), (2.0, 3.0)]
+    assert away_from(line, (1.0, 0.5)) == 0.5 and away_from(line, (2.4, 2.0)) == pytest.approx(0.4)
+    assert away_from(line[:1], (3.0, 4.0)) == 5.0

@@ -1,6 +1,8 @@
 """Residents who use the things of a home."""
 from __future__ import annotations
 
+from pathlib import Path
+
 from angen_apps.data.site import apartment
 from angen_apps.residents.activities import Step
 from tests.angen_apps.residents.test_mover import home_of
@@ -27,3 +29,32 @@ def test_whoever_opens_a_front_steps_out_of_its_way(tmp_path):
     household.add(script())
     household.run(300.0)
     assert len(modes) == 2 and set(modes.values()) == {'OPEN'}, modes
+
+
+def without(path: Path, *models: str) -> None:
+    """Writes the furnished apartment without some models."""
+    apartment(path)
+    text = path.read_text()
+    for name in models:
+        start = text.rindex('<include>', 0, text.index(name))
+        text = text[:start] + text[text.index('</include>', start) + len('</include>'):]
+    path.write_text(text)
+
+
+def test_the_truth_says_what_a_home_lacks(tmp_path):
+    without(tmp_path / 'home.world', 'bathroom_toilet0')
+    _, household, anna = home_of(tmp_path / 'home.world')
+    toilet, eat = anna._known['toilet'], anna._known['eat']
+
+    def script():
+        anna.enter(household.places.anywhere())
+        for activity in (toilet, eat):
+            for index, step in enumerate(activity.steps):
+                yield from anna._step(activity, step, index, anna.now + 30.0)
+
+    household.add(script())
+    household.run(200.0)
+    anna.diary.end(household.now)
+    does = {(i.activity, i.thing): i.note for i in anna.diary.closed if i.phase == 'does'}
+    assert does.pop(('toilet', '')) == 'no toilet in reach'
+    assert set(does.values()) == {''} and len(does) == 2  # the sink, a chair

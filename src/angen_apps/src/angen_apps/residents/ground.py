@@ -10,22 +10,15 @@ from scipy.ndimage import binary_erosion, label
 
 from angen_apps.maps.gridmap import FREE, OCCUPIED, RESOLUTION, GridMap
 from angen_apps.maps.rays import Caster
-from angen_apps.plan.polygons import in_room, inside
+from angen_apps.plan.polygons import inside
+from angen_apps.residents.survey import (PORCH, delete, elevation, middles, open_all, opening,
+                                         storey_at, survey)
 from angen_apps.robot.planner import Planner, Point
-from angen_tools.common.catalog import angen_module
 from angen_tools.common.home import Door, Home, Place, Room
 
 BODY = 0.3  # m: half the width of a person, with a margin
-TALL = 2.0  # m: higher things are not obstacles
-STEP = 0.06  # m: a higher thing on the floor is an obstacle
-DROP = 0.3  # m: deeper ground is not walkable
-HEIGHTS = (0.2, 1.0, 1.8)  # m above the floor where walls are looked for
-PAST = 1e-4  # m beyond a surface: the start of the next ray
-MARGIN = 1.5  # m around the rooms
-DEEP = 0.35  # m to both sides of a door's middle that belong to its opening
-PORCH = 1.2  # m outside the entrance where people come and go
+CLEAR = 1.05  # m from a door's middle: its leaf does not meet who is there
 SWING = 1.25  # m from a door's middle: its leaf does not reach farther
-OPENS_IN = 20.0  # s, at most
 LEAF = 0.2  # m beyond a door's width from its middle: the farthest end of its leaf
 GOALS = 64  # goals whose ways are cached
 REACH = 1.1  # m from a person to the thing that the person uses
@@ -34,10 +27,13 @@ LONG = 1.4  # m of free cells in a line, on which a person can lie
 
 @dataclass(frozen=True)
 class Leg:
-    """A part of a way: places to pass, and the door that has to be open before it begins."""
+    """A part of a way: places to pass, and the door that has to be open before it begins, or the
+    one to shut behind. `exact`: one has to get to its end, and not only near to it."""
 
     points: tuple[Point, ...]
     door: Door | None = None
+    behind: Door | None = None
+    exact: bool = False
 
 
 @dataclass(frozen=True)
@@ -55,14 +51,16 @@ class Ground:
 
     def __init__(self, world: Any, home: Home) -> None:
         self.home = home
-        _delete(world, 'person', 'drive')
+        delete(world, 'person', 'drive')
         self._caster = Caster(world)
         entrance = self.entrance()
         lives = self.storey_at(entrance.pose[2]) if entrance else min(r.storey for r in home.rooms)
-        _open_all(world, home)
-        leaves = {storey: self._grid(storey) for storey in self._storeys(lives)}
-        _delete(world, 'door')
-        self.planners = {storey: self._planner(self._grid(storey), opened)
+        open_all(world, home)
+        self.in_way: set[str] = set()  # doors whose leaves close off a room, if they stand open
+        self._stops: dict[str, Point] = {}  # where one opens and shuts those that do so alone
+        leaves = {storey: survey(self._caster, home, storey) for storey in self._storeys(lives)}
+        delete(world, 'door')
+        self.planners = {storey: self._planner(survey(self._caster, home, storey), opened)
                          for storey, opened in leaves.items()}
         self.free = {storey: self._largest(planner) for storey, planner in self.planners.items()}
         self._toward: dict[tuple[int, tuple[int, int]], np.ndarray] = {}  # the last used at the end
@@ -104,10 +102,10 @@ class Ground:
 
     def storey_at(self, z: float) -> int:
         """The storey whose floor is nearest below a height."""
-        return min(self.home.storeys, key=lambda s: (abs(s.elevation - z), s.number)).number
+        return storey_at(self.home, z)
 
     def elevation(self, storey: int) -> float:
-        return float(next(s.elevation for s in self.home.storeys if s.number == storey))
+        return elevation(self.home, storey)
 
     def room_name(self, x: float, y: float, storey: int) -> str:
         """The room at a place on the floor, to a cell of the map; '' outside."""
@@ -131,7 +129,7 @@ class Ground:
         if planner.is_free((x, y)) and free[row, column]:
             return x, y
         rows, columns = np.nonzero(free)
-        px, py = self._middles(planner.grid, rows, columns)
+        px, py = middles(planner.grid, rows, columns)
         away = np.hypot(px - x, py - y)
         away[~inside(room.polygon, px, py)] = np.inf
         best = int(away.argmin()) if len(away) else -1
@@ -144,7 +142,7 @@ class Ground:
         found = next(r for r in self.home.rooms if r.name == room)
         planner = self.planners[found.storey]
         rows, columns = np.nonzero(self.free[found.storey])
-        x, y = self._middles(planner.grid, rows, columns)
+        x, y = middles(planner.grid, rows, columns)
         within = inside(found.polygon, x, y)
         away = np.full(len(x), np.inf)
         for door in self.home.doors:
@@ -163,7 +161,7 @@ class Ground:
         cells = round(LONG / planner.grid.resolution)
         for shape, yaw in (((1, cells), 0.0), ((cells, 1), math.pi / 2)):
             lies = binary_erosion(self.free[room.storey], np.ones(shape, bool))
-            x, y = self._middles(planner.grid, *np.nonzero(lies))
+            x, y = middles(planner.grid, *np.nonzero(lies))
             here = inside(room.polygon, x, y)
             found += [((float(a), float(b)), yaw) for a, b in zip(x[here], y[here])]
         doors = [door.pose[:2] for door in self.home.doors if door.kind != 'window'
@@ -207,15 +205,38 @@ class Ground:
             return None
         doors = [d for d in self.home.doors if d.kind == 'door'
                  and self.storey_at(d.pose[2]) == storey]
-        legs: list[Leg] = []
-        first, door = 0, None
+        points, stops = self._by_stops(points, doors, storey)
+        cuts: list[tuple[int, Door, bool]] = []  # where a door is opened, or is shut behind
         for i, crossed in _crossings(points, doors):
+            first, stop = (cuts[-1][0] if cuts else 0), stops.get(crossed.name)
             before = next((j for j in range(i, first - 1, -1)
                            if math.dist(points[j], crossed.pose[:2]) >= SWING), first)
-            legs.append(Leg(self._corners(planner, points[first:before + 1]), door))
-            first, door = before, crossed
-        legs.append(Leg(self._corners(planner, points[first:]), door))
+            cuts.append((before if stop is None or stop > i else stop, crossed, True))
+            if stop is not None and stop > i:
+                cuts.append((stop, crossed, False))
+        legs: list[Leg] = []
+        parts = [(0, None, True), *sorted(cuts, key=lambda cut: cut[0])]
+        ends = [*(index for index, _, _ in parts[1:]), len(points) - 1]
+        for (index, door, opens), end in zip(parts, ends):
+            legs.append(Leg(self._corners(planner, points[index:end + 1]),
+                            door if opens else None, None if opens else door,
+                            end == len(points) - 1 or end in stops.values()))
         return legs
+
+    def _by_stops(self, points: list[Point], doors: Sequence[Door], storey: int
+                  ) -> tuple[list[Point], dict[str, int]]:
+        """A way past the stop of each of its doors that has one, and where in it they are."""
+        planner, goal = self.planners[storey], points[-1]
+        crossed = [door.name for _, door in _crossings(points, doors) if door.name in self._stops]
+        line, found = points[:1], {}
+        for name, point in [*((name, self._stops[name]) for name in crossed), ('', goal)]:
+            part = planner.along(self._following(planner, point, storey), line[-1], point)
+            if part is None:
+                return points, {}
+            line += part[1:]
+            found[name] = len(line) - 1
+        del found['']
+        return (line, found) if crossed else (points, {})
 
     def _following(self, planner: Planner, goal: Point, storey: int) -> np.ndarray:
         """Planner.toward() with a cache of the last goals."""
@@ -254,112 +275,68 @@ class Ground:
         which a room could not be reached. `grid` is without leaves."""
         planner = Planner(grid, BODY)
         rows, columns = np.indices(grid.cells.shape)
-        x, y = self._middles(grid, rows, columns)
+        x, y = middles(grid, rows, columns)
         leaves = (grid.cells == FREE) & (opened.cells != FREE)
-        for door in self.home.doors:
-            near = np.hypot(x - door.pose[0], y - door.pose[1]) < door.width + LEAF
-            if door.kind != 'door' or not (leaves & near).any():
-                continue
-            cells = np.where(leaves & near, OCCUPIED, planner.grid.cells).astype(np.int8)
+        rooms = self._reached(planner, x, y)
+
+        def with_leaves(of: Sequence[Door]) -> tuple[Planner, bool]:
+            """A planner with these leaves open, and whether all rooms are reached."""
+            shut = np.ones_like(leaves)
+            for door in of:
+                shut &= np.hypot(x - door.pose[0], y - door.pose[1]) >= door.width + LEAF
+            cells = np.where(leaves & ~shut, OCCUPIED, grid.cells).astype(np.int8)
             tried = Planner(replace(grid, cells=cells), BODY)
-            if self._reached(tried, x, y) == self._reached(planner, x, y):
-                planner = tried
+            return tried, self._reached(tried, x, y) == rooms
+
+        kept: list[Door] = []
+        for door in self.home.doors:
+            if door.kind == 'door' and self.storey_at(door.pose[2]) == grid.floor:
+                tried, fine = with_leaves([*kept, door])
+                if fine:
+                    planner = tried
+                    kept.append(door)
+                    continue
+                self.in_way.add(door.name)
+                self.in_way |= {other.name for other in kept
+                                if math.dist(other.pose[:2], door.pose[:2]) < 2 * SWING
+                                and with_leaves([*(d for d in kept if d != other), door])[1]}
+                tried, fine = with_leaves([door])
+                if not fine:
+                    self._add_stop(door, tried.passable, leaves, x, y)
         return planner
 
+    def _add_stop(self, door: Door, passable: np.ndarray, leaves: np.ndarray, x: np.ndarray,
+                  y: np.ndarray) -> None:
+        """Notes where one stands clear of a leaf, on its side, and gets to with it open."""
+        parts, _ = label(passable, np.ones((3, 3), int))
+        away = np.hypot(x - door.pose[0], y - door.pose[1])
+        across = math.cos(door.pose[3]) * (y - door.pose[1]) - math.sin(door.pose[3]) * (
+            x - door.pose[0])
+        side = across * np.median(across[leaves & (away < door.width + LEAF)])
+        here = parts[np.unravel_index(np.where(passable, away, np.inf).argmin(), away.shape)]
+        far = np.where((parts == here) & (side > 0) & (away > CLEAR), away, np.inf)
+        row, column = np.unravel_index(far.argmin(), far.shape)
+        if far[row, column] < CLEAR + REACH:
+            self._stops[door.name] = float(x[row, column]), float(y[row, column])
+
     def _reached(self, planner: Planner, x: np.ndarray, y: np.ndarray) -> set[str]:
-        """The rooms that the largest connected part has a place in."""
+        """The rooms that the largest connected part has a place in, and '' for the outside."""
         free = self._largest(planner)
-        return {room.name for room in self.home.rooms if room.storey == planner.grid.floor
-                and (free & inside(room.polygon, x, y)).any()}
+        rooms = [room for room in self.home.rooms if room.storey == planner.grid.floor]
+        found = {room.name for room in rooms if (free & inside(room.polygon, x, y)).any()}
+        door = self.entrance()
+        if door is not None and self.storey_at(door.pose[2]) == planner.grid.floor:
+            away = np.hypot(x - door.pose[0], y - door.pose[1])
+            free &= opening(x, y, door, PORCH) & (away > PORCH - 0.2)
+            for room in rooms:
+                free &= ~inside(room.polygon, x, y)
+            found |= {''} if free.any() else set()
+        return found
 
     def _largest(self, planner: Planner) -> np.ndarray:
         """The largest connected part (rows, columns) of the free cells."""
         parts, _ = label(planner.passable, np.ones((3, 3), int))
         return np.asarray(parts == 1 + int(np.argmax(np.bincount(parts.ravel())[1:])))
-
-    def _grid(self, storey: int) -> GridMap:
-        rooms = [room for room in self.home.rooms if room.storey == storey]
-        corners = np.array([corner for room in rooms for corner in room.polygon])
-        west, south = np.floor((corners.min(axis=0) - MARGIN) / RESOLUTION) * RESOLUTION
-        columns, rows = np.ceil((corners.max(axis=0) + MARGIN - (west, south))
-                                / RESOLUTION).astype(int)
-        grid = GridMap(np.full((rows, columns), OCCUPIED, np.int8), (float(west), float(south)),
-                       RESOLUTION, storey)
-        row, column = np.indices(grid.cells.shape)
-        x, y = (part.ravel() for part in self._middles(grid, row, column))
-        within = np.zeros(len(x), bool)
-        for room in rooms:
-            within |= in_room(room, x, y)
-        floor = self.elevation(storey)
-        for door in self.home.doors:
-            if door.kind != 'window' and self.storey_at(door.pose[2]) == storey:
-                outside = door.name == self.home.entrance
-                within |= _opening(x, y, door, PORCH + 0.2 if outside else DEEP)
-        free = np.zeros(len(x), bool)
-        free[within] = self._clear(x[within], y[within], floor)
-        grid.cells[free.reshape(grid.cells.shape) & ~self._surfaces(grid, floor)] = FREE
-        return grid
-
-    def _clear(self, x: np.ndarray, y: np.ndarray, floor: float) -> np.ndarray:
-        """The cells with only floor below TALL, by rays from above."""
-        origins = np.column_stack([x, y, np.full(len(x), floor + TALL)])
-        down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
-        ranges = self._caster.cast(origins, down, TALL + DROP + 0.01)
-        return np.asarray((ranges > TALL - STEP) & (ranges < TALL + DROP))
-
-    def _surfaces(self, grid: GridMap, floor: float) -> np.ndarray:
-        """Which cells (rows, columns) hold an upright surface, as of a wall, by level rays: those
-        from above begin inside shapes as high as a wall."""
-        found = np.zeros(grid.cells.shape, bool)
-        for axis, count in ((0, grid.cells.shape[0]), (1, grid.cells.shape[1])):
-            across = grid.origin[1 - axis] + (np.arange(count) + 0.5) * RESOLUTION
-            starts = np.array([(a, floor + height) for a in across for height in HEIGHTS])
-            origins = np.insert(starts, axis, grid.origin[axis], axis=1)
-            end = grid.origin[axis] + grid.cells.shape[1 - axis] * RESOLUTION
-            ways = np.eye(3)[axis]
-            while len(origins):
-                reach = end - origins[:, axis]
-                ranges = self._caster.cast(origins, np.broadcast_to(ways, origins.shape), reach)
-                origins = origins[ranges < reach - PAST]
-                origins[:, axis] += ranges[ranges < reach - PAST]
-                at = np.floor((origins[:, :2] - grid.origin) / RESOLUTION).astype(int)
-                found[at[:, 1], at[:, 0]] = True
-                origins = origins + PAST * ways
-        return found
-
-    @staticmethod
-    def _middles(grid: GridMap, rows: np.ndarray, columns: np.ndarray
-                 ) -> tuple[np.ndarray, np.ndarray]:
-        return (grid.origin[0] + (columns + 0.5) * grid.resolution,
-                grid.origin[1] + (rows + 0.5) * grid.resolution)
-
-
-def _delete(world: Any, *kinds: str) -> None:
-    for kind, _, model, _ in list(world.entities()):
-        if kind in kinds and model in world.models:
-            world.delete(model)
-
-
-def _open_all(world: Any, home: Home) -> None:
-    """Has all doors stand open."""
-    doors = [door.name for door in home.doors
-             if door.kind == 'door' and door.name in world.devices('door')]
-    for door in doors:
-        try:
-            world.command('door', door, 'Open')
-        except angen_module().Error:
-            continue  # it is locked, or has no drive
-    end = world.time + OPENS_IN
-    while doors and world.time < end:
-        world.run(0.5)
-        doors = [door for door in doors if world.device('door', door)['mode'] != 'OPEN']
-
-
-def _opening(x: np.ndarray, y: np.ndarray, door: Door, deep: float) -> np.ndarray:
-    c, s = math.cos(door.pose[3]), math.sin(door.pose[3])
-    dx, dy = x - door.pose[0], y - door.pose[1]
-    return np.asarray((np.abs(c * dx + s * dy) <= door.width / 2)
-                      & (np.abs(c * dy - s * dx) <= deep))
 
 
 def _crossings(points: Sequence[Point], doors: Sequence[Door]) -> list[tuple[int, Door]]:

@@ -3,13 +3,13 @@ from __future__ import annotations
 
 import math
 from random import Random
-from typing import Iterator
+from typing import Iterator, Sequence
 
-from angen_apps.residents.ground import BODY, SWING, Leg
+from angen_apps.residents.ground import BODY, CLEAR, SWING, Leg
 from angen_apps.residents.household import Household
 from angen_apps.residents.places import Spot
 from angen_apps.residents.profiles import Profile
-from angen_apps.robot.planner import Point
+from angen_apps.robot.planner import Point, to_segment
 from angen_tools.common.home import Door
 
 POLL = (0.1, 0.5)  # s between two looks at where one is, at least and at most
@@ -17,12 +17,14 @@ PASSED, THERE = 0.35, 0.12  # m from a corner of the way, and from its end
 STALLED = 7.0  # s without coming nearer, after which another way is tried
 TRIES = 3
 DOOR_WAIT = 20.0  # s to wait for another person in a doorway
-OPENS_IN = 12.0  # s
+OPENS_IN, SHUTS_IN = 12.0, 6.0  # s
 LIFT_WAIT = 90.0  # s for an elevator, or for somebody else in it
 LEAVES_AROUND = 2.5  # m to the middle of their doorways
 ASIDE = 0.55  # m between the middles of two people
 NEARER = 0.05  # m
 BACK = 0.25  # m: a step back
+BEYOND = CLEAR - 0.1  # m from a door's middle: who is there lets its leaf shut
+WAYS_OUT = 4  # places beyond a leaf that are tried
 SLOWS = 0.4  # s, in which it walks the rest of its way
 
 Process = Iterator[float]
@@ -38,6 +40,7 @@ class Mover:
         self.posture = 'stand'
         self.away = True
         self.walks = False
+        self.waits_for: Mover | None = None  # who stays on its way
         self.room = ''
         self.at: tuple[float, float] = (math.inf, math.inf)
         self.storey = 0
@@ -135,7 +138,7 @@ class Mover:
             if self.arrived:
                 return
             if attempt + 1 < TRIES:
-                self._shut_around()
+                yield from self._shut_around()
                 yield from self._aside(attempt)
 
     def _ride(self, storey: int) -> Process:
@@ -186,7 +189,7 @@ class Mover:
         self.walks = True
         held: Door | None = None
         try:
-            for i, leg in enumerate(legs):
+            for leg in legs:
                 if leg.door is not None:
                     if held is not None:
                         self._let_go(held)
@@ -195,10 +198,15 @@ class Mover:
                     if not self._opened:
                         return
                     held = leg.door
+                elif leg.behind is not None:
+                    if held is not None:
+                        self._let_go(held)
+                    held = None
+                    yield from self._wait_for('CLOSED', leg.behind, SHUTS_IN)
                 for j, point in enumerate(leg.points):
                     ends = j == len(leg.points) - 1
-                    last = ends and i == len(legs) - 1
-                    yield from self._walk(point, THERE if last else PASSED, held)
+                    near = THERE if ends and leg.exact else PASSED
+                    yield from self._walk(point, near, held)
                     if not self._came and ends:  # a leaf or a chair may be at another point
                         return
                     if held and math.dist(self.at, held.pose[:2]) > SWING:
@@ -255,28 +263,34 @@ class Mover:
         state = self.simulator.state('door', door.name)
         if state.get('mode') != 'OPEN' and self.profile.body == 'person':
             self.household.do(self.name, 'door', door.name, 'OpenByHand')
-        while state and state.get('mode') != 'OPEN':
-            if self.now - since > OPENS_IN + DOOR_WAIT or self.profile.body != 'person':
-                self.household.leave(key, self.name)
-                return
-            yield self.now + 0.25
+        if self.profile.body == 'person':
+            yield from self._wait_for('OPEN', door, OPENS_IN + DOOR_WAIT + since - self.now)
             state = self.simulator.state('door', door.name)
-        self._opened = True
+        self._opened = not state or state.get('mode') == 'OPEN'
+        if not self._opened:
+            self.household.leave(key, self.name)
+
+    def _wait_for(self, mode: str, door: Door, seconds: float) -> Process:
+        """Waits until a door is open or shut, for so long at most."""
+        until = self.now + seconds
+        while self.now < until \
+                and self.simulator.state('door', door.name).get('mode', mode) != mode:
+            yield self.now + 0.25
 
     def _let_go(self, door: Door) -> None:
-        """Releases a door, and shuts it by habit; the entrance always."""
+        """Releases a door, and shuts it by habit; always the entrance, and who is in the way."""
         key = ('door', door.name)
         if self.household.held.get(key) != self.name:
             return
         self.household.leave(key, self.name)
-        shuts = (door.name == self.ground.home.entrance
+        shuts = (door.name == self.ground.home.entrance or door.name in self.ground.in_way
                  or self._habits.random() < self.profile.closes_doors)
-        beyond = math.dist(self.at, door.pose[:2]) > SWING - 0.3
+        beyond = math.dist(self.at, door.pose[:2]) > BEYOND
         if shuts and beyond and self.profile.body == 'person' \
                 and self.household.doorway_free(*door.pose[:2], self.storey, self.name):
             self.household.do(self.name, 'door', door.name, 'CloseByHand')
 
-    def _shut_around(self) -> None:
+    def _shut_around(self) -> Process:
         """Shuts open leaves nearby that nobody uses: two of them can close off a corridor."""
         for door in self.ground.home.doors:
             x, y, z, _ = door.pose
@@ -286,7 +300,30 @@ class Mover:
                     and ('door', door.name) not in self.household.held
                     and self.household.doorway_free(x, y, self.storey, self.name)
                     and self.simulator.state('door', door.name).get('mode') == 'OPEN'):
+                yield from self._out_of_swing(door)
                 self.household.do(self.name, 'door', door.name, 'CloseByHand')
+
+    def _out_of_swing(self, door: Door) -> Process:
+        """Steps to where a leaf that is shut does not meet it."""
+        x, y = door.pose[:2]
+        free = self.ground.planners[self.storey].is_free
+        around = [(x + CLEAR * math.cos(turn), y + CLEAR * math.sin(turn))
+                  for turn in (k * math.pi / 8 for k in range(16))]
+        for point in sorted(filter(free, around), key=lambda p: math.dist(p, self.at))[:WAYS_OUT]:
+            if math.dist(self.at, (x, y)) > BEYOND:
+                break
+            yield from self._walk(point, THERE, None)
+        self.halt()
+
+    def blocker(self, spot: Spot) -> Mover | None:
+        """The resident nearest to here of those who stay on the way to a spot."""
+        legs = self.ground.way(self.at, spot.stand, self.storey) \
+            if spot.storey == self.storey else None
+        line = [self.at, *(point for leg in legs or () for point in leg.points)]
+        near: list[Mover] = [r for r in self.household.residents if r is not self and not r.away
+                             and not r.walks and r.storey == self.storey
+                             and away_from(line, r.at) < ASIDE]
+        return min(near, key=lambda r: math.dist(r.at, self.at)) if near else None
 
     def _aside(self, attempt: int) -> Process:
         """Steps aside before another try."""
@@ -312,3 +349,9 @@ class Mover:
                 self.household.do(self.name, 'person', self.name,
                                   f'GoTo {point[0]:.3f} {point[1]:.3f}')
                 return
+
+
+def away_from(line: Sequence[Point], point: Point) -> float:
+    """The distance of a point from a line through points, m."""
+    return min((to_segment(point, a, b) for a, b in zip(line, line[1:]) if a != b),
+               default=math.dist(line[0], point))

@@ -1,8 +1,8 @@
 """A resident, who follows the agenda and uses the home by habit."""
 from __future__ import annotations
 
+import math
 import sys
-from dataclasses import replace
 from typing import Any, Generator, Iterator
 
 from angen_apps.residents.activities import Activity, Step, activities
@@ -10,36 +10,36 @@ from angen_apps.residents.agenda import Item, Planner
 from angen_apps.residents.chance import chance
 from angen_apps.residents.household import Household
 from angen_apps.residents.interface import Refused
-from angen_apps.residents.mover import Mover
+from angen_apps.residents.mover import ASIDE
 from angen_apps.residents.places import OUTSIDE, Spot
 from angen_apps.residents.profiles import DAY, Profile
 from angen_apps.residents.truth import Diary, Interval
+from angen_apps.residents.user import User
+from angen_apps.robot.planner import Point
 from angen_tools.common.failure import Failure
-from angen_tools.common.home import Thing
 
-DARK = 50.0  # lx: with less, lamps are switched on
 LATE = 20.0  # s: an activity that would be shorter is left out
 FIDGETS = {'sit': 150.0, 'lie': 1500.0}  # s on average between two movements
 SHUFFLES = 45.0  # s on average between two steps of a standing resident
 ROAMS = (15.0, 45.0)  # s at a place
 OPEN_FOR = 20.0  # s that a fridge is open, at most
-LOOKS = 10  # at a leaf that opens, 1 s apart
-WIDER = 0.05  # rad that a leaf opens after a step out of its way, at least
-QUEUE, PATIENCE = 10.0, 900.0  # s between two tries at a room, and until it is given up
+QUEUE, PATIENCE = 10.0, 900.0  # s between two looks at a room or way, and until it is given up
+MAKES_WAY = 30.0  # s in which another one passes
+PAUSE = 60.0  # s until a way that was given up is tried again, then twice as long
 OUT_BETWEEN = 900.0  # s: a visitor with less to wait stays
 
 Process = Iterator[float]
 
 
-class Resident(Mover):
+class Resident(User):
     """One who lives in a household; live() is its process."""
 
     def __init__(self, household: Household, name: str, number: int, profile: Profile) -> None:
         super().__init__(household, name, number, profile)
         self.diary = Diary()
         self.planner = Planner(household.seed, household.name, name, profile)
-        self.item = Item(0.0, 0.0, 'sleep', 'scheduled')
         self._known = activities()
+        self._missing: dict[tuple[str, int], str] = {}  # by step: what the home lacks for it
         self._tasks = {task: self._resolve(self._known[task])
                        for task in sorted(profile.does | {'sleep', 'leave'}
                                           | ({'relax', 'toilet', 'wash', 'shower', 'dress'}
@@ -50,13 +50,14 @@ class Resident(Mover):
         nobody can lie."""
         places = self.household.places
         found = []
-        for step in activity.steps:
+        for index, step in enumerate(activity.steps):
             spots = places.spots(step)
-            if not spots and activity.name == 'sleep' and self.profile.lives \
-                    and self.profile.body == 'person':
-                spots = self._on_floor(f'no {" and no ".join(step.at)}')
             if not spots and OUTSIDE not in step.at:
-                spots = [places.anywhere()]
+                missing = f'no {" and no ".join(step.at or (step.room,))}'
+                self._missing[activity.name, index] = f'{missing} in reach'
+                sleeps = activity.name == 'sleep' and self.profile.body == 'person'
+                spots = (self._on_floor(missing) if sleeps and self.profile.lives
+                         else [places.anywhere()])
             found.append(spots)
         return found
 
@@ -133,22 +134,26 @@ class Resident(Mover):
         self._release()
         spot = self._choose(self._tasks[activity.name][index])
         if step.posture == 'roam':
-            yield from self._roam(activity, step, end)
+            yield from self._roam(activity, step, index, end)
             return
         if spot is None:
             self.diary.note(f'no place for {activity.name}')
             spot = self.household.places.beside(self._tasks[activity.name][index], self._habits)
+        pause = PAUSE
         yield from self._reach(spot, activity.name)
-        if not self.arrived:
+        while not self.arrived:
             self.diary.note('gave up the way')
-            yield from self._stay(min(end, self.now + 60.0), step, 0)
-            return
+            yield from self._stay(min(end, self.now + pause), step, 0)
+            if self.now > end - LATE:
+                return
+            pause *= 2
+            yield from self._reach(spot, activity.name)
         if spot.place is not None and self.profile.body == 'person':
             try:
                 self.settle(spot)
             except Refused as error:
                 self.diary.note(str(error))
-        self._note('does', activity.name)
+        self._note('does', activity.name, index)
         self._lamps(activity)
         used = self._use(step, spot)
         if used and step.opens:
@@ -165,12 +170,30 @@ class Resident(Mover):
             self.arrived = True
             return
         self._note('goes', name)
-        left = self.room
+        left, until = self.room, self.now + PATIENCE
         yield from self.go(spot.stand, spot.storey)
+        while not self.arrived and (other := self.blocker(spot)) and self.now < until:
+            if other.waits_for is self:  # who comes second makes way
+                yield from self.go(*self._elsewhere())
+            else:
+                self.waits_for = other
+            self._note('waits', name)
+            at, pause = other.at, self.now
+            while math.dist(other.at, at) < ASIDE and self.now < until and (
+                    self.waits_for is other or self.now < pause + MAKES_WAY):
+                yield self.now + QUEUE
+            self.waits_for = None
+            self._note('goes', name)
+            yield from self.go(spot.stand, spot.storey)
         if left and left != self.room:
             self._lamp_off(left)
-        if self.arrived:
-            self.spot = spot
+        self.spot = spot if self.arrived else None
+
+    def _elsewhere(self) -> tuple[Point, int]:
+        """A place in the open, out of the way of others."""
+        points = self.ground.spots(self.room, 1, self._habits) if self.room else []
+        anywhere = self.household.places.anywhere()
+        return (points[0], self.storey) if points else (anywhere.stand, anywhere.storey)
 
     def _stay(self, until: float, step: Step, busy: int) -> Process:
         """Stays, and moves a little from time to time."""
@@ -203,7 +226,7 @@ class Resident(Mover):
         self.halt()
         self.look()
 
-    def _roam(self, activity: Activity, step: Step, end: float) -> Process:
+    def _roam(self, activity: Activity, step: Step, index: int, end: float) -> Process:
         """Walks around in a room."""
         tries = 0
         while self.now < end - 5.0 and tries < 40:
@@ -215,7 +238,7 @@ class Resident(Mover):
                 self.diary.note('gave up the way')
                 yield self.now + 5.0
                 continue
-            self._note('does', activity.name)
+            self._note('does', activity.name, index)
             self._lamps(activity)
             yield from self._stay(min(self.now + self._habits.uniform(*ROAMS), end), step, 0)
 
@@ -287,91 +310,7 @@ class Resident(Mover):
         for key in [key for key, who in held.items() if who == self.name and key[0] == 'spot']:
             del held[key]
 
-    def _use(self, step: Step, spot: Spot) -> list[tuple[str, str, str]] | None:
-        """Opens or switches on the devices of a step; returns how to undo it."""
-        if self.profile.body != 'person':
-            return None
-        household = self.household
-        thing = self._thing(spot)
-        if step.opens == 'entrance':
-            entrance = self.ground.entrance()
-            if entrance and household.do(self.name, 'door', entrance.name, 'OpenByHand'):
-                return [('door', entrance.name, 'CloseByHand')]
-        elif step.opens and thing is not None:
-            front = household.front(thing)
-            if front and household.do(self.name, *front, 'Open'):
-                return [(*front, 'Close')]
-        elif step.runs == 'stove' and thing is not None:
-            stove = household.of_model(thing.name, 'stove')
-            if stove and household.do(self.name, *stove, 'FrontLeft 60'):
-                return [(*stove, 'Off')]
-        elif step.runs == 'tv':
-            return self._watch()
-        return None
-
-    def _thing(self, spot: Spot) -> Thing | None:
-        return next((t for t in self.ground.home.things if t.name == spot.thing), None)
-
-    def _make_way(self, kind: str, name: str, spot: Spot) -> Process:
-        """Steps back from a leaf that has met the resident, until it is open."""
-        thing = self._thing(spot)
-        side, wide = 1.0, 0.0
-        for _ in range(LOOKS):
-            yield self.now + 1.0
-            leaf = self.simulator.state(kind, name)
-            if leaf.get('mode') == 'OPEN':
-                return
-            if leaf.get('mode') != 'BLOCKED' or thing is None:
-                continue
-            if abs(leaf['position']) < wide + WIDER:  # the last step did not help
-                side = -side
-            wide = abs(leaf['position'])
-            self._step_back(*thing.pose[:2], side)
-            self.spot = replace(spot, stand=self.at)
-            yield self.now + 1.0
-            self.halt()
-            self.look()
-
-    def _watch(self) -> list[tuple[str, str, str]] | None:
-        sets = [t for t in self.ground.home.things if t.type == 'tv']
-        near = next((t for t in sets if t.room == self.room), sets[0] if sets else None)
-        screen = near and self.household.of_model(near.name, 'appliance')
-        if not screen:
-            return None
-        self.household.do(self.name, *screen, 'On')
-        return [(*screen, 'Off')]
-
-    def _unuse(self, used: list[tuple[str, str, str]] | None) -> None:
-        for kind, name, text in used or ():
-            if kind == 'appliance' and self._somebody_watches():
-                continue
-            self.household.do(self.name, kind, name, text)
-
-    def _somebody_watches(self) -> bool:
-        return any(r is not self and r.item.activity == 'watch_tv' and not r.away
-                   for r in self.household.residents)
-
-    def _lamps(self, activity: Activity) -> None:
-        """Switches the room's lamps by how light it is, and by habit."""
-        household, room = self.household, self.room
-        if self.profile.body != 'person' or room not in household.lamps:
-            return
-        if activity.dark:
-            self._lamp_off(room)
-        elif household.lux(room) < DARK and self._habits.random() < self.profile.lamps_on:
-            for lamp in household.lamps[room]:
-                household.do(self.name, 'lamp', lamp, 'On')
-
-    def _lamp_off(self, room: str) -> None:
-        household = self.household
-        if self.profile.body != 'person' or household.others_in(room, self.name):
-            return
-        for lamp in household.lamps.get(room, ()):
-            if household.simulator.state('lamp', lamp).get('on') \
-                    and self._habits.random() < self.profile.lamps_off:
-                household.do(self.name, 'lamp', lamp, 'Off')
-
-    def _note(self, phase: str, activity: str) -> None:
+    def _note(self, phase: str, activity: str, step: int = 0) -> None:
         """A phase begins, for the truth."""
         thing = self.spot.thing if self.spot and phase == 'does' else ''
         posture = '' if self.away else 'stand' if phase == 'goes' else self.posture
@@ -379,6 +318,8 @@ class Resident(Mover):
         x, y = self.at if not self.away else (float('nan'), float('nan'))
         self.diary.turn(Interval(self.now, self.now, self.name, activity or 'leave', cause, phase,
                                  self.room, thing, posture, x, y))
+        if phase == 'does':
+            self.diary.note(self._missing.get((activity, step), ''))
 
 
 def make(household: Household, who: list[tuple[str, Profile]]) -> list[Any]:

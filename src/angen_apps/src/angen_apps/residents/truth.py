@@ -50,6 +50,6 @@ class Diary:
         self.now = None
 
     def note(self, text: str) -> None:
-        """Records a failure of the plan in the present phase."""
-        if self.now is not None:
+        """Records a failure of the plan, if there is one, in the present phase."""
+        if self.now is not None and text:
             self.now = replace(self.now, note=f'{self.now.note}; {text}'.strip('; '))

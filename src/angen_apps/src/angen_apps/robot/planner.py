@@ -177,21 +177,22 @@ class Door:
         if self.slides:
             far = self.width * math.cos(self.shut), self.width * math.sin(self.shut)
             (x0, y0), (x1, y1) = self.hinge, self.tip(self.shut)
-            return _to_segment(point, (x0 - far[0], y0 - far[1]), (x1 + far[0], y1 + far[1]))
+            return to_segment(point, (x0 - far[0], y0 - far[1]), (x1 + far[0], y1 + far[1]))
         away = (point[0] - self.hinge[0], point[1] - self.hinge[1])
         low, high = sorted((self.shut, self.open))
         turn = math.atan2(away[1], away[0]) - low
         turn -= 2 * math.pi * math.floor(turn / (2 * math.pi))
         if turn <= high - low:
             return max(math.hypot(*away) - self.width, 0.0)
-        return min(_to_segment(point, self.hinge, self.tip(a)) for a in (low, high))
+        return min(to_segment(point, self.hinge, self.tip(a)) for a in (low, high))
 
     def crosses(self, a: Point, b: Point) -> bool:
         """Whether a step from a to b crosses the shut leaf."""
         return _cross(a, b, self.hinge, self.tip(self.shut))
 
 
-def _to_segment(point: Point, a: Point, b: Point) -> float:
+def to_segment(point: Point, a: Point, b: Point) -> float:
+    """Meters from a point to the segment between two others."""
     x, y, dx, dy = point[0] - a[0], point[1] - a[1], b[0] - a[0], b[1] - a[1]
     along = min(max((x * dx + y * dy) / (dx * dx + dy * dy), 0.0), 1.0)
     return math.hypot(x - along * dx, y - along * dy)

@@ -1,0 +1,111 @@
+"""How a resident uses a home's devices: fronts, the stove, the TV, lamps."""
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Iterator
+
+from angen_apps.residents.activities import Activity, Step
+from angen_apps.residents.agenda import Item
+from angen_apps.residents.household import Household
+from angen_apps.residents.mover import Mover
+from angen_apps.residents.places import Spot
+from angen_apps.residents.profiles import Profile
+from angen_tools.common.home import Thing
+
+DARK = 50.0  # lx: with less, lamps are switched on
+LOOKS = 10  # at a leaf that opens, 1 s apart
+WIDER = 0.05  # rad that a leaf opens after a step out of its way, at least
+
+Process = Iterator[float]
+
+
+class User(Mover):
+    """A body that uses devices during an item of its agenda."""
+
+    def __init__(self, household: Household, name: str, number: int, profile: Profile) -> None:
+        super().__init__(household, name, number, profile)
+        self.item = Item(0.0, 0.0, 'sleep', 'scheduled')
+
+    def _use(self, step: Step, spot: Spot) -> list[tuple[str, str, str]] | None:
+        """Opens or switches on the devices of a step; returns how to undo it."""
+        if self.profile.body != 'person':
+            return None
+        household = self.household
+        thing = self._thing(spot)
+        if step.opens == 'entrance':
+            entrance = self.ground.entrance()
+            if entrance and household.do(self.name, 'door', entrance.name, 'OpenByHand'):
+                return [('door', entrance.name, 'CloseByHand')]
+        elif step.opens and thing is not None:
+            front = household.front(thing)
+            if front and household.do(self.name, *front, 'Open'):
+                return [(*front, 'Close')]
+        elif step.runs == 'stove' and thing is not None:
+            stove = household.of_model(thing.name, 'stove')
+            if stove and household.do(self.name, *stove, 'FrontLeft 60'):
+                return [(*stove, 'Off')]
+        elif step.runs == 'tv':
+            return self._watch()
+        return None
+
+    def _thing(self, spot: Spot) -> Thing | None:
+        return next((t for t in self.ground.home.things if t.name == spot.thing), None)
+
+    def _make_way(self, kind: str, name: str, spot: Spot) -> Process:
+        """Steps back from a leaf that has met the resident, until it is open."""
+        thing = self._thing(spot)
+        side, wide = 1.0, 0.0
+        for _ in range(LOOKS):
+            yield self.now + 1.0
+            leaf = self.simulator.state(kind, name)
+            if leaf.get('mode') == 'OPEN':
+                return
+            if leaf.get('mode') != 'BLOCKED' or thing is None:
+                continue
+            if abs(leaf['position']) < wide + WIDER:  # the last step did not help
+                side = -side
+            wide = abs(leaf['position'])
+            self._step_back(*thing.pose[:2], side)
+            self.spot = replace(spot, stand=self.at)
+            yield self.now + 1.0
+            self.halt()
+            self.look()
+
+    def _watch(self) -> list[tuple[str, str, str]] | None:
+        sets = [t for t in self.ground.home.things if t.type == 'tv']
+        near = next((t for t in sets if t.room == self.room), sets[0] if sets else None)
+        screen = near and self.household.of_model(near.name, 'appliance')
+        if not screen:
+            return None
+        self.household.do(self.name, *screen, 'On')
+        return [(*screen, 'Off')]
+
+    def _unuse(self, used: list[tuple[str, str, str]] | None) -> None:
+        for kind, name, text in used or ():
+            if kind == 'appliance' and self._somebody_watches():
+                continue
+            self.household.do(self.name, kind, name, text)
+
+    def _somebody_watches(self) -> bool:
+        return any(r is not self and r.item.activity == 'watch_tv' and not r.away
+                   for r in self.household.residents)
+
+    def _lamps(self, activity: Activity) -> None:
+        """Switches the room's lamps by how light it is, and by habit."""
+        household, room = self.household, self.room
+        if self.profile.body != 'person' or room not in household.lamps:
+            return
+        if activity.dark:
+            self._lamp_off(room)
+        elif household.lux(room) < DARK and self._habits.random() < self.profile.lamps_on:
+            for lamp in household.lamps[room]:
+                household.do(self.name, 'lamp', lamp, 'On')
+
+    def _lamp_off(self, room: str) -> None:
+        household = self.household
+        if self.profile.body != 'person' or household.others_in(room, self.name):
+            return
+        for lamp in household.lamps.get(room, ()):
+            if household.simulator.state('lamp', lamp).get('on') \
+                    and self._habits.random() < self.profile.lamps_off:
+                household.do(self.name, 'lamp', lamp, 'Off')
