@@ -197,6 +197,13 @@ def test_a_resident_waits_for_another_one_who_is_in_the_way(tmp_path):
     assert not any(i.note for i in anna.diary.closed)
 
 
+def test_people_without_a_place_of_their_own_are_not_all_at_one(tmp_path):
+    _, household, _ = home_of(narrow(tmp_path))
+    places = household.places
+    assert places.anywhere() == places.anywhere()
+    assert len({places.anywhere(Random(seed)).stand for seed in range(5)}) > 2
+
+
 def test_distance_from_a_line():
     line = [(0.0, 0.0), (2.0, 0.0), (2.0, 0.0), (2.0, 3.0)]
     assert away_from(line, (1.0, 0.5)) == 0.5 and away_from(line, (2.4, 2.0)) == pytest.approx(0.4)

@@ -57,7 +57,7 @@ class Ground:
         lives = self.storey_at(entrance.pose[2]) if entrance else min(r.storey for r in home.rooms)
         open_all(world, home)
         self.in_way: set[str] = set()  # doors whose leaves close off a room, if they stand open
-        self._stops: dict[str, Point] = {}  # where one opens and shuts those that do so alone
+        self._stops: dict[str, Point] = {}  # where one opens and shuts these
         leaves = {storey: survey(self._caster, home, storey) for storey in self._storeys(lives)}
         delete(world, 'door')
         self.planners = {storey: self._planner(survey(self._caster, home, storey), opened)
@@ -276,43 +276,46 @@ class Ground:
         planner = Planner(grid, BODY)
         rows, columns = np.indices(grid.cells.shape)
         x, y = middles(grid, rows, columns)
-        leaves = (grid.cells == FREE) & (opened.cells != FREE)
+        doors = [door for door in self.home.doors
+                 if door.kind == 'door' and self.storey_at(door.pose[2]) == grid.floor]
+        away = np.array([np.hypot(x - door.pose[0], y - door.pose[1]) for door in doors])
+        leaves = {door.name: (grid.cells == FREE) & (opened.cells != FREE)
+                  & (far < door.width + LEAF) & (far == away.min(axis=0))
+                  for door, far in zip(doors, away)}
         rooms = self._reached(planner, x, y)
 
         def with_leaves(of: Sequence[Door]) -> tuple[Planner, bool]:
             """A planner with these leaves open, and whether all rooms are reached."""
-            shut = np.ones_like(leaves)
+            cells = grid.cells.copy()
             for door in of:
-                shut &= np.hypot(x - door.pose[0], y - door.pose[1]) >= door.width + LEAF
-            cells = np.where(leaves & ~shut, OCCUPIED, grid.cells).astype(np.int8)
+                cells[leaves[door.name]] = OCCUPIED
             tried = Planner(replace(grid, cells=cells), BODY)
             return tried, self._reached(tried, x, y) == rooms
 
         kept: list[Door] = []
-        for door in self.home.doors:
-            if door.kind == 'door' and self.storey_at(door.pose[2]) == grid.floor:
-                tried, fine = with_leaves([*kept, door])
-                if fine:
-                    planner = tried
-                    kept.append(door)
-                    continue
-                self.in_way.add(door.name)
-                self.in_way |= {other.name for other in kept
-                                if math.dist(other.pose[:2], door.pose[:2]) < 2 * SWING
-                                and with_leaves([*(d for d in kept if d != other), door])[1]}
-                tried, fine = with_leaves([door])
-                if not fine:
-                    self._add_stop(door, tried.passable, leaves, x, y)
+        in_way: list[Door] = []
+        for door in doors:
+            tried, fine = with_leaves([*kept, door])
+            if fine:
+                planner = tried
+                kept.append(door)
+                continue
+            in_way += [door, *(other for other in kept
+                               if math.dist(other.pose[:2], door.pose[:2]) < 2 * SWING
+                               and with_leaves([*(d for d in kept if d != other), door])[1])]
+        for door in in_way:
+            self._add_stop(door, with_leaves([door])[0].passable, leaves[door.name], x, y)
+        self.in_way |= {door.name for door in in_way}
         return planner
 
-    def _add_stop(self, door: Door, passable: np.ndarray, leaves: np.ndarray, x: np.ndarray,
+    def _add_stop(self, door: Door, passable: np.ndarray, leaf: np.ndarray, x: np.ndarray,
                   y: np.ndarray) -> None:
         """Notes where one stands clear of a leaf, on its side, and gets to with it open."""
         parts, _ = label(passable, np.ones((3, 3), int))
         away = np.hypot(x - door.pose[0], y - door.pose[1])
         across = math.cos(door.pose[3]) * (y - door.pose[1]) - math.sin(door.pose[3]) * (
             x - door.pose[0])
-        side = across * np.median(across[leaves & (away < door.width + LEAF)])
+        side = across * np.median(across[leaf])
         here = parts[np.unravel_index(np.where(passable, away, np.inf).argmin(), away.shape)]
         far = np.where((parts == here) & (side > 0) & (away > CLEAR), away, np.inf)
         row, column = np.unravel_index(far.argmin(), far.shape)

@@ -21,6 +21,7 @@ OPENS_IN, SHUTS_IN = 12.0, 6.0  # s
 LIFT_WAIT = 90.0  # s for an elevator, or for somebody else in it
 LEAVES_AROUND = 2.5  # m to the middle of their doorways
 ASIDE = 0.55  # m between the middles of two people
+LEGS = 0.4  # m before a seat
 NEARER = 0.05  # m
 BACK = 0.25  # m: a step back
 BEYOND = CLEAR - 0.1  # m from a door's middle: who is there lets its leaf shut
@@ -322,7 +323,7 @@ class Mover:
         line = [self.at, *(point for leg in legs or () for point in leg.points)]
         near: list[Mover] = [r for r in self.household.residents if r is not self and not r.away
                              and not r.walks and r.storey == self.storey
-                             and away_from(line, r.at) < ASIDE]
+                             and away_from(line, r.at) < ASIDE + LEGS * (r.posture != 'stand')]
         return min(near, key=lambda r: math.dist(r.at, self.at)) if near else None
 
     def _aside(self, attempt: int) -> Process:

@@ -81,11 +81,11 @@ class Places:
         points = self.ground.spots(first.room, 1, numbers) if first.room in self._rooms else []
         return Spot(points[0], first.storey, first.z, first.room) if points else self.anywhere()
 
-    def anywhere(self) -> Spot:
-        """A place in the largest room, where nothing else serves."""
+    def anywhere(self, numbers: Random | None = None) -> Spot:
+        """A place in the largest room, where nothing else serves; the same without numbers."""
         room = max((r for r in self.home.rooms if r.storey in self.ground.planners
                     and r.use not in UNUSED), key=lambda r: (r.area, r.name))
-        point = self.ground.spots(room.name, 1, Random(room.name))[0]
+        point = self.ground.spots(room.name, 1, numbers or Random(room.name))[0]
         return Spot(point, room.storey, self.ground.elevation(room.storey), room.name)
 
     def on_floor(self) -> list[Spot]:

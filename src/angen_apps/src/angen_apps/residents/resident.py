@@ -192,7 +192,7 @@ class Resident(User):
     def _elsewhere(self) -> tuple[Point, int]:
         """A place in the open, out of the way of others."""
         points = self.ground.spots(self.room, 1, self._habits) if self.room else []
-        anywhere = self.household.places.anywhere()
+        anywhere = self.household.places.anywhere(self._habits)
         return (points[0], self.storey) if points else (anywhere.stand, anywhere.storey)
 
     def _stay(self, until: float, step: Step, busy: int) -> Process:
@@ -232,7 +232,7 @@ class Resident(User):
         while self.now < end - 5.0 and tries < 40:
             tries += 1
             spots = self.household.places.free(step.room, self._habits, 1)
-            spot = spots[0] if spots else self.household.places.anywhere()
+            spot = spots[0] if spots else self.household.places.anywhere(self._habits)
             yield from self._reach(spot, activity.name)
             if not self.arrived:
                 self.diary.note('gave up the way')
