@@ -34,6 +34,18 @@ def test_fields_show_beams_and_what_the_lidar_measures(home: Angen, page: Page) 
     page.until('return angen.view.scans.clouds.size === 0')
 
 
+@pytest.mark.parametrize('floor', [0, 1])
+def test_the_plan_of_each_floor_has_the_elevator_in_its_shaft(page: Page, floor: int) -> None:
+    page.run('angen.setView("plan"); angen.setStorey(arguments[0])', floor)
+    inside = page.run('''const mark = angen.plan.items.get("elevator/elevator");
+        const box = (e) => e.getBoundingClientRect(), plan = box(angen.plan.element);
+        const shaft = box(angen.plan.root.querySelector(".shaft")), at = box(mark);
+        return shaft.left > plan.left && shaft.right < plan.right && at.left > shaft.left
+            && at.right < shaft.right && at.top > shaft.top && at.bottom < shaft.bottom''')
+    page.run('angen.setView("3d"); angen.setStorey(null)')
+    assert inside
+
+
 def test_cards_have_the_verbs_of_their_kinds(page: Page) -> None:
     missing = page.run('''const wrong = [], seen = new Set();
         for (const e of angen.home.entities) {

@@ -60,7 +60,8 @@ export class Plan {
     const { home } = this, number = this.number();
     const rooms = home.rooms.filter((room) => room.storey === number), shown = home.entities.filter((e) => this.isShown(e, number));
     const walls = rooms.length ? [] : this.walls(number);
-    const places = [...rooms.flatMap((room) => room.polygon), ...walls.map((/** @type {any} */ shape) => this.placeOf(shape)),
+    const shafts = this.shafts(number);
+    const places = [...rooms.flatMap((room) => room.polygon), ...shafts.flatMap((shape) => this.corners(shape)), ...walls.map((/** @type {any} */ shape) => this.placeOf(shape)),
       ...shown.filter((e) => !rooms.length || !home.isMover(e)).map((e) => Array.from(home.place(e)))];
     if (!places.length) {
       this.root = null;
@@ -80,7 +81,7 @@ export class Plan {
       this.items.set(`room/${room.name}`, shape);
       this.root.append(shape);
     }
-    this.root.append(svg('g', {}, ...walls.map((/** @type {any} */ shape) => this.rect(shape, 'walls'))), this.furniture(number));
+    this.root.append(svg('g', {}, ...walls.map((/** @type {any} */ shape) => this.rect(shape, 'walls'))), ...shafts.map((shape) => this.rect(shape, 'shaft')), this.furniture(number));
     this.fields = svg('g');
     this.scan = svg('g', { class: 'scan' });
     this.root.append(this.fields);
@@ -141,6 +142,24 @@ export class Plan {
     });
   }
 
+  /** @param {any} shape a box of the scene @returns {number[][]} its corners from above */
+  corners(shape) {
+    const [x, y, yaw] = this.placeOf(shape), [c, s] = [Math.cos(yaw) / 2, Math.sin(yaw) / 2], [width, depth] = shape.size;
+    return [[1, 1], [1, -1], [-1, 1], [-1, -1]].map(([i, j]) => [x + i * c * width - j * s * depth, y + i * s * width + j * c * depth]);
+  }
+
+  /**
+   * The largest plate of each elevator that stops on a floor: that of its cabin.
+   * @param {number} number @returns {any[]} shapes
+   */
+  shafts(number) {
+    const { home } = this, area = (/** @type {any} */ shape) => shape.size[0] * shape.size[1];
+    return home.entities.filter((e) => e.kind === 'elevator' && this.isShown(e, number)).flatMap((e) => {
+      const links = home.linksOf(e.model), boxes = home.scene.shapes.filter((/** @type {any} */ s) => s.type === 0 && links.includes(s.link));
+      return boxes.sort((/** @type {any} */ a, /** @type {any} */ b) => area(b) - area(a)).slice(0, 1);
+    });
+  }
+
   /** @param {number} number */
   furniture(number) {
     const { home } = this, group = svg('g');
@@ -160,6 +179,8 @@ export class Plan {
     const alarms = kind?.fields.some((/** @type {any} */ f) => f.alarm);
     if (!moves && !SHOWN.has(e.kind) && !(sensor && alarms)) return false;
     if (sensor && home.scene.links[home.linksOf(e.model)[0]]?.moves) return false;
+    const lift = e.kind === 'elevator' ? home.described?.elevators?.find((/** @type {any} */ one) => one.name === e.name) : null;
+    if (lift) return lift.landings.some((/** @type {any} */ at) => at.storey === number);
     return moves || home.storeyAt(home.place(e)[2]) === number;
   }
 
