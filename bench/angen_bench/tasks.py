@@ -63,7 +63,8 @@ def judged(answer: str, said: str) -> dict[str, Any]:
     if isinstance(found, list):
         return {'simulated s': 3600, 'result': f'{len(found)} warnings', 'left out': missed}
     if 'waypoints' in found:
-        result = f'{found["waypoints"]} rooms, {found["distance_m"]:.0f} m'
+        visited = found['waypoints']
+        result = f'{visited} of {visited + missed} rooms, {found["distance_m"]:.0f} m'
     else:
         result = f'found in {found["room"]}' if found['found'] else 'no person found'
     return {'simulated s': round(found['time_s']),

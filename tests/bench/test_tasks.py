@@ -15,7 +15,7 @@ SAID = ('angen: the robot does not reach attic\nangen: seek   5 %  the building 
 
 @pytest.mark.parametrize('answer, row', [
     ({'waypoints': 3, 'distance_m': 12.4, 'time_s': 60.2, 'collisions': 1},
-     {'simulated s': 60, 'result': '3 rooms, 12 m, 1 collisions', 'left out': 2}),
+     {'simulated s': 60, 'result': '3 of 5 rooms, 12 m, 1 collisions', 'left out': 2}),
     ({'found': True, 'room': 'hall', 'time_s': 9.0, 'collisions': 0},
      {'simulated s': 9, 'result': 'found in hall, 0 collisions', 'left out': 2}),
     ({'found': False, 'room': '', 'time_s': 600, 'collisions': 0},

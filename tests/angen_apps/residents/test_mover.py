@@ -160,6 +160,28 @@ def test_a_door_whose_leaf_closes_off_a_hall_is_always_shut(tmp_path):
     assert found == [(True, {'kitchen0': 'CLOSED', 'living0': 'OPEN'})] * 2
 
 
+def test_no_gap_between_the_leaves_of_a_double_door_is_in_the_way(tmp_path):
+    path = narrow(tmp_path)
+    xml = (tmp_path / 'home.xml').read_text()
+    sash = xml[xml.rindex('<sash'):xml.rindex('</doorOrWindow>')]
+    leaves = (sash.replace('0.97', '0.47') + sash.replace('0.97', '0.47').replace(
+        'xAxis="0.015"', 'xAxis="0.985"').replace('startAngle="0"', 'startAngle="3.1415927"'))
+    (tmp_path / 'home.xml').write_text(xml.replace(sash, leaves))
+    write_world(read_sweethome(tmp_path / 'home.xml'), path, 'none')
+    site, household, anna = home_of(path)
+    modes: dict[str, str] = {}
+
+    def script():
+        anna.enter(Spot((6.5, -2.0), 0, 0.0, 'living0'))
+        yield from anna.go((3.5, -3.25), 0)
+        modes.update({name: site.simulator.state('door', name)['mode']
+                      for name in ('living_left0', 'living_right0')})
+
+    household.add(script())
+    household.run(40.0)
+    assert anna.arrived and modes == {'living_left0': 'OPEN', 'living_right0': 'OPEN'}
+
+
 def test_a_leaf_before_the_entrance_closes_off_the_outside(tmp_path):
     site, _, _ = home_of(narrow(tmp_path))
     planner = site.ground.planners[0]
@@ -204,7 +226,72 @@ def test_people_without_a_place_of_their_own_are_not_all_at_one(tmp_path):
     assert len({places.anywhere(Random(seed)).stand for seed in range(5)}) > 2
 
 
+def test_no_place_on_the_floor_is_chosen_where_somebody_is(tmp_path):
+    _, household, anna = home_of(narrow(tmp_path))
+    bert = Resident(household, 'bert', 1, read('retired'))
+    household.residents.append(bert)
+    here, there = (Spot((x, -3.25), 0, 0.0, 'hall0') for x in (2.5, 4.0))
+    bert.enter(here)
+    assert anna._choose([here, there]) == there and bert._choose([here, there]) == here
+    assert len(set(anna._tasks['toilet'][0])) > 2  # there is none
+
+
 def test_distance_from_a_line():
     line = [(0.0, 0.0), (2.0, 0.0), (2.0, 0.0), (2.0, 3.0)]
     assert away_from(line, (1.0, 0.5)) == 0.5 and away_from(line, (2.4, 2.0)) == pytest.approx(0.4)
     assert away_from(line[:1], (3.0, 4.0)) == 5.0
+
+
+def test_rooms_that_nobody_gets_to_are_no_places(tmp_path):
+    path = narrow(tmp_path)
+    xml = (tmp_path / 'home.xml').read_text()
+    kitchen = xml[xml.index('<doorOrWindow', xml.index('Front door')):]
+    kitchen = kitchen[:kitchen.index('</doorOrWindow>') + len('</doorOrWindow>')]
+    (tmp_path / 'home.xml').write_text(xml.replace(kitchen, ''))
+    write_world(read_sweethome(tmp_path / 'home.xml'), path, 'none')
+    site, household, anna = home_of(path)
+    assert site.ground.reached == {'', 'hall0', 'living0'}
+    assert not household.places.rooms_of('kitchen') and household.places.rooms_of('hall')
+    assert not household.places.free('kitchen', Random(1), 1)
+    assert anna._missing['dress', 0] == 'no wardrobe and no bed in reach'
+
+
+def test_a_door_that_opens_too_little_is_a_wall(tmp_path):
+    path = narrow(tmp_path)
+    xml = (tmp_path / 'home.xml').read_text()
+    chest = ('<pieceOfFurniture name="Chest" x="230" y="330" width="30" depth="90" height="90"/>'
+             '</home>')  # stops its leaf at about 45 degrees
+    (tmp_path / 'home.xml').write_text(xml.replace('</home>', chest))
+    plan = read_sweethome(tmp_path / 'home.xml')
+    write_world(plan, path, 'none')
+    assert any('degrees only' in remark for remark in plan.remarks), plan.remarks
+    site, _, _ = home_of(path)
+    assert 'kitchen0' not in site.ground.reached and 'kitchen0' not in site.ground.in_way
+
+
+def test_who_sleeps_on_the_floor_leaves_others_a_way(tmp_path):
+    _, household, _ = home_of(narrow(tmp_path))
+    hall = next(room for room in household.home.rooms if room.name == 'hall0')
+    beds = household.places._beds(hall)
+    for (x, y), _, divides in beds:
+        if 1.5 < x < 3.5:
+            assert divides == (abs(y + 3.25) < 0.2), beds
+    spots = household.places.on_floor()
+    assert {spot.room for spot in spots[:2]} == {'kitchen0'}  # the largest
+    assert any(not divides for _, _, divides in beds) and len(spots) > 4
+
+
+def test_a_room_drawn_over_another_one_takes_its_floor(tmp_path):
+    path = narrow(tmp_path)
+    text = path.read_text()
+    room = text[text.index('<angen:room name="living0">'):]
+    room = room[:room.index('</angen:room>') + len('</angen:room>')]
+    assert 'living' in room
+    path.write_text(text.replace(room, room + room.replace('living0', 'whole0')))
+    site, _, _ = home_of(path)
+    rooms = {room.name: room for room in site.home.rooms}
+    floors = [site.ground.floor_of(rooms[name]).any() for name in ('living0', 'whole0')]
+    assert sorted(floors) == [False, True]
+    x, y = site.ground.spots(next(n for n in ('living0', 'whole0')
+                                  if site.ground.floor_of(rooms[n]).any()), 1, Random(1))[0]
+    assert site.ground.floor_of(site.home.room_at(x, y, 0.1)).any()

@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 from typing import Any, Sequence
 
 import numpy as np
-from scipy.ndimage import binary_erosion, label
+from scipy.ndimage import label
 
 from angen_apps.maps.gridmap import FREE, OCCUPIED, RESOLUTION, GridMap
 from angen_apps.maps.rays import Caster
 from angen_apps.plan.polygons import inside
-from angen_apps.residents.survey import (PORCH, delete, elevation, middles, open_all, opening,
+from angen_apps.residents.survey import (DEEP, PORCH, delete, elevation, middles, open_all, opening,
                                          storey_at, survey)
 from angen_apps.robot.planner import Planner, Point
 from angen_tools.common.home import Door, Home, Place, Room
@@ -22,7 +22,6 @@ SWING = 1.25  # m from a door's middle: its leaf does not reach farther
 LEAF = 0.2  # m beyond a door's width from its middle: the farthest end of its leaf
 GOALS = 64  # goals whose ways are cached
 REACH = 1.1  # m from a person to the thing that the person uses
-LONG = 1.4  # m of free cells in a line, on which a person can lie
 
 
 @dataclass(frozen=True)
@@ -57,13 +56,16 @@ class Ground:
         lives = self.storey_at(entrance.pose[2]) if entrance else min(r.storey for r in home.rooms)
         open_all(world, home)
         self.in_way: set[str] = set()  # doors whose leaves close off a room, if they stand open
+        self.reached: set[str] = set()  # rooms that people get to
         self._stops: dict[str, Point] = {}  # where one opens and shuts these
         leaves = {storey: survey(self._caster, home, storey) for storey in self._storeys(lives)}
         delete(world, 'door')
         self.planners = {storey: self._planner(survey(self._caster, home, storey), opened)
                          for storey, opened in leaves.items()}
-        self.free = {storey: self._largest(planner) for storey, planner in self.planners.items()}
+        self.free = {storey: _largest(planner.passable)
+                     for storey, planner in self.planners.items()}
         self._toward: dict[tuple[int, tuple[int, int]], np.ndarray] = {}  # the last used at the end
+        self._floors: dict[str, np.ndarray] = {}  # of rooms
         self._names: dict[tuple[int, int, int], str] = {}  # of rooms, by storey, row and column
 
     def _storeys(self, lives: int) -> list[int]:
@@ -119,60 +121,50 @@ class Ground:
         return name
 
     def near(self, x: float, y: float, z: float, reach: float = REACH) -> Point | None:
-        """The free place nearest to a point, in its room."""
+        """The free place nearest to a point, on the floor of its room."""
         room = self.home.room_at(x, y, z + 0.1)
         planner = self.planners.get(self.storey_at(z))
         if planner is None or room is None:
             return None
-        free = self.free[self.storey_at(z)]
-        row, column = planner.grid.cell(x, y)
-        if planner.is_free((x, y)) and free[row, column]:
+        free = self.floor_of(room)
+        if planner.is_free((x, y)) and free[planner.grid.cell(x, y)]:
             return x, y
         rows, columns = np.nonzero(free)
         px, py = middles(planner.grid, rows, columns)
         away = np.hypot(px - x, py - y)
-        away[~inside(room.polygon, px, py)] = np.inf
         best = int(away.argmin()) if len(away) else -1
         if best < 0 or away[best] > reach:
             return None
         return float(px[best]), float(py[best])
 
+    def floor_of(self, room: Room) -> np.ndarray:
+        """The largest connected part (rows, columns) of a room's free cells: not one that a bed
+        separates from it, before another door."""
+        if room.name not in self._floors:
+            free = self.free[room.storey]
+            rows, columns = np.indices(free.shape)
+            x, y = middles(self.planners[room.storey].grid, rows, columns)
+            here = free & inside(room.polygon, x, y)
+            for other in self.home.rooms[:self.home.rooms.index(room)]:  # as Home.room_at()
+                if other.storey == room.storey:
+                    here &= ~inside(other.polygon, x, y)
+            self._floors[room.name] = _largest(here)
+        return self._floors[room.name]
+
     def spots(self, room: str, count: int, numbers: Any) -> list[Point]:
         """Places in a room, in the open first."""
         found = next(r for r in self.home.rooms if r.name == room)
-        planner = self.planners[found.storey]
-        rows, columns = np.nonzero(self.free[found.storey])
-        x, y = middles(planner.grid, rows, columns)
-        within = inside(found.polygon, x, y)
+        rows, columns = np.nonzero(self.floor_of(found))
+        x, y = middles(self.planners[found.storey].grid, rows, columns)
         away = np.full(len(x), np.inf)
         for door in self.home.doors:
             away = np.minimum(away, np.hypot(x - door.pose[0], y - door.pose[1]))
         for least in (SWING - 0.2, 0.6, 0.0):
-            cells = np.nonzero(within & (away >= least))[0]
+            cells = np.nonzero(away >= least)[0]
             if len(cells):
                 chosen = [cells[numbers.randrange(len(cells))] for _ in range(count)]
                 return [(float(x[i]), float(y[i])) for i in chosen]
         return []
-
-    def beds(self, room: Room, count: int) -> list[tuple[Point, float]]:
-        """Places on the open floor where people can lie, and the yaw of each: far from doors."""
-        planner = self.planners[room.storey]
-        found: list[tuple[Point, float]] = []
-        cells = round(LONG / planner.grid.resolution)
-        for shape, yaw in (((1, cells), 0.0), ((cells, 1), math.pi / 2)):
-            lies = binary_erosion(self.free[room.storey], np.ones(shape, bool))
-            x, y = middles(planner.grid, *np.nonzero(lies))
-            here = inside(room.polygon, x, y)
-            found += [((float(a), float(b)), yaw) for a, b in zip(x[here], y[here])]
-        doors = [door.pose[:2] for door in self.home.doors if door.kind != 'window'
-                 and room.name in door.rooms]
-        found.sort(key=lambda bed: (-min((math.dist(bed[0], door) for door in doors), default=0.0),
-                                    bed))
-        chosen: list[tuple[Point, float]] = []
-        for bed in found:
-            if len(chosen) < count and all(math.dist(bed[0], other[0]) > LONG for other in chosen):
-                chosen.append(bed)
-        return chosen
 
     def porch(self) -> tuple[Point, int] | None:
         """The free place outside the main entrance, and its storey; None if there is none."""
@@ -199,7 +191,8 @@ class Ground:
     def way(self, start: Point, goal: Point, storey: int) -> list[Leg] | None:
         """Legs from a place to another on a storey; None where there is no way."""
         planner = self.planners[storey]
-        begin = self.near(*start, self.elevation(storey), 0.8) or planner.nearest(start, 0.8)
+        begin = start if planner.is_free(start) else (
+            self.near(*start, self.elevation(storey), 0.8) or planner.nearest(start, 0.8))
         points = begin and planner.along(self._following(planner, goal, storey), begin, goal)
         if not points:
             return None
@@ -272,7 +265,8 @@ class Ground:
 
     def _planner(self, grid: GridMap, opened: GridMap) -> Planner:
         """Of a storey whose doors stand open: their leaves are in the way, but for those without
-        which a room could not be reached. `grid` is without leaves."""
+        which a room could not be reached. `grid` is without leaves. A door that opens too little
+        for people is a wall."""
         planner = Planner(grid, BODY)
         rows, columns = np.indices(grid.cells.shape)
         x, y = middles(grid, rows, columns)
@@ -303,9 +297,17 @@ class Ground:
             in_way += [door, *(other for other in kept
                                if math.dist(other.pose[:2], door.pose[:2]) < 2 * SWING
                                and with_leaves([*(d for d in kept if d != other), door])[1])]
+        open_alone = {door.name: with_leaves([door])[0].passable for door in in_way}
+        closed = [door for door in in_way if not _passes(door, open_alone[door.name], x, y)]
+        if closed:
+            cells = grid.cells.copy()
+            for door in closed:
+                cells[opening(x, y, door, DEEP)] = OCCUPIED
+            return self._planner(replace(grid, cells=cells), opened)
         for door in in_way:
-            self._add_stop(door, with_leaves([door])[0].passable, leaves[door.name], x, y)
+            self._add_stop(door, open_alone[door.name], leaves[door.name], x, y)
         self.in_way |= {door.name for door in in_way}
+        self.reached |= rooms
         return planner
 
     def _add_stop(self, door: Door, passable: np.ndarray, leaf: np.ndarray, x: np.ndarray,
@@ -313,8 +315,7 @@ class Ground:
         """Notes where one stands clear of a leaf, on its side, and gets to with it open."""
         parts, _ = label(passable, np.ones((3, 3), int))
         away = np.hypot(x - door.pose[0], y - door.pose[1])
-        across = math.cos(door.pose[3]) * (y - door.pose[1]) - math.sin(door.pose[3]) * (
-            x - door.pose[0])
+        across = _across(door, x, y)
         side = across * np.median(across[leaf])
         here = parts[np.unravel_index(np.where(passable, away, np.inf).argmin(), away.shape)]
         far = np.where((parts == here) & (side > 0) & (away > CLEAR), away, np.inf)
@@ -324,7 +325,7 @@ class Ground:
 
     def _reached(self, planner: Planner, x: np.ndarray, y: np.ndarray) -> set[str]:
         """The rooms that the largest connected part has a place in, and '' for the outside."""
-        free = self._largest(planner)
+        free = _largest(planner.passable)
         rooms = [room for room in self.home.rooms if room.storey == planner.grid.floor]
         found = {room.name for room in rooms if (free & inside(room.polygon, x, y)).any()}
         door = self.entrance()
@@ -336,10 +337,25 @@ class Ground:
             found |= {''} if free.any() else set()
         return found
 
-    def _largest(self, planner: Planner) -> np.ndarray:
-        """The largest connected part (rows, columns) of the free cells."""
-        parts, _ = label(planner.passable, np.ones((3, 3), int))
-        return np.asarray(parts == 1 + int(np.argmax(np.bincount(parts.ravel())[1:])))
+
+def _across(door: Door, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """How far places are from the plane of a shut door, with a sign."""
+    return np.asarray(math.cos(door.pose[3]) * (y - door.pose[1])
+                      - math.sin(door.pose[3]) * (x - door.pose[0]))
+
+
+def _passes(door: Door, passable: np.ndarray, x: np.ndarray, y: np.ndarray) -> bool:
+    """Whether places before and behind a door are connected."""
+    parts, _ = label(passable, np.ones((3, 3), int))
+    near = passable & opening(x, y, door, CLEAR)
+    across = _across(door, x, y)
+    return bool(set(parts[near & (across > DEEP)]) & set(parts[near & (across < -DEEP)]))
+
+
+def _largest(cells: np.ndarray) -> np.ndarray:
+    """The largest connected part."""
+    parts, count = label(cells, np.ones((3, 3), int))
+    return parts == 1 + int(np.argmax(np.bincount(parts.ravel())[1:])) if count else cells
 
 
 def _crossings(points: Sequence[Point], doors: Sequence[Door]) -> list[tuple[int, Door]]:

@@ -24,7 +24,7 @@ ASIDE = 0.55  # m between the middles of two people
 LEGS = 0.4  # m before a seat
 NEARER = 0.05  # m
 BACK = 0.25  # m: a step back
-BEYOND = CLEAR - 0.1  # m from a door's middle: who is there lets its leaf shut
+BEYOND = CLEAR - 0.15  # m from a door's middle: who is there lets its leaf shut
 WAYS_OUT = 4  # places beyond a leaf that are tried
 SLOWS = 0.4  # s, in which it walks the rest of its way
 
@@ -159,7 +159,7 @@ class Mover:
             self.walks = True
             yield from self._call(ride.name, self.storey)
             if self._opened:
-                yield from self._walk(ride.cabin, PASSED, None)
+                yield from self._walk(ride.cabin, PASSED, [])
                 self.halt()
             if not self._opened or not self._came:
                 return
@@ -167,7 +167,7 @@ class Mover:
             if self._opened:
                 self.storey = storey
                 self.look()
-                yield from self._walk(ride.leaves, PASSED, None)
+                yield from self._walk(ride.leaves, PASSED, [])
         finally:
             self.walks = False
             self.halt()
@@ -188,21 +188,18 @@ class Mover:
 
     def _follow(self, legs: list[Leg]) -> Process:
         self.walks = True
-        held: Door | None = None
+        held: list[Door] = []  # two of a double door
         try:
             for leg in legs:
                 if leg.door is not None:
-                    if held is not None:
+                    if not any(door.partner == leg.door.name for door in held):
                         self._let_go(held)
-                    held = None
                     yield from self._open(leg.door)
                     if not self._opened:
                         return
-                    held = leg.door
+                    held.append(leg.door)
                 elif leg.behind is not None:
-                    if held is not None:
-                        self._let_go(held)
-                    held = None
+                    self._let_go(held)
                     yield from self._wait_for('CLOSED', leg.behind, SHUTS_IN)
                 for j, point in enumerate(leg.points):
                     ends = j == len(leg.points) - 1
@@ -210,23 +207,21 @@ class Mover:
                     yield from self._walk(point, near, held)
                     if not self._came and ends:  # a leaf or a chair may be at another point
                         return
-                    if held and math.dist(self.at, held.pose[:2]) > SWING:
+                    if all(math.dist(self.at, door.pose[:2]) > SWING for door in held):
                         self._let_go(held)
-                        held = None
             self.arrived = True
             yield self.now + SLOWS
         finally:
             self.walks = False
             self.halt()
-            if held is not None:
-                self._let_go(held)
+            self._let_go(held)
 
     def halt(self) -> None:
         """Stops here: otherwise it would keep trying to reach the exact point."""
         if not self.away and self.posture == 'stand':
             self.household.do(self.name, 'person', self.name, 'Stop')
 
-    def _walk(self, point: Point, near: float, held: Door | None) -> Process:
+    def _walk(self, point: Point, near: float, held: list[Door]) -> Process:
         """Walks straight to a point; `self._came` says whether it came near enough."""
         self._came = False
         if not self.household.do(self.name, 'person', self.name,
@@ -243,9 +238,9 @@ class Mover:
                 best, since = away, self.now
             elif self.now - since > STALLED:
                 return
-            if held and math.dist(self.at, held.pose[:2]) > SWING and self._behind(held, point):
+            if all(math.dist(self.at, door.pose[:2]) > SWING and self._behind(door, point)
+                   for door in held):
                 self._let_go(held)
-                held = None
             least, most = POLL
             yield self.now + min(max((away - near) / self.profile.speed, least), most)
 
@@ -278,18 +273,21 @@ class Mover:
                 and self.simulator.state('door', door.name).get('mode', mode) != mode:
             yield self.now + 0.25
 
-    def _let_go(self, door: Door) -> None:
-        """Releases a door, and shuts it by habit; always the entrance, and who is in the way."""
-        key = ('door', door.name)
-        if self.household.held.get(key) != self.name:
-            return
-        self.household.leave(key, self.name)
-        shuts = (door.name == self.ground.home.entrance or door.name in self.ground.in_way
-                 or self._habits.random() < self.profile.closes_doors)
-        beyond = math.dist(self.at, door.pose[:2]) > BEYOND
-        if shuts and beyond and self.profile.body == 'person' \
-                and self.household.doorway_free(*door.pose[:2], self.storey, self.name):
-            self.household.do(self.name, 'door', door.name, 'CloseByHand')
+    def _let_go(self, held: list[Door]) -> None:
+        """Releases doors, and shuts them by habit; always the entrance, and who is in the way."""
+        for door in held:
+            key = ('door', door.name)
+            if self.household.held.get(key) != self.name:
+                continue
+            self.household.leave(key, self.name)
+            shuts = (self.ground.home.entrance in (door.name, door.partner)
+                     or door.name in self.ground.in_way
+                     or self._habits.random() < self.profile.closes_doors)
+            beyond = math.dist(self.at, door.pose[:2]) > BEYOND
+            if shuts and beyond and self.profile.body == 'person' \
+                    and self.household.doorway_free(*door.pose[:2], self.storey, self.name):
+                self.household.do(self.name, 'door', door.name, 'CloseByHand')
+        held.clear()
 
     def _shut_around(self) -> Process:
         """Shuts open leaves nearby that nobody uses: two of them can close off a corridor."""
@@ -313,7 +311,7 @@ class Mover:
         for point in sorted(filter(free, around), key=lambda p: math.dist(p, self.at))[:WAYS_OUT]:
             if math.dist(self.at, (x, y)) > BEYOND:
                 break
-            yield from self._walk(point, THERE, None)
+            yield from self._walk(point, THERE, [])
         self.halt()
 
     def blocker(self, spot: Spot) -> Mover | None:
@@ -325,6 +323,12 @@ class Mover:
                              and not r.walks and r.storey == self.storey
                              and away_from(line, r.at) < ASIDE + LEGS * (r.posture != 'stand')]
         return min(near, key=lambda r: math.dist(r.at, self.at)) if near else None
+
+    def somebody_at(self, spot: Spot) -> bool:
+        """Whether another resident stands, sits or lies at a place on the floor."""
+        return any(r is not self and not r.away and r.storey == spot.storey
+                   and math.dist(r.at, spot.stand) < ASIDE + LEGS * (r.posture != 'stand')
+                   for r in self.household.residents)
 
     def _aside(self, attempt: int) -> Process:
         """Steps aside before another try."""

@@ -3,17 +3,25 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from random import Random
 
+import numpy as np
+from scipy.ndimage import binary_erosion, label
+
+from angen_apps.maps.gridmap import RESOLUTION
 from angen_apps.residents.activities import Step
 from angen_apps.residents.ground import Ground
+from angen_apps.residents.survey import middles
 from angen_apps.robot.planner import Point
 from angen_tools.common.home import Place, Room, Thing
 
 FAR = 1.9  # m from a standing person to the middle of a bed
 TOWARDS = 0.62  # m from the middle of a thing without places to its user
 COVERED = 0.12  # m above a seat: a table there, under which the chair is pushed
-LIE = 8  # people on the floor of a room
+LONG = 1.4  # m of free cells in a line, on which a person can lie
+LYING, BESIDE = 0.65, 0.55  # m from the middle of one who lies to head and feet, and past them
+PART, LEAST = 1.0, 0.05  # m2 of floor that a way has to lead to, and of a room
 OUTSIDE, ENTRANCE = 'outside', 'entrance'
 IN_ROOM = 'in room'  # in place of a posture
 UNUSED = ('landing', 'outdoor')
@@ -50,8 +58,13 @@ class Places:
         return self._rooms[room].use if room in self._rooms else 'outdoor'
 
     def rooms_of(self, use: str) -> list[Room]:
-        return [room for room in self.home.rooms if room.use == use
-                and room.storey in self.ground.planners]
+        return [room for room in self._reached if room.use == use]
+
+    @cached_property
+    def _reached(self) -> list[Room]:
+        """Rooms that people get to, with floor of their own."""
+        return [room for room in self.home.rooms if room.name in self.ground.reached
+                and self.ground.floor_of(room).sum() * RESOLUTION ** 2 > LEAST]
 
     def spots(self, step: Step) -> list[Spot]:
         """The spots for a step, the best first; empty if no thing and no room serves."""
@@ -83,22 +96,47 @@ class Places:
 
     def anywhere(self, numbers: Random | None = None) -> Spot:
         """A place in the largest room, where nothing else serves; the same without numbers."""
-        room = max((r for r in self.home.rooms if r.storey in self.ground.planners
-                    and r.use not in UNUSED), key=lambda r: (r.area, r.name))
+        room = max((r for r in self._reached if r.use not in UNUSED),
+                   key=lambda r: (r.area, r.name))
         point = self.ground.spots(room.name, 1, numbers or Random(room.name))[0]
         return Spot(point, room.storey, self.ground.elevation(room.storey), room.name)
 
     def on_floor(self) -> list[Spot]:
         """Where people lie in a home without a bed: in a bedroom, or else in the largest room."""
-        rooms = [room for room in self.home.rooms if room.storey in self.ground.planners
-                 and room.use not in UNUSED]
+        found: list[Spot] = []
+        last: list[Spot] = []
+        rooms = [room for room in self._reached if room.use not in UNUSED]
         for room in sorted(rooms, key=lambda r: (r.use != 'bedroom', -r.area, r.name)):
             z = self.ground.elevation(room.storey)
-            found = [Spot(at, room.storey, z, room.name, '', Place('lie', (*at, z, yaw)))
-                     for at, yaw in self.ground.beds(room, LIE)]
-            if found:
-                return found
-        return []
+            for at, yaw, divides in self._beds(room):
+                (last if divides else found).append(
+                    Spot(at, room.storey, z, room.name, '', Place('lie', (*at, z, yaw))))
+        for spot in last:
+            if all(math.dist(spot.stand, other.stand) > LONG for other in found
+                   if other.storey == spot.storey):
+                found.append(spot)
+        return found
+
+    def _beds(self, room: Room) -> list[tuple[Point, float, bool]]:
+        """Places on the open floor where people can lie, the yaw of each, and whether one who lies
+        there is in the way: far from doors first."""
+        free, whole = self.ground.floor_of(room), self.ground.free[room.storey]
+        x, y = middles(self.ground.planners[room.storey].grid, *np.indices(free.shape))
+        cells = round(LONG / RESOLUTION)
+        doors = [door.pose[:2] for door in self.home.doors if door.kind != 'window'
+                 and room.name in door.rooms]
+        found: list[tuple[float, Point, float]] = []
+        for shape, yaw in (((1, cells), 0.0), ((cells, 1), math.pi / 2)):
+            for at in np.argwhere(binary_erosion(free, np.ones(shape, bool))):
+                point = float(x[tuple(at)]), float(y[tuple(at)])
+                found.append((-min((math.dist(point, door) for door in doors), default=0.0),
+                              point, yaw))
+        chosen: list[tuple[Point, float, bool]] = []
+        for _, point, yaw in sorted(found):
+            if all(math.dist(point, at) > (LONG / 4 if divides and of == yaw else LONG)
+                   for at, of, divides in chosen if not divides or of == yaw):
+                chosen.append((point, yaw, _divides(whole, x - point[0], y - point[1], yaw)))
+        return chosen
 
     def _of(self, what: str, posture: str) -> list[Spot]:
         key = (what, posture)
@@ -176,3 +214,13 @@ class Places:
         point = self.ground.near(x, y, z)
         room = self.home.room_at(x, y, z + 0.1)
         return [Spot(point, porch[1], z, room.name)] if point and room else []
+
+
+def _divides(free: np.ndarray, x: np.ndarray, y: np.ndarray, yaw: float) -> bool:
+    """Whether one who lies at x = y = 0 separates parts of a floor from each other."""
+    along = np.abs(math.cos(yaw) * x + math.sin(yaw) * y)
+    across = math.cos(yaw) * y - math.sin(yaw) * x
+    left, _ = label(free & (np.hypot(np.maximum(along - LYING, 0.0), across) > BESIDE),
+                    np.ones((3, 3), int))
+    sizes = np.sort(np.bincount(left.ravel())[1:])
+    return len(sizes) > 1 and bool(sizes[-2] * RESOLUTION ** 2 > PART)

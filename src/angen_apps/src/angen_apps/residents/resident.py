@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 import sys
+from random import Random
 from typing import Any, Generator, Iterator
 
 from angen_apps.residents.activities import Activity, Step, activities
@@ -25,6 +26,7 @@ ROAMS = (15.0, 45.0)  # s at a place
 OPEN_FOR = 20.0  # s that a fridge is open, at most
 QUEUE, PATIENCE = 10.0, 900.0  # s between two looks at a room or way, and until it is given up
 MAKES_WAY = 30.0  # s in which another one passes
+ANYWHERE = 4  # places for what a home lacks
 PAUSE = 60.0  # s until a way that was given up is tried again, then twice as long
 OUT_BETWEEN = 900.0  # s: a visitor with less to wait stays
 
@@ -56,8 +58,8 @@ class Resident(User):
                 missing = f'no {" and no ".join(step.at or (step.room,))}'
                 self._missing[activity.name, index] = f'{missing} in reach'
                 sleeps = activity.name == 'sleep' and self.profile.body == 'person'
-                spots = (self._on_floor(missing) if sleeps and self.profile.lives
-                         else [places.anywhere()])
+                spots = (self._on_floor(missing) if sleeps and self.profile.lives else
+                         [places.anywhere(Random(number)) for number in range(ANYWHERE)])
             found.append(spots)
         return found
 
@@ -301,7 +303,8 @@ class Resident(User):
         if len(lying) > 1 and self.number:
             order = order[self.number % len(lying):] + order[:self.number % len(lying)]
         for spot in order:
-            if self.household.take(('spot', spot.key), self.name):
+            if (spot.thing or spot.place or not self.somebody_at(spot)) \
+                    and self.household.take(('spot', spot.key), self.name):
                 return spot
         return None
 

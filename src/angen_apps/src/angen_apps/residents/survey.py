@@ -19,6 +19,7 @@ HEIGHTS = (0.2, 1.0, 1.8)  # m above the floor where walls are looked for
 PAST = 1e-4  # m beyond a surface: the start of the next ray
 MARGIN = 1.5  # m around the rooms
 DEEP = 0.35  # m to both sides of a door's middle that belong to its opening
+JOINT = 0.03  # m beside a leaf, to the other one of a double door
 PORCH = 1.2  # m outside the entrance where people come and go
 OPENS_IN = 20.0  # s, at most
 
@@ -116,5 +117,5 @@ def open_all(world: Any, home: Home) -> None:
 def opening(x: np.ndarray, y: np.ndarray, door: Door, deep: float) -> np.ndarray:
     c, s = math.cos(door.pose[3]), math.sin(door.pose[3])
     dx, dy = x - door.pose[0], y - door.pose[1]
-    return np.asarray((np.abs(c * dx + s * dy) <= door.width / 2)
+    return np.asarray((np.abs(c * dx + s * dy) <= door.width / 2 + JOINT)
                       & (np.abs(c * dy - s * dx) <= deep))
