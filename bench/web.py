@@ -30,8 +30,11 @@ POSES = 1
 
 
 def cpu(pid: int) -> float:
-    """s of CPU time of a process."""
-    fields = Path(f'/proc/{pid}/stat').read_text().rsplit(')', 1)[1].split()
+    """s of CPU time of a process; 0 of one that has ended, as some of a browser do."""
+    try:
+        fields = Path(f'/proc/{pid}/stat').read_text().rsplit(')', 1)[1].split()
+    except (FileNotFoundError, ProcessLookupError):
+        return 0.0
     return (int(fields[11]) + int(fields[12])) / TICKS
 
 
@@ -123,7 +126,7 @@ def show(url: str, folder: Path, seconds: float) -> None:
         page.open(url)
         page.until('return angen.view.frames > 0 && angen.view.framed')
         shown = time.monotonic() - began
-        used = sum(cpu(pid) for pid in programs if Path(f'/proc/{pid}').exists()) - before
+        used = sum(map(cpu, programs)) - before
         print(f'first view: {shown:.1f} s, {used:.1f} s of CPU time of the browser')
         programs = children(page.driver.service.process.pid)
         gpu = next(pid for pid in programs if b'gpu-process' in
