@@ -24,6 +24,7 @@ from angen_apps.residents.profiles import read
 from angen_apps.residents.resident import Resident
 from angen_apps.residents.survey import middles
 from angen_apps.robot.planner import Planner
+from angen_bench.homes import examples
 
 LEAF = 0.9  # m
 
@@ -295,3 +296,12 @@ def test_a_room_drawn_over_another_one_takes_its_floor(tmp_path):
     x, y = site.ground.spots(next(n for n in ('living0', 'whole0')
                                   if site.ground.floor_of(rooms[n]).any()), 1, Random(1))[0]
     assert site.ground.floor_of(site.home.room_at(x, y, 0.1)).any()
+
+
+def test_a_second_door_to_the_outside_is_a_wall(tmp_path):
+    """In this home its leaf is in the way, too."""
+    (tmp_path / 'home.xml').write_bytes(examples()['1BedroomApartmentWithRoundWall'])
+    write_world(read_sweethome(tmp_path / 'home.xml'), tmp_path / 'home.world', 'none')
+    site = Site(tmp_path / 'home.world', 3, placed=False)
+    porch, storey = site.ground.porch()
+    assert site.ground.way((1.0, -5.0), porch, storey) and not site.ground.in_way

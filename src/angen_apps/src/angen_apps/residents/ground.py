@@ -263,15 +263,16 @@ class Ground:
         column = ((a[0] - grid.origin[0] + (b[0] - a[0]) * share) / grid.resolution).astype(int)
         return bool(planner.passable[row, column].all())
 
-    def _planner(self, grid: GridMap, opened: GridMap) -> Planner:
+    def _planner(self, grid: GridMap, opened: GridMap, walls: Sequence[Door] = ()) -> Planner:
         """Of a storey whose doors stand open: their leaves are in the way, but for those without
         which a room could not be reached. `grid` is without leaves. A door that opens too little
-        for people is a wall."""
+        for people is a wall, as `walls` are."""
         planner = Planner(grid, BODY)
         rows, columns = np.indices(grid.cells.shape)
         x, y = middles(grid, rows, columns)
         doors = [door for door in self.home.doors
-                 if door.kind == 'door' and self.storey_at(door.pose[2]) == grid.floor]
+                 if door.kind == 'door' and self.storey_at(door.pose[2]) == grid.floor
+                 and door not in walls]
         away = np.array([np.hypot(x - door.pose[0], y - door.pose[1]) for door in doors])
         leaves = {door.name: (grid.cells == FREE) & (opened.cells != FREE)
                   & (far < door.width + LEAF) & (far == away.min(axis=0))
@@ -303,7 +304,7 @@ class Ground:
             cells = grid.cells.copy()
             for door in closed:
                 cells[opening(x, y, door, DEEP)] = OCCUPIED
-            return self._planner(replace(grid, cells=cells), opened)
+            return self._planner(replace(grid, cells=cells), opened, [*walls, *closed])
         for door in in_way:
             self._add_stop(door, open_alone[door.name], leaves[door.name], x, y)
         self.in_way |= {door.name for door in in_way}
