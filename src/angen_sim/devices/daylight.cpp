@@ -42,6 +42,8 @@ class Daylight : public Device {
     if (!first) outputs.event("changed", "");
   }
 
+  Nanoseconds idle_until(const View&) const override { return kForever; }
+
   void save(SavedParams& params) const override { params.number("illuminance", outdoors_); }
 
   void report(const View&, Reading& state) const override {

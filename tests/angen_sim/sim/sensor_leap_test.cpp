@@ -1,5 +1,6 @@
 // A run that leaps over ticks without events, against one that takes every tick.
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <utility>
 #include <vector>
@@ -9,6 +10,14 @@
 
 namespace angen::sim {
 namespace {
+
+const std::string kModels = std::string(ANGEN_WORLDS_DIR) + "/models";
+
+load::SearchPaths paths() {
+  load::SearchPaths paths;
+  paths.models = {kModels};
+  return paths;
+}
 
 void expect_same_world(const Snapshot& a, const Snapshot& b) {
   ASSERT_EQ(a.tick, b.tick);
@@ -175,6 +184,37 @@ TEST(Leaping, ASignalThatDecaysIsLeaptOver) {
   EXPECT_LT(race.landings, 300U);  // it samples 800 times
   race.run(20.0);
   EXPECT_EQ(reading()->get<double>("signal"), 0.0);
+}
+
+/// Shipped models with devices, except people, who walk.
+std::vector<std::string> models_with_devices() {
+  std::vector<std::string> uris;
+  for (const auto& each : std::filesystem::directory_iterator(kModels)) {
+    const std::string uri = "model://" + each.path().filename().string();
+    if (!std::filesystem::exists(each.path() / "model.sdf") || uri == "model://sun") continue;
+    const desc::Model model = load::model(uri, "it", {}, paths());
+    const bool is_person =
+        !model.plugins.empty() && model.plugins[0].filename == "libperson_controller.so";
+    if (!model.plugins.empty() && !is_person) uris.push_back(uri);
+  }
+  return uris;
+}
+
+TEST(Leaping, DevicesAtRestAreNotUpdatedEachTick) {
+  const std::vector<std::string> uris = models_with_devices();
+  ASSERT_GT(uris.size(), 20U);
+  for (const std::string& uri : uris) {
+    Simulation still(load::world_from_text("<sdf version='1.6'><world name='w'>"
+                                           "<include><uri>model://ground_plane</uri></include>"
+                                           "<include><uri>" +
+                                               uri + "</uri></include></world></sdf>",
+                                           "test", paths()),
+                     5, std::make_shared<Catalog>());
+    while (still.snapshot()->time < 20 * kSecond) still.leap(20 * kSecond);
+    int landings = 0;
+    for (; still.snapshot()->time < 30 * kSecond; ++landings) still.leap(30 * kSecond);
+    EXPECT_LT(landings, 100) << uri;
+  }
 }
 
 TEST(Leaping, AStepIsAnsweredAtItsEnd) {
