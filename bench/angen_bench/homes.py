@@ -25,6 +25,7 @@ from angen_tools.common.progress import Progress
 
 JAR = Path('/usr/share/sweethome3d/sweethome3d.jar')
 FOLDER = 'com/eteks/sweethome3d/io/resources/examples/'
+ASIDE = 0.25  # m: a leaf that slides is written before either face of its wall
 OPENING = 8.0  # s for all leaves to open
 
 
@@ -109,7 +110,8 @@ def through(world: Any, plan: Plan) -> dict[str, bool]:
     for opening in plan.all_openings():
         low, high = opening.band[0] - 0.06, opening.band[1] + 0.06
         for leaf in opening.leaves:
-            low, high = min(low, leaf.hinge[1] - 0.06), max(high, leaf.hinge[1] + 0.06)
+            side = ASIDE if leaf.slide else 0.06
+            low, high = min(low, leaf.hinge[1] - side), max(high, leaf.hinge[1] + side)
         # beside the middle of two leaves, where a gap is
         x, y = opening.point(0.1 * opening.width, low)
         names.append(opening.name + ' ' + opening.kind)
