@@ -24,7 +24,7 @@ constexpr int kMaxBounces = 200;
 // Costs of the parts of a solution, measured; they decide only how it is cut into ticks.
 constexpr std::int64_t kSumsPerRay = 500;
 constexpr std::int64_t kRowsPerRay = kSumsPerRay / kLinks;  // patches in balance()
-constexpr std::int64_t kCostToMake = 24;                    // a patch
+constexpr std::int64_t kCostToMake = 64;                    // a patch
 constexpr std::int64_t kBouncesToPrepare = 4;
 constexpr std::size_t kFirstAtOnce = 64;
 

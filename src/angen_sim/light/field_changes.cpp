@@ -15,7 +15,7 @@ constexpr double kStill = 5e-5;        // m: smaller motion is ignored; a ray's 
 constexpr double kLargestPatch = 1.5;  // m across
 // Measured costs in rays; they decide only how an update is divided into ticks.
 constexpr std::int64_t kCostToSkip = 1;     // a patch that sees no change
-constexpr std::int64_t kCostToCompare = 2;  // the links of a patch with a box
+constexpr std::int64_t kCostToCompare = 6;  // the links of a patch with a box
 constexpr std::int64_t kCostToFind = 4;     // one link
 
 /// Slab test of the segment of that range from the ray's origin.

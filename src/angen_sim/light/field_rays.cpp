@@ -25,29 +25,31 @@ struct Fan {
   std::vector<std::size_t> sites;
 };
 
-Fan make_fan(std::size_t number) {
+Fan make_fan(std::size_t number, std::size_t links) {
   Fan fan;
   Rng rng(0, hash_bytes("light links"), static_cast<std::int64_t>(number));
   const double shift_u = rng.uniform(), shift_v = rng.uniform();
-  for (std::size_t i = 0; i < kLinks; ++i) {
-    const double u = (static_cast<double>(i) + 0.5) / kLinks + shift_u;
+  for (std::size_t i = 0; i < links; ++i) {
+    const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(links) + shift_u;
     const double v = radical_inverse(static_cast<unsigned>(i)) + shift_v;
     fan.directions.push_back(cosine_direction(u - std::floor(u), v - std::floor(v)));
     fan.sites.push_back(i);
   }
-  for (std::size_t i = kLinks - 1; i > 0; --i) {
+  for (std::size_t i = links - 1; i > 0; --i) {
     std::swap(fan.sites[i], fan.sites[rng.next() % (i + 1)]);
   }
   return fan;
 }
 
+std::array<Fan, kFans> make_fans(std::size_t links) {
+  std::array<Fan, kFans> fans;
+  for (std::size_t f = 0; f < kFans; ++f) fans[f] = make_fan(f, links);
+  return fans;
+}
+
 const Fan& fan_of(const Patch& patch) {
-  static const std::array<Fan, kFans> fans = [] {
-    std::array<Fan, kFans> all;
-    for (std::size_t f = 0; f < kFans; ++f) all[f] = make_fan(f);
-    return all;
-  }();
-  return fans[patch.hash % kFans];
+  static const std::array<Fan, kFans> whole = make_fans(kLinks), fine = make_fans(kFineLinks);
+  return (patch.is_part() ? fine : whole)[patch.hash % kFans];
 }
 
 rays::Ray ray_from(const Vec3& origin, const Vec3& direction) {

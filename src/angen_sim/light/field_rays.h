@@ -8,7 +8,8 @@
 /// The fixed rays by which a Field follows light.
 namespace angen::light {
 
-constexpr std::size_t kLinks = 32;  // directions in which a patch gathers
+constexpr std::size_t kLinks = 128;     // directions in which a patch gathers
+constexpr std::size_t kFineLinks = 32;  // of a part of a divided cell
 
 std::vector<rays::Ray> link_rays(const Patch& patch);
 

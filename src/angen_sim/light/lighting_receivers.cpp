@@ -18,7 +18,7 @@ constexpr std::size_t kCostToSee = 8000;     // the surfaces around a place
 constexpr std::size_t kCostOfMovers = 2000;  // the movers in front of them
 constexpr std::size_t kCostOfLamp = 1500;
 constexpr std::size_t kCostOfFarLamp = 100;
-constexpr std::size_t kCostOfPatch = 125;  // with the patches that it sees
+constexpr std::size_t kCostOfPatch = 500;  // with the patches that it sees
 
 /// Cost of a lamp's light at a place whose patches are counted.
 std::size_t cost_of(const Gather& gather, const Source& source, bool with_movers) {

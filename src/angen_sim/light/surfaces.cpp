@@ -8,13 +8,12 @@
 namespace angen::light {
 namespace {
 
-constexpr double kCell = 0.2;       // m
+constexpr double kCell = 0.4;       // m
 constexpr double kPlaneCell = 1.0;  // m: planes are infinite
 constexpr double kPart = 0.1;       // m, side of the parts of a divided cell
 constexpr int kSitesPerSide = 4;    // of a cell
 constexpr std::size_t kSites = std::size_t{kSitesPerSide} * kSitesPerSide;
 constexpr int kFineSitesPerSide = 2;
-constexpr int kProbesPerSide = 2;   // of a cell, for shapes that cover or separate it
 constexpr double kSiteLift = 0.02;  // m: leaves stand a gap of some mm above sills
 // Of their spacing: the distance of neighbors, which are none diagonally, so that no gap joins
 // sides.
@@ -109,18 +108,10 @@ std::uint32_t Surfaces::make(const Key& key) {
   const bool fine = key[5] == 1;
   int covered = 0;
   std::vector<Site> found = sites(key, fine ? kFineSitesPerSide : kSitesPerSide, covered);
-  const bool divided =
-      fine ? make_sides(key) : found.empty() || covered > kSitesPerSide || is_crossed(key);
+  const bool divided = fine ? make_sides(key)
+                            : found.empty() || covered > kSitesPerSide ||
+                                  sides(key, found).size() > 1 || faced(found);
   return add(key, divided ? std::vector<Site>() : std::move(found), divided);
-}
-
-/// Whether a shape separates a cell's sites or is close in front of any.
-bool Surfaces::is_crossed(const Key& key) const {
-  int covered = 0;
-  const bool is_large = step_of(key).maxCoeff() > 2.0 * kCell;  // a plane's
-  const int per_side = is_large ? kSitesPerSide : kProbesPerSide;
-  const std::vector<Site> probes = sites(key, per_side, covered);
-  return sides(key, probes, per_side).size() > 1 || faced(probes);
 }
 
 /// A key without sites has no patch.
@@ -144,8 +135,7 @@ std::uint32_t Surfaces::add(const Key& key, std::vector<Site> sites, bool divide
 /// Makes the sides of a part of a cell, if a shape stands across it.
 bool Surfaces::make_sides(const Key& key) {
   int covered = 0;
-  std::vector<std::vector<Site>> all =
-      sides(key, sites(key, kSitesPerSide, covered), kSitesPerSide);
+  std::vector<std::vector<Site>> all = sides(key, sites(key, kSitesPerSide, covered));
   if (all.size() < 2) return false;
   Key side = key;
   for (std::vector<Site>& own : all) {
@@ -233,9 +223,9 @@ bool Surfaces::site(const Lattice& cells, const Key& key, double u, double v, Si
 }
 
 /// Groups of sites; each sees a neighbor in its group along the surface.
-std::vector<std::vector<Site>> Surfaces::sides(const Key& key, const std::vector<Site>& sites,
-                                               int per_side) const {
-  const double spacing = step_of(key).maxCoeff() / per_side;
+std::vector<std::vector<Site>> Surfaces::sides(const Key& key,
+                                               const std::vector<Site>& sites) const {
+  const double spacing = step_of(key).maxCoeff() / kSitesPerSide;
   const double near2 = std::pow(kNeighbor * spacing, 2);
   std::vector<std::vector<Site>> all;
   std::vector<bool> seen(sites.size(), false);

@@ -22,7 +22,7 @@ struct Site {
   Vec3 normal;
 };
 
-/// A piece of one side of a shape's surface of about 0.2 m (0.1 m if a shape covers a part of it or
+/// A piece of one side of a shape's surface of about 0.4 m (0.1 m if a shape covers a part of it or
 /// is close in front of it), with one illuminance. A shape that stands across such a part, as a
 /// leaf on a door's sill, separates it into sides.
 struct Patch {
@@ -31,6 +31,8 @@ struct Patch {
   std::vector<Site> sites;
   std::uint64_t serial = 0;  // unique over all patches ever made
   bool alive = true;         // not forgotten since
+
+  bool is_part() const { return key[5] != 0; }  // of a divided cell
 };
 
 /// Patches, made when they are first hit. A patch depends on the shapes only, not on the ray that
@@ -73,13 +75,11 @@ class Surfaces {
   Eigen::Array2d step_of(const Key& key) const;
   std::uint32_t make(const Key& key);
   std::uint32_t add(const Key& key, std::vector<Site> sites, bool divided);
-  bool is_crossed(const Key& key) const;
   bool make_sides(const Key& key);
   std::uint32_t side_at(const Key& key, const Site& point) const;
   std::vector<Site> sites(const Key& key, int per_side, int& covered) const;
   bool site(const Lattice& lattice, const Key& key, double u, double v, Site& out) const;
-  std::vector<std::vector<Site>> sides(const Key& key, const std::vector<Site>& sites,
-                                       int per_side) const;
+  std::vector<std::vector<Site>> sides(const Key& key, const std::vector<Site>& sites) const;
   bool hidden(const Site& from, const Site& to) const;
   bool faced(const std::vector<Site>& sites) const;
   template <class Matches>
