@@ -160,9 +160,9 @@ def test_another_address_needs_its_token() -> None:
         with pytest.raises(WSServerHandshakeError) as refused:
             await server.socket()
         assert refused.value.status == 401
-        async with server.session.get(f'http://{server.host}/?token={token}',
+        async with server.session.get(f'http://{server.host}/?t=1.5&token={token}',
                                       allow_redirects=False) as answer:
-            assert answer.status == 302 and answer.headers['Location'] == '/'
+            assert answer.status == 302 and answer.headers['Location'] == '/?t=1.5'
             cookie = answer.headers['Set-Cookie']
             assert 'HttpOnly' in cookie and 'SameSite=Strict' in cookie
         cookies = {'Cookie': cookie.split(';')[0]}

@@ -54,6 +54,7 @@ export class Home {
     this.movers = [];
     /** @type {any} */
     this.line = null;
+    this.token = ''; // that others need to open this page
     this.connection = new Connection((parts) => this.take(parts), (blob) => this.takeBlob(blob), (open) => {
       this.connected = open;
       this.tell('status');
@@ -103,6 +104,7 @@ export class Home {
       this.events = [...this.events, ...parts.events].slice(-500);
       this.tell('events', parts.events);
     }
+    this.token = parts.token ?? this.token;
     if (parts.cost) { this.cost = parts.cost; this.tell('cost'); }
     if (parts.timeline) this.tell('timeline', parts.timeline);
     if (parts.line) { this.line = parts.line; this.tell('line'); }

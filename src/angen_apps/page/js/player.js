@@ -111,6 +111,7 @@ export class Player {
     const share = el('button', { type: 'button', title: 'The address of this moment', onclick: () => {
       const url = new URL(location.href);
       url.searchParams.set('t', this.time.toFixed(1));
+      if (this.home.token) url.searchParams.set('token', this.home.token);
       history.replaceState(null, '', url);
       const copied = () => notice('The address of this moment is copied.'), shown = () => notice('The address above opens at this moment.');
       (navigator.clipboard?.writeText(url.href) ?? Promise.reject()).then(copied, shown);
@@ -138,6 +139,11 @@ export class Player {
       this.ribbonAt = now;
       this.drawRibbon();
     }
+  }
+
+  /** @param {string} key kind/name @returns {boolean} whether there is a state of it at any time */
+  has(key) {
+    return this.rows.get(key)?.v.some(([, , text]) => text) ?? false;
   }
 
   next() {

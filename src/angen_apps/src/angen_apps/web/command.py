@@ -52,6 +52,8 @@ async def _serve(source: Source, host: str, port: int) -> None:
     anywhere = host in ('0.0.0.0', '::')
     shown = own_address() if anywhere else host
     guard = Guard(host, port, {shown, socket.gethostname()})
+    if guard.token:
+        source.store.put('token', guard.token)  # for addresses that a page gives
 
     async def started(_: int) -> None:
         query = f'?token={guard.token}' if guard.token else ''

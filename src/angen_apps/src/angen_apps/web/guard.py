@@ -56,7 +56,8 @@ class Guard:
         if self.token:
             given = request.query.get('token')
             if given is not None and self._fits(given) and request.path == '/':
-                answer = web.HTTPFound('/')
+                rest = [(key, value) for key, value in request.query.items() if key != 'token']
+                answer = web.HTTPFound(request.rel_url.with_query(rest))
                 answer.set_cookie(COOKIE, self.token, httponly=True, samesite='Strict')
                 raise answer
             if not self._fits(given or request.cookies.get(COOKIE) or ''):

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from angen_apps.web.store import Row, Store, Update
 
 CHUNK = 3000  # entries of a message
-PARTS = ('status', 'scene', 'home', 'entities', 'line')  # of the last state, for the page
+PARTS = ('status', 'scene', 'home', 'entities', 'line', 'token')  # of the last state
 
 
 class Timeline(Store):
