@@ -9,6 +9,7 @@ from angen_msgs.srv import Spawn
 from browser import Page, Server
 from geometry_msgs.msg import Point, Pose
 from harness import ROOT, Angen, Master, end
+from selenium.webdriver.common.action_chains import ActionChains
 
 LAMPS = 300
 MOST = 70_000  # triangles
@@ -18,6 +19,23 @@ WORLD = '<sdf version="1.6"><world name="lamps">' + ''.join(
     LAMP.format(n=n, x=3 * (n % 20), y=3 * (n // 20)) for n in range(LAMPS)) + '</world></sdf>'
 NOTHING = 'return !document.querySelector("#nothing").hidden && ' \
     'document.querySelector("#nothing").textContent === arguments[0]'
+
+
+IN_3D = 'angen.view.viewpoint.screen([x, y, -0.2])'
+ON_PLAN = '''(() => { const p = new DOMPoint(x, -y).matrixTransform(angen.plan.root.getScreenCTM());
+    return [p.x, p.y]; })()'''
+
+
+def add_pir(page: Page, place: tuple[float, float, float]) -> None:
+    """From the card of a place in no room; it is deleted again."""
+    page.until('return document.querySelector("#card h2")?.textContent === "Outside of all rooms"')
+    page.press('#add')
+    made = page.until('return angen.home.entities.find((e) => e.kind === "pir")')
+    assert made['name'] == 'pir_1'
+    assert tuple(made['pose'][:3]) == pytest.approx(place, abs=0.1)
+    page.run('angen.show(angen.home.entities.find((e) => e.kind === "pir"))')
+    page.press('#card button', 'Delete')
+    page.until('return !angen.home.entities.some((e) => e.kind === "pir")')
 
 
 @pytest.fixture(scope='module')
@@ -40,9 +58,20 @@ def test_the_page_waits_for_its_node_and_says_that_a_world_is_empty(
     page.until(NOTHING, 'Waiting for a simulator: ./angen run starts one')
     process = master.node(ROOT / 'worlds/empty.world', tmp_path / 'log')
     try:
-        for view in ('3d', 'plan'):
+        for view, place, z in (('3d', IN_3D, -0.2), ('plan', ON_PLAN, 0.0)):  # the ground is lower
             page.press(f'#view-{view}')
-            page.until(NOTHING, 'This world has no rooms and no devices.')
+            page.until(NOTHING, 'This world has no rooms and no devices. '
+                       'Click the ground to add a sensor.')
+            page.first_view()
+            page.click(*page.run(f'const [x, y] = [1, 2]; return {place}'))
+            add_pir(page, (1.0, 2.0, z + 1.2))
+        page.press('#tab-sensors')  # and by keys
+        page.press('#panel button', 'Add a sensor …')
+        ActionChains(page.driver, duration=0).send_keys(  # right, right, up, Enter
+            '\ue014', '\ue014', '\ue013', '\ue007').perform()
+        page.until('return document.activeElement.id === "add"')
+        add_pir(page, (0.5, 0.25, 1.2))
+        page.press('#tab-rooms')
     finally:
         end(process)
     page.press('#view-3d')

@@ -1,5 +1,6 @@
 /** The card of one device, sensor or room: its state and what it can do, as its kind says of itself. */
 import { by, el, glyph, words } from './dom.js';
+import { middleOf } from './home.js';
 import { roomText } from './labels.js';
 
 export class Card {
@@ -27,7 +28,8 @@ export class Card {
       const { kind, name } = this.shown.entity;
       const entity = this.home.entities.find((e) => e.kind === kind && e.name === name);
       if (!entity) this.close();
-    } else if (this.shown) this.showRoom(this.shown.room, this.shown.point);
+    } else if (this.shown?.room) this.showRoom(this.shown.room, this.shown.point);
+    else if (this.shown) this.showPlace(this.shown.point);
   }
 
   /** @param {string} title @param {string} under @param {any[]} content */
@@ -72,7 +74,7 @@ export class Card {
       else if (verb.type === 'integer' && verb.argument === 'floor') plain.push(...this.floors(send));
       else if (verb.count === 2 && verb.argument === 'x y') {
         plain.push(el('button', { type: 'button', title: verb.doc, 'data-verb': verb.name,
-          onclick: () => this.page.choosePoint(`${spaced(verb.name)}: choose a place for ${entity.name}`, (/** @type {number[]} */ p) => send(`${p[0].toFixed(2)} ${p[1].toFixed(2)}`)) }, `${spaced(verb.name)} …`));
+          onclick: () => this.page.choosePoint(`${spaced(verb.name)}: a place for ${entity.name}`, Array.from(this.home.place(entity)), (/** @type {number[]} */ p) => send(`${p[0].toFixed(2)} ${p[1].toFixed(2)}`)) }, `${spaced(verb.name)} …`));
       } else if (verb.count === 1) rows.push(this.slider(entity, verb, send));
     }
     return [el('div', { class: 'verbs' }, ...plain), ...(rows.length ? [el('div', { class: 'verbs' }, ...rows)] : [])];
@@ -132,38 +134,57 @@ export class Card {
     const devices = things.filter((e) => home.kinds[e.kind]?.role === 'device'), sensors = things.filter((e) => home.kinds[e.kind]?.role === 'sensor');
     const parts = [...devices.map((e) => thingRow(home, e, () => this.show(e)))];
     if (sensors.length) parts.push(el('h3', {}, 'Sensors'), ...sensors.map((e) => thingRow(home, e, () => this.show(e))));
-    if (point && !home.status.replay) parts.push(el('h3', {}, 'Add a sensor here'), this.adder(room, point));
+    const middle = middleOf(room.polygon), [x, y] = point ?? middle;
+    if (!home.status.replay) parts.push(el('h3', {}, 'Add a sensor'), this.adder(room.name, [x, y, room.floor], middle));
     this.open(roomText(room), `${words(room.use)}, floor ${room.storey}, ${room.area.toFixed(1)} m²`, parts);
   }
 
-  /** @param {any} room @param {number[]} point */
-  adder(room, point) {
-    const { home } = this;
+  /**
+   * A place in no room.
+   * @param {number[]} point
+   */
+  showPlace(point) {
+    this.shown = { point };
+    this.state = null;
+    this.open('Outside of all rooms', '', [el('h3', {}, 'Add a sensor'), this.adder('', point, point)]);
+  }
+
+  /**
+   * @param {string} room for the name
+   * @param {number[]} point on the floor
+   * @param {number[]} faced
+   */
+  adder(room, point, faced) {
+    const { home } = this, [dx, dy] = [faced[0] - point[0], faced[1] - point[1]];
+    const input = (/** @type {string} */ label, /** @type {number} */ value, more = {}) => el('input', { type: 'number', value, step: 0.1, 'aria-label': label, ...more });
+    const x = input('x in m', Number(point[0].toFixed(2))), y = input('y in m', Number(point[1].toFixed(2)));
+    const turn = input('Heading in degrees', Math.hypot(dx, dy) > 0.5 ? Math.round((Math.atan2(dy, dx) * 36) / Math.PI) * 5 : 0, { step: 5 });
     const kinds = Object.values(home.kinds).filter((kind) => kind.role === 'sensor' && kind.models.length).map((kind) => kind.kind).sort();
     const kind = el('select', { 'aria-label': 'Kind' }, ...kinds.map((name) => el('option', { value: name, selected: name === 'pir' }, words(name))));
-    const height = el('input', { type: 'number', value: 1.2, step: 0.1, min: 0, max: 10, 'aria-label': 'Height in m', style: 'width: 80px' });
-    const name = el('input', { type: 'text', 'aria-label': 'Name', style: 'flex: 1 1 120px' });
+    const height = input('Height in m', 1.2, { min: 0, max: 10 });
+    const name = el('input', { type: 'text', 'aria-label': 'Name' });
     const propose = () => {
       let n = 1;
-      const stem = `${room.name.replaceAll(/[:/]/g, '_')}_${kind.value}`; // no topic may have these
+      const stem = `${room.replaceAll(/[:/]/g, '_')}${room ? '_' : ''}${kind.value}`; // no topic may have these
       while (home.entities.some((e) => e.name === `${stem}_${n}`)) n++;
       name.value = `${stem}_${n}`;
     };
     propose();
     kind.addEventListener('change', propose);
     const add = async () => {
-      const pose = { x: point[0], y: point[1], z: room.floor + Number(height.value), roll: 0, pitch: 0, yaw: 0 };
+      const pose = { x: Number(x.value), y: Number(y.value), z: point[2] + Number(height.value), roll: 0, pitch: 0, yaw: (Number(turn.value) * Math.PI) / 180 };
       const answer = await home.order({ do: 'spawn', kind: kind.value, name: name.value, pose });
       if (answer.ok) this.page.say(answer.text);
     };
-    return el('div', { class: 'verbs' }, kind, height, el('span', { class: 'soft' }, 'm high'), name,
+    const field = (/** @type {string} */ text, /** @type {any} */ value, /** @type {string} */ unit) => el('label', {}, el('span', {}, text), value, el('span', { class: 'soft' }, unit));
+    return el('div', { class: 'adder' }, kind, name, field('x', x, 'm'), field('y', y, 'm'), field('height', height, 'm'), field('faces', turn, '°'),
       el('button', { class: 'main', type: 'button', id: 'add', onclick: add }, 'Add'));
   }
 
   refresh() {
     if (this.state && this.shown?.entity) {
       const row = this.home.row(this.shown.entity), isSensor = this.home.kinds[this.shown.entity.kind]?.role === 'sensor';
-      const text = row?.text || (isSensor ? 'no reading yet' : '–');
+      const text = row?.text || (!this.page.isTold(this.shown.entity) ? 'The recording does not have it.' : isSensor ? 'no reading yet' : '–');
       if (this.state.textContent !== text) this.state.textContent = text;
       this.state.classList.toggle('alarm', Boolean(row?.alarm));
       for (const follow of this.follow) follow();

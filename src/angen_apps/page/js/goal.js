@@ -18,6 +18,10 @@ export class Goal {
     this.pose = null;
     /** @type {any} whose goal is being chosen */
     this.robot = null;
+    /** @type {((point: number[]) => void) | null} who gets a place that is being chosen */
+    this.then = null;
+    /** @type {number[] | null} the goal before that */
+    this.last = null;
     /** @type {{robot: any, id: number, at: number[], from: number[], before: number[] | null, carries: boolean, moved: boolean} | null} */
     this.held = null;
     this.ended = 0;
@@ -100,6 +104,7 @@ export class Goal {
 
   /** @param {any} robot whose next goal is chosen */
   begin(robot) {
+    this.page.stopChoosing();
     this.robot = robot;
     const [x, y, z, , , qz, qw] = Array.from(this.home.place(robot));
     this.put([x, y, this.floorAt([x, y, z + 0.1]), 2 * Math.atan2(qz, qw)]);
@@ -111,6 +116,24 @@ export class Goal {
   end() {
     if (this.robot) by('hint').hidden = true;
     this.robot = null;
+  }
+
+  /**
+   * The arrow as the mark of a place, which keys move.
+   * @param {number[]} from x y z @param {(point: number[]) => void} then
+   */
+  mark(from, then) {
+    this.unmark();
+    this.end();
+    this.last = this.pose;
+    this.then = then;
+    this.put([from[0], from[1], this.floorAt([from[0], from[1], from[2] + 0.1]), 0]);
+  }
+
+  unmark() {
+    if (!this.then) return;
+    this.then = null;
+    this.put(this.last);
   }
 
   /** @param {number[] | null} pose */
@@ -129,14 +152,14 @@ export class Goal {
 
   /** @param {KeyboardEvent} e */
   key(e) {
-    if (!this.robot || !this.pose || e.ctrlKey || e.metaKey || e.altKey || /^(INPUT|SELECT|TEXTAREA)$/.test(/** @type {any} */ (e.target).tagName ?? '')) return;
+    if (!(this.robot || this.then) || !this.pose || e.ctrlKey || e.metaKey || e.altKey || /^(INPUT|SELECT|TEXTAREA)$/.test(/** @type {any} */ (e.target).tagName ?? '')) return;
     const [x, y, z, yaw] = this.pose, way = ARROWS[e.key];
     if (way && e.shiftKey) this.put([x, y, z, yaw - (way[0] - way[1]) * TURN]);
     else if (way) {
       const ahead = this.page.plan.hidden ? this.page.view.viewpoint.quarter() : 0, [c, s] = [Math.cos(ahead), Math.sin(ahead)];
       this.put([x + STEP * (c * way[0] - s * way[1]), y + STEP * (s * way[0] + c * way[1]), z, yaw]);
-    } else if (e.key === 'Enter') this.send();
-    else if (e.key === 'Escape') { this.end(); this.put(null); }
+    } else if (e.key === 'Enter') (this.then ?? (() => this.send()))(this.pose);
+    else if (e.key === 'Escape' && this.robot) { this.end(); this.put(null); }
     else return;
     e.preventDefault();
     e.stopPropagation();

@@ -9,6 +9,7 @@ import { Player } from './player.js';
 import { View3d } from './view3d.js';
 
 const NO_3D = 'This browser has no WebGL, which the 3D view needs: the plan has everything.';
+const EMPTY = 'This world has no rooms and no devices.';
 const RATES = [0.1, 0.5, 1, 2, 5, 10, 100, 0];
 
 class Page {
@@ -81,7 +82,7 @@ class Page {
   /** Why there is no home to see. */
   showNothing() {
     const { connected, status, scene, described, rooms, entities } = this.home, known = scene && described;
-    const text = known ? (rooms.length || entities.some((e) => e.kind !== 'model') ? '' : 'This world has no rooms and no devices.')
+    const text = known ? (rooms.length || entities.some((e) => e.kind !== 'model') ? '' : status.replay ? EMPTY : `${EMPTY} Click the ground to add a sensor.`)
       : !connected ? 'Connecting to the server …' : status.replay ? 'Reading the recording …'
         : status.node ? 'Loading the home …' : 'Waiting for a simulator: ./angen run starts one';
     by('nothing').textContent = text;
@@ -197,9 +198,15 @@ class Page {
     const sensorsOnly = own.filter((e) => home.kinds[e.kind]?.role === 'device');
     const first = sensorsOnly.find((e) => home.kinds[e.kind].verbs.length) ?? sensorsOnly[0] ?? own[0];
     if (first && hit.cls !== 'floor' && hit.cls !== 'wall') { this.show(first); return; }
-    const [x, y, z] = hit.point, room = home.roomAt(x, y, z) ?? home.roomAt(x, y, z + 0.2);
-    if (room) this.showRoom(room, hit.point);
-    else this.card.close();
+    this.place(hit.point);
+  }
+
+  /** @param {number[]} point */
+  place(point) {
+    const { home } = this, [x, y, z] = point, room = home.roomAt(x, y, z) ?? home.roomAt(x, y, z + 0.2);
+    if (room) this.showRoom(room, point);
+    else if (home.status.replay || (home.rooms.length && !this.card.element.hidden)) this.card.close();
+    else this.card.showPlace([x, y, Math.min(z, this.goal.floorAt(point))]);
   }
 
   /** @param {any} entity */
@@ -212,16 +219,41 @@ class Page {
     this.card.showRoom(room, point);
   }
 
-  /** @param {string} text @param {(point: number[]) => void} then */
-  choosePoint(text, then) {
+  /** @param {string} text @param {number[]} from where keys begin @param {(point: number[]) => void} then */
+  choosePoint(text, from, then) {
     this.choosing = then;
-    by('hint').textContent = `${text} (Esc ends)`;
+    this.goal.mark(from, (point) => { this.stopChoosing(); then(point); });
+    by('hint').textContent = `${text}. ${matchMedia('(max-width: 820px)').matches ? '' : 'Keys: arrows move the mark, Enter takes it, Esc ends'}`;
     by('hint').hidden = false;
   }
 
   stopChoosing() {
     this.choosing = null;
+    this.goal.unmark();
     by('hint').hidden = true;
+  }
+
+  addSensor() {
+    this.card.close();
+    this.choosePoint('A place for the sensor: press on the floor', this.middle(), (point) => {
+      this.card.close();
+      this.place(point);
+      by('add').focus();
+    });
+  }
+
+  /** @returns {number[]} of the floor that is shown */
+  middle() {
+    const { rooms, entities, storeys } = this.home, number = this.storey ?? storeys[0]?.number;
+    const places = rooms.filter((room) => room.storey === number).flatMap((room) => room.polygon);
+    if (!places.length) places.push(...entities.filter((e) => e.kind !== 'model').map((e) => e.pose), [0, 0]);
+    const [xs, ys] = [places.map(([x]) => x), places.map(([, y]) => y)], half = (/** @type {number[]} */ all) => (Math.min(...all) + Math.max(...all)) / 2;
+    return [half(xs), half(ys), storeys.find((s) => s.number === number)?.elevation ?? 0];
+  }
+
+  /** @param {any} entity @returns {boolean} whether its state is in what is shown */
+  isTold(entity) {
+    return !this.home.status.replay || this.player.has(`${entity.kind}/${entity.name}`);
   }
 
   /** @param {any} entity */

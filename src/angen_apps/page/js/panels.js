@@ -167,7 +167,8 @@ export class Panels {
     this.table = el('tbody');
     this.rebuildRows();
     return [this.plots.element, el('div', { class: 'tools' }, this.filter,
-      !home.status.replay && el('button', { type: 'button', onclick: () => this.page.save() }, 'Save world')),
+      ...(home.status.replay ? [] : [el('button', { type: 'button', onclick: () => this.page.addSensor() }, 'Add a sensor …'),
+        el('button', { type: 'button', onclick: () => this.page.save() }, 'Save world')])),
     el('table', {}, el('colgroup', {}, el('col', { style: 'width: 44px' }), el('col'), el('col', { style: 'width: 45%' })),
       el('thead', {}, el('tr', {}, el('th', {}, el('span', { class: 'soft' }, 'Plot')), el('th', {}, 'Name'), el('th', {}, 'Reading'))), this.table)];
   }

@@ -10,6 +10,7 @@ const LETTER = 0.66; // of a text's height: the width of a letter
 const LEAST = 11, FACE = 4, TOUCH = 12; // px of a text's height, of the radius of a mark and of its target
 const MARGIN = 0.6; // m around all that is shown
 const BODY = 0.22; // m: half of a person's mark
+const EMPTY = 5; // m: half of the ground that is drawn where nothing stands
 const HEIGHT = 0.9; // m of walls over their floor that are drawn where the home has no rooms
 
 export class Plan {
@@ -63,11 +64,7 @@ export class Plan {
     const shafts = this.shafts(number);
     const places = [...rooms.flatMap((room) => room.polygon), ...shafts.flatMap((shape) => this.corners(shape)), ...walls.map((/** @type {any} */ shape) => this.placeOf(shape)),
       ...shown.filter((e) => !rooms.length || !home.isMover(e)).map((e) => Array.from(home.place(e)))];
-    if (!places.length) {
-      this.root = null;
-      this.element.replaceChildren();
-      return;
-    }
+    if (!places.length) places.push([-EMPTY, -EMPTY], [EMPTY, EMPTY]);
     const xs = places.map(([x]) => x), ys = places.map(([, y]) => y), margin = rooms.length ? MARGIN : 2 * MARGIN; // leaves open
     const left = Math.min(...xs) - margin, top = -Math.max(...ys) - margin;
     const width = Math.max(...xs) + margin - left, height = -Math.min(...ys) + margin - top;
@@ -194,8 +191,8 @@ export class Plan {
       moves ? svg('path', { class: 'face', d: `M${size * 1.5} 0L${size * 0.7} ${-size * 0.5}V${size * 0.5}Z` }) : null,
       moves ? svg('text', { class: 'who', 'font-size': this.text * 0.8 }, e.name) : null,
       svg('circle', { class: 'touch', r: Math.max(0.4, TOUCH / this.scale) }));
-    const pick = (/** @type {Event} */ event) => { event.stopPropagation(); this.onPick({ entity: e }); };
-    item.addEventListener('click', pick);
+    const pick = (/** @type {Event} */ event, point = /** @type {number[] | undefined} */ (undefined)) => { event.stopPropagation(); this.onPick({ entity: e, point }); };
+    item.addEventListener('click', (/** @type {MouseEvent} */ event) => pick(event, this.ground(event.clientX, event.clientY)));
     item.addEventListener('keydown', (/** @type {KeyboardEvent} */ event) => {
       if (event.key !== 'Enter' && event.key !== ' ') return;
       event.preventDefault();

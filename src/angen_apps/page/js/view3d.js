@@ -13,12 +13,12 @@ import { Sharpness } from './sharpness.js';
 import { Viewpoint } from './viewpoint.js';
 
 const matrix = new THREE.Matrix4();
-
 const EASE = 12; // 1/s, with which shown poses follow those that were sent
 const PLAIN_PERIOD = 80; // ms between frames where the processor draws
 const SHARE = 1.3; // of the time that a frame took, until the next one: buttons need some too
 const PLAIN_PIXELS = 4.5e5;
 const TOWER = 3; // floors: of more, those below the top one are closed while all are shown
+const GROUND = new THREE.Box3(new THREE.Vector3(-5, -5, 0), new THREE.Vector3(5, 5, 1)); // where nothing stands on it
 const LEAF = 1.2; // m: what moves in their walls is higher
 const TALL = 3, LID = 2.5, PLATE = 1; // m: what goes through floors; above a floor, what lies over it like a roof
 const SLAB = 0.3, THING = 0.05; // m below its floor's elevation, where a part still is on it
@@ -313,7 +313,8 @@ export class View3d {
         box.expandByPoint(new THREE.Vector3(x, y, room.floor + CUT));
       }
     }
-    return box.isEmpty() ? this.shapes?.bounds ?? box : box;
+    const found = box.isEmpty() ? this.shapes?.bounds ?? box : box;
+    return found.isEmpty() ? GROUND : found;
   }
 
   /**
@@ -323,7 +324,6 @@ export class View3d {
   look(above = false) {
     if (!this.shapes) return;
     const box = this.box(), many = this.storey === null && this.home.storeys.length > 1;
-    if (box.isEmpty()) return;
     this.framed = this.home.described !== null && this.element.clientWidth > 0; // until then what is seen may change, or its size
     this.viewpoint.look(box, above ? new THREE.Vector3(0, -0.02, 1) : new THREE.Vector3(-0.5, -0.92, many ? 0.72 : 1.05));
     this.sky.cover(box.getCenter(new THREE.Vector3()), 0.5 * box.getSize(new THREE.Vector3()).length());
