@@ -151,6 +151,8 @@ def test_a_cabin_rides_with_who_is_in_it(master: Master, tmp_path: Path, day: Pa
                  if (link['model'], link['name']) == ('lift', 'cabin'))
     rides = [(e[1], e[3][2]) for e in entries if e[0] == 'p' and cabin in e[2] and e[1] > 0.0]
     assert rides == [(50.5, 1.5), (51.0, 2.0)]
+    assert [(e[4], e[1]) for e in entries if e[0] == 'r' and e[2] == 'elevator'][-3:] == [
+        ('IDLE  0.00 m', 0.0), ('UP  1.50 m', 50.5), ('IDLE  2.00 m', 51.0)]
     anna = scene['ids'][[link['model'] for link in scene['links']].index('anna')]
     heights = {e[1]: e[3][e[2].index(anna) * 7 + 2] for e in entries
                if e[0] == 'p' and anna in e[2]}
@@ -187,7 +189,15 @@ def test_a_link_opens_at_its_time(server: Server, tmp_path: Path) -> None:
         page.run('document.querySelector("#replay").focus()')
         ActionChains(page.driver, duration=0).send_keys(' ').perform()
         assert page.run('return angen.player.playing')
+        card = '''angen.show(angen.home.entities.find((e) => e.kind === arguments[0]));
+            return document.querySelector("#card .state").textContent'''
+        assert page.run(card, 'stove') == 'The recording does not have it.'
         page.run('angen.player.playing = false; angen.player.seek(50)')
+        assert page.run(card, 'temperature') == 'no reading yet'
+        page.run('angen.home.take({token: "secret"})')
+        page.press('#player button', 'Link')
+        assert page.run('return location.search') == '?t=50.0&token=secret'
+        page.run('angen.card.close()')
         assert apart(page, '#plan .who') == 2  # both in one bed
         page.press('#view-3d')
         page.first_view()

@@ -13,13 +13,21 @@ MIDDLE = (3.0, 1.0)
 
 @pytest.fixture
 def cabin() -> Cabin:
-    return cabins(SLIDES, {'lift': MIDDLE})[0]
+    return cabins(SLIDES, {'lift': MIDDLE})['lift']
 
 
 def test_the_cabin_is_what_rises(cabin: Cabin) -> None:
     assert cabin.heights == [0.1, 1.5, 4.1, 2.0, 0.1]
     assert [cabin.height(time) for time in (0.0, 19.9, 20.0, 30.0)] == [0.1, 0.1, 1.5, 4.1]
     assert not cabins(SLIDES[:3], {'lift': MIDDLE})
+
+
+def test_its_state_is_of_its_rides() -> None:
+    cabin = Cabin(*MIDDLE, [0.0, 34.0, 34.5, 35.0, 35.5, 90.0, 90.5],
+                  [0.0, 0.0, 1.0, 3.0, 3.0, 2.0, 0.0])
+    assert [*cabin.states()] == [
+        (0.0, 'IDLE', 0.0), (34.0, 'UP', 0.0), (34.5, 'UP', 1.0), (35.0, 'IDLE', 3.0),
+        (35.5, 'IDLE', 3.0), (90.0, 'DOWN', 2.0), (90.5, 'IDLE', 0.0)]
 
 
 def test_a_passenger_rises_with_it_and_stays_upstairs(cabin: Cabin) -> None:

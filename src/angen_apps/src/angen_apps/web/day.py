@@ -92,7 +92,7 @@ class Day(Played):
         self._people = [resident['name'] for resident in self._layout['residents']]
         self._poses: dict[int, Any] = {}  # by link, as the node has them
         self._has_rows = False
-        self._cabins: list[Cabin] = []
+        self._cabins: dict[str, Cabin] = {}
         super().__init__(self._layout['days'] * DAY, folder.name)
         self._write_world(world)
 
@@ -148,6 +148,8 @@ class Day(Played):
             return
         told = {*TOLD, *(self._sources[sensor['name']][0] for sensor in self._layout['sensors']
                          if sensor['kind'] in WORDS and sensor['name'] in self._sources)}
+        if (self._data / CABINS).is_file():
+            told.add('elevator')
         self.store.put_rows([  # the node's own air, light and cabins are not those of the day
             (*row[:4], 0.0, row[5]) if row[0] in told else (*row[:2], '', False, 0.0, [])
             for row in map(row_of, message.entries)], True)
@@ -216,7 +218,7 @@ class Day(Played):
         link = self._links[name][0]
         floor = next((m.floor for m in moments if m.floor is not None), 0.0)
         above = float(self._closed[link][2]) - floor  # of the body's origin
-        rider = Rider(self._cabins, floor)
+        rider = Rider([*self._cabins.values()], floor)
         at, yaw = (0.0, 0.0), 0.0
         ends = [*(m.time for m in moments[1:]), self._line['end']]
         for m, end in zip(moments, ends):
@@ -313,6 +315,12 @@ class Day(Played):
                    for one in self.store.part('home')['elevators']}
         self._cabins = cabins([(float(row['time']), row['model'], row['link'], float(row['z']))
                                for row in slides], middles)
+        for name, model in models.items():
+            if model in self._cabins:  # else it stays as the node has it
+                self.store.put_rows([
+                    ('elevator', name, f'{mode}  {height:.2f} m', False, time,
+                     self._values('elevator', 'position', height))
+                    for time, mode, height in self._cabins[model].states()], False)
 
     def _shine(self, time: float, lamp: str, share: float) -> None:
         lights = np.array(self._lights.get(lamp, []), np.uint32)

@@ -8,6 +8,8 @@ from typing import Iterable, Iterator
 
 IN = 0.6  # m from the middle of a cabin to one who rides in it
 RISES = 0.5  # m, by which links of a cabin differ from the leaves of a landing
+STILL = 0.002  # m: a cabin that has moved less is where it was
+PAUSE = 2.0  # s without a slide end a ride
 
 
 @dataclass
@@ -28,23 +30,30 @@ class Cabin:
         first, last = bisect.bisect_right(self.times, begin), bisect.bisect_left(self.times, end)
         return zip(self.times[first:last], self.heights[first:last])
 
+    def states(self) -> Iterator[tuple[float, str, float]]:
+        """Times, modes as elevators have them, and m over where it is at the start."""
+        ends = [*zip(self.times[1:], self.heights[1:]), (math.inf, 0.0)]
+        for time, height, (end, to) in zip(self.times, self.heights, ends):
+            rests = end - time > PAUSE or abs(to - height) < STILL
+            yield (time, 'IDLE' if rests else 'UP' if to > height else 'DOWN',
+                   height - self.heights[0])
+
     def has(self, x: float, y: float) -> bool:
         """Whether one who stands there, on any floor, is in the cabin or in its shaft."""
         return math.dist((self.x, self.y), (x, y)) < IN
 
 
 def cabins(slides: Iterable[tuple[float, str, str, float]],
-           middles: dict[str, tuple[float, float]]) -> list[Cabin]:
-    """Of time, model, link and height of each slide, and the middle of each elevator's model."""
+           middles: dict[str, tuple[float, float]]) -> dict[str, Cabin]:
+    """By model, of time, model, link and height of each slide, and each model's middle."""
     lines: dict[tuple[str, str], Cabin] = {}
     for time, model, link, z in slides:
         if model in middles:
             line = lines.setdefault((model, link), Cabin(*middles[model]))
             line.times.append(time)
             line.heights.append(z)
-    rising = {model: line for (model, _), line in lines.items()
-              if max(line.heights) - min(line.heights) > RISES}
-    return list(rising.values())
+    return {model: line for (model, _), line in lines.items()
+            if max(line.heights) - min(line.heights) > RISES}
 
 
 class Rider:
