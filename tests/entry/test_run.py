@@ -131,6 +131,17 @@ def test_an_early_ctrl_c_prints_no_traceback(environment, wait):
     assert process.returncode in (130, -signal.SIGINT) and marked(environment) == []
 
 
+def test_a_ctrl_c_while_python_starts_prints_no_traceback(environment, tmp_path):
+    (tmp_path / 'sitecustomize.py').write_text(
+        'import os, signal\nos.kill(os.getpid(), signal.SIGINT)\n')
+    path = f'{tmp_path}:{os.environ.get("PYTHONPATH", "")}'
+    done = subprocess.run([ROOT / 'angen', 'run', f'world:={ROOT}/worlds/empty.world'],
+                          capture_output=True, text=True, timeout=60, preexec_fn=restore_signals,
+                          env=environment | {'PYTHONPATH': path})
+    assert done.stdout + done.stderr == '' and done.returncode == -signal.SIGINT
+    assert marked(environment) == []
+
+
 @pytest.mark.parametrize('word, part', [
     ('wrold:=worlds/empty.world', 'did you mean world:=?'),
     ('gui:=fasle', 'did you mean false?'),
