@@ -1,5 +1,7 @@
 #include "node/text.h"
 
+#include <strings.h>
+
 #include <algorithm>
 #include <sstream>
 #include <utility>
@@ -33,6 +35,14 @@ sim::Reject reject(const std::string& source, const std::string& kind, const std
   return {source, kind, "`" + printable(text) + "`: " + why + "; " + right};
 }
 
+bool is_verb(const Kind& kind, const std::string& word) {
+  return std::any_of(kind.verbs.begin(), kind.verbs.end(), [&word](const Verb& verb) {
+    const std::size_t length = verb.name.size();
+    return strncasecmp(word.c_str(), verb.name.c_str(), length) == 0 &&
+           (word.size() == length || (verb.whole && parse_integer(word.substr(length))));
+  });
+}
+
 }  // namespace
 
 sim::Action topic_action(const Kind& kind, const std::string& text) {
@@ -45,6 +55,9 @@ sim::Action topic_action(const Kind& kind, const std::string& text) {
   if (!valid_utf8(text)) return wrong("not UTF-8");
   const std::vector<std::string> fields = fields_of(unquoted(text));
   if (fields[0].empty()) return wrong("no verb");
+  if (fields.size() > 1 && is_verb(kind, fields[1]) && !is_verb(kind, fields[0])) {
+    return wrong("did you mean `" + fields[1] + ", " + fields[0] + "`?");
+  }
   const bool counts = std::any_of(kind.verbs.begin(), kind.verbs.end(),
                                   [](const Verb& verb) { return verb.whole; });
   const std::string name = fields.size() > 1 ? fields[1] : "";

@@ -71,6 +71,15 @@ TEST(DoorText, BlanksDoNotMatter) {
   EXPECT_EQ(sent(topic_action(door(), "SET,kitchen0,+1e-1")), "door/kitchen0: SET +1e-1");
 }
 
+TEST(DoorText, ANameBeforeItsVerbIsAnsweredByTheRightOrder) {
+  EXPECT_TRUE(
+      says(rejection(topic_action(door(), "bathroom1, open")), "did you mean `open, bathroom1`?"));
+  EXPECT_TRUE(
+      says(rejection(topic_action(elevator(), "tower, Floor1")), "did you mean `Floor1, tower`?"));
+  EXPECT_EQ(sent(topic_action(door(), "Open, Close")), "door/Close: Open");  // a door's name
+  EXPECT_EQ(sent(topic_action(elevator(), "tower, Floors")), "elevator/Floors: tower");
+}
+
 TEST(DoorText, TheQueueParsesVerbAndNumber) {
   EXPECT_EQ(sent(topic_action(door(), "Opn, a")), "door/a: Opn");
   EXPECT_EQ(sent(topic_action(door(), "Set, a, 1, fast")), "door/a: Set 1 fast");

@@ -58,7 +58,8 @@ def test_only_what_is_chosen_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> N
 
 @pytest.mark.parametrize('words, part', [
     ({'names': ['kitchen']}, "no sensor or device named 'kitchen'; did you mean kitchen0"),
-    ({'kinds': ['lampp']}, "no kind 'lampp'; did you mean lamp")])
+    ({'kinds': ['lampp']}, "no kind 'lampp'; did you mean lamp"),
+    ({'kinds': ['pir,lamp']}, 'did you mean --kind pir --kind lamp')])
 def test_a_filter_must_name_what_there_is(
         monkeypatch: pytest.MonkeyPatch, words: dict[str, object], part: str) -> None:
     with pytest.raises(Failure, match=part):

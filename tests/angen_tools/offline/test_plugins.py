@@ -30,6 +30,11 @@ def test_plugins_lists_the_catalog() -> None:
     assert any(line.startswith('difference m number') for line in lines)      # of a PIR
 
 
+def test_plugins_of_a_library() -> None:
+    found = json.loads(angen('plugins', 'libpir_controller.so', '--json').stdout)
+    assert [plugin['kind'] for plugin in found] == ['pir']
+
+
 def test_a_reader_that_goes_away_is_no_error_text() -> None:
     done = subprocess.run(['bash', '-c', f'{sys.executable} {SCRIPT} plugins --json | true'],
                           text=True, capture_output=True, timeout=60)

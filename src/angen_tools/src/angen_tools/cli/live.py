@@ -15,6 +15,9 @@ from angen_tools.common.catalog import Plugin, has_parameter, kinds
 from angen_tools.common.output import show, show_done
 
 
+COMMON = ('lamp', 'door')  # devices that are meant where a command does not say which
+
+
 def run_spawn(args: argparse.Namespace) -> int:
     from angen_tools.live import spawn
     if args.kind == 'model':
@@ -207,6 +210,9 @@ def right_order(words: Sequence[str], commands: Container[str] = ()) -> str:
         return shlex.join(['set', first, rest[0], second]) if swapped else ''
     if words[0] == 'spawn' and first not in known and _is_model(first):
         return shlex.join(['spawn', 'model', first, second, *rest])
+    if words[0] == 'set' and first == 'all':
+        return next((shlex.join(['set', kind, *words[1:]]) for kind in (*COMMON, *known)
+                     if _takes(known[kind], ' '.join(words[2:]))), '')
     if first in (*known, 'model', 'sitter') or second not in (*known, 'model', 'sitter'):
         return ''
     return shlex.join([words[0], second, first, *rest])

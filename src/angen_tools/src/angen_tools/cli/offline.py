@@ -90,7 +90,8 @@ def add_plugins(commands: Any) -> None:
     plugins = command(commands, 'plugins', run_plugins,
                       'lists the plug-ins and their parameters; needs no simulator', 'plugins',
                       'plugins door pir')
-    completed_by(plugins.add_argument('names', metavar='KIND', nargs='*', help='only these kinds'),
+    completed_by(plugins.add_argument('names', metavar='KIND', nargs='*',
+                                      help='only these kinds, or those of these libraries'),
                  kind_names)
     add_json(plugins)
 

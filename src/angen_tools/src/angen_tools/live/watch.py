@@ -74,6 +74,9 @@ def check(board: Board, rule: Filter) -> None:
                       + did_you_mean(rule.room, rooms))
     known = {kind for kind, _ in board.rows} | set(kinds())
     for kind in rule.kinds:
+        if ',' in kind and all(one in known for one in kind.split(',')):
+            raise Failure('--kind takes one kind; did you mean '
+                          + ' '.join(f'--kind {one}' for one in kind.split(',')) + '?')
         if kind not in known:
             raise Failure(f"there is no kind '{kind}'; "
                           + did_you_mean(kind, known, 'angen plugins'))

@@ -1,9 +1,12 @@
 """angen plugins: the catalog of plug-ins, without a simulator."""
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any, Iterator, Sequence
 
 from angen_tools.common.catalog import Plugin, kind_of, plugins
+from angen_tools.common.failure import Failure
+from angen_tools.common.nearest import asked, nearest
 from angen_tools.common.output import as_json, table
 from angen_tools.common.verbs import described_forms
 
@@ -12,12 +15,19 @@ if TYPE_CHECKING:
 
 
 def list_plugins(names: Sequence[str], json: bool) -> RenderableType:
-    """The kinds of these names on the plug-in path, or all: their verbs, the fields of their state
-    or reading, parameters. Failure where a name is not known."""
+    """The kinds of these names, or of these libraries, on the plug-in path, or all: their verbs,
+    the fields of their state or reading, parameters. Failure where a name is not known."""
     from rich.console import Group
+    libraries = {plugin['library'] for plugin in plugins()}
     for name in names:
-        kind_of(name)
-    found = [plugin for plugin in plugins() if not names or plugin['kind'] in names]
+        if name.endswith('.so') and name not in libraries:
+            stems = {_stem(library): library for library in libraries}
+            raise Failure(f"there is no library '{name}'; "
+                          + asked([stems[stem] for stem in nearest(_stem(name), stems)]))
+        if name not in libraries:
+            kind_of(name)
+    found = [plugin for plugin in plugins()
+             if not names or plugin['kind'] in names or plugin['library'] in names]
     if json:
         return as_json(found)
     parts: list[RenderableType] = []
@@ -27,6 +37,11 @@ def list_plugins(names: Sequence[str], json: bool) -> RenderableType:
                                              plugin['library'], plugin['doc']))))
         parts += _tables(plugin)
     return Group(*parts)
+
+
+def _stem(library: str) -> str:
+    """pir of libpir_controller.so."""
+    return re.sub(r'^lib|(_plugin|_controller)?\.so$', '', library)
 
 
 def _tables(plugin: Plugin) -> Iterator[RenderableType]:
