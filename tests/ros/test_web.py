@@ -179,6 +179,9 @@ def test_a_phone_shows_a_plan_to_tap(home: Angen, server: Server, page: Page) ->
     assert page.run('return document.querySelector("#scene").hidden')
     box = page.until('''const e = document.querySelector("g.item.lamp .touch")
         ?.getBoundingClientRect(); return e && [e.x + e.width / 2, e.y + e.height / 2, e.width]''')
+    names = page.run('return [...document.querySelectorAll("#plan svg > text")].map('
+                     '(e) => e.textContent)')
+    assert 'Kitchen' in names and max(map(len, names)) < 40  # of a name of 200 letters
     assert box[2] >= 24  # px, the least target of WCAG 2.2
     leaf = page.run('''const l = document.querySelector("g.item.door .leaf"), at = (name) =>
         l.getAttribute(name); return Math.hypot(at("x1") - at("x2"), at("y1") - at("y2"))''')

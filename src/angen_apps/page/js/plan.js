@@ -7,6 +7,7 @@ import { Taken, around, nameOf } from './places.js';
 
 const SHOWN = new Set(['lamp', 'door', 'window', 'elevator', 'stove', 'heater', 'appliance', 'cabinet']);
 const LETTER = 0.66; // of a text's height: the width of a letter
+const WIDER = 1.5, LETTERS = 8; // a room's name may be so much wider than it, and has so many letters
 const LEAST = 11, FACE = 4, TOUCH = 12; // px of a text's height, of the radius of a mark and of its target
 const MARGIN = 0.6; // m around all that is shown
 const BODY = 0.22; // m: half of a person's mark
@@ -108,7 +109,8 @@ export class Plan {
     }
     const written = new Taken();
     for (const room of rooms) {
-      const name = roomText(room), wide = (LETTER / 2) * text * name.length, [x, y] = nameOf(room.polygon, wide, text / 2, taken);
+      const xs = room.polygon.map((/** @type {number[]} */ [x]) => x), most = (WIDER * (Math.max(...xs) - Math.min(...xs))) / (LETTER * text);
+      const name = shortened(roomText(room), Math.max(LETTERS, Math.floor(most))), wide = (LETTER / 2) * text * name.length, [x, y] = nameOf(room.polygon, wide, text / 2, taken);
       if (!written.put([x, y, wide, text / 2], [[0, 0]])) continue; // the room is smaller than its name
       this.root.append(svg('text', { x, y: -y + 0.35 * text, 'font-size': text }, name));
     }
@@ -304,3 +306,6 @@ export class Plan {
     this.root.append(this.arrow);
   }
 }
+
+/** @param {string} text @param {number} most letters */
+const shortened = (text, most) => (text.length > most ? `${text.slice(0, most - 1)}…` : text);
