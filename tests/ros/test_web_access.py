@@ -13,8 +13,16 @@ from selenium.webdriver.common.keys import Keys
 
 CONTRAST = Path(__file__).with_name('contrast.js').read_text()
 FOCUSED = '''const e = document.activeElement, style = getComputedStyle(e);
-    const face = e.querySelector?.(".face");
-    return {on: e.id || e.dataset?.verb || e.textContent.trim().slice(0, 40) || e.ariaLabel,
+    const face = e.querySelector?.(".face"), box = e.getBoundingClientRect();
+    const reach = parseFloat(style.outlineOffset) + parseFloat(style.outlineWidth) - 0.5;
+    let clipped = false;
+    for (let p = e.parentElement; p && !face; p = p.parentElement) {
+        const r = p.getBoundingClientRect();
+        clipped ||= getComputedStyle(p).overflow !== "visible" && (box.left - reach < r.left
+            || box.right + reach > r.right || box.top - reach < r.top
+            || box.bottom + reach > r.bottom);
+    }
+    return {clipped, on: e.id || e.dataset?.verb || e.textContent.trim().slice(0, 40) || e.ariaLabel,
             tag: e.tagName, inCard: !!e.closest("#card"), open: e.matches("#card [data-verb=Open]"),
             door: e.matches("#panel .thing > button.name") && e.textContent.includes("bathroom0"),
             ring: (style.outlineStyle !== "none" && parseFloat(style.outlineWidth) >= 2)
@@ -79,6 +87,7 @@ def test_a_door_is_opened_by_keys_alone(page: Page) -> None:
         press(page, Keys.TAB)
         at = page.run(FOCUSED)
         assert at['ring'] or at['tag'] == 'BODY', f'{at} shows no focus'
+        assert not at['clipped'], f'the ring around {at} is cut'
         seen.append(at['on'])
         if at['door']:
             break
