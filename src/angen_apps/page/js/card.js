@@ -32,13 +32,13 @@ export class Card {
     else if (this.shown) this.showPlace(this.shown.point);
   }
 
-  /** @param {string} title @param {string} under @param {any[]} content */
+  /** @param {string} title @param {string[]} under @param {any[]} content */
   open(title, under, content) {
     const active = /** @type {any} */ (document.activeElement), byKey = active?.matches(':focus-visible') ?? false;
     if (this.element.hidden) this.from = active;
     this.element.hidden = false;
     this.element.setAttribute('aria-label', title);
-    this.element.replaceChildren(el('header', {}, el('div', {}, el('h2', {}, title), el('div', { class: 'soft' }, under)),
+    this.element.replaceChildren(el('header', {}, el('div', {}, el('h2', {}, title), el('div', { class: 'soft' }, ...under.flatMap((text, i) => [i ? ' · ' : '', el('span', {}, text)]))),
       el('button', { class: 'icon', type: 'button', 'aria-label': 'Close', onclick: () => this.close() }, '✕')), ...content);
     if (byKey && !this.element.contains(active)) this.element.focus(); // the next Tab is in the card
   }
@@ -60,7 +60,7 @@ export class Card {
     }
     const beside = home.ofModel(entity.model).filter((e) => e !== entity).slice(0, 12);
     if (beside.length) parts.push(el('h3', {}, 'Of the same model'), ...beside.map((e) => thingRow(home, e, () => this.show(e))));
-    this.open(entity.name, [words(entity.kind), rooms, kind?.doc].filter(Boolean).join(' · '), parts);
+    this.open(entity.name, [words(entity.kind), rooms, kind?.doc].filter(Boolean), parts);
     this.refresh();
   }
 
@@ -136,7 +136,7 @@ export class Card {
     if (sensors.length) parts.push(el('h3', {}, 'Sensors'), ...sensors.map((e) => thingRow(home, e, () => this.show(e))));
     const middle = middleOf(room.polygon), [x, y] = point ?? middle;
     if (!home.status.replay) parts.push(el('h3', {}, 'Add a sensor'), this.adder(room.name, [x, y, room.floor], middle));
-    this.open(roomText(room), `${words(room.use)}, floor ${room.storey}, ${room.area.toFixed(1)} m²`, parts);
+    this.open(roomText(room), [`${words(room.use)}, floor ${room.storey}, ${room.area.toFixed(1)} m²`], parts);
   }
 
   /**
@@ -146,7 +146,7 @@ export class Card {
   showPlace(point) {
     this.shown = { point };
     this.state = null;
-    this.open('Outside of all rooms', '', [el('h3', {}, 'Add a sensor'), this.adder('', point, point)]);
+    this.open('Outside of all rooms', [], [el('h3', {}, 'Add a sensor'), this.adder('', point, point)]);
   }
 
   /**
