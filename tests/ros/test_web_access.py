@@ -22,7 +22,8 @@ FOCUSED = '''const e = document.activeElement, style = getComputedStyle(e);
             || box.right + reach > r.right || box.top - reach < r.top
             || box.bottom + reach > r.bottom);
     }
-    return {clipped, on: e.id || e.dataset?.verb || e.textContent.trim().slice(0, 40) || e.ariaLabel,
+    return {clipped,
+            on: e.id || e.dataset?.verb || e.textContent.trim().slice(0, 40) || e.ariaLabel,
             tag: e.tagName, inCard: !!e.closest("#card"), open: e.matches("#card [data-verb=Open]"),
             door: e.matches("#panel .thing > button.name") && e.textContent.includes("bathroom0"),
             ring: (style.outlineStyle !== "none" && parseFloat(style.outlineWidth) >= 2)
