@@ -94,6 +94,8 @@ def test_rooms_are_found_between_walls(world: Make) -> None:
     large = home.room_at(1, 1, 1)
     small = home.room_at(5, 1, 1)
     assert large and small and large.area > small.area
+    assert [made.room_at(x, 1, z) for x, z in ((1, 1), (5, 1), (5, 9), (-3, 1))] == [
+        large.name, small.name, '', '']
     doors = {door.name: door for door in home.doors}
     assert set(doors['front0'].rooms) == {large.name, ''}
     assert set(doors['inner0'].rooms) == {large.name, small.name}

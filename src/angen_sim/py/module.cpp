@@ -237,6 +237,14 @@ void bind_world(pyb::module_& module) {
           "home", [](const World& w) { return home_dict(w.now().structure->home->get()); },
           "The home: its storeys, rooms, things, doors and elevators, as a dict; docs/home.md.")
       .def(
+          "room_at",
+          [](const World& w, double x, double y, double z) {
+            return w.now().structure->home->get().room_name_at(Vec3(x, y, z));
+          },
+          pyb::arg("x"), pyb::arg("y"), pyb::arg("z"),
+          "The name of the room that a place is in, or in whose wall, floor or ceiling; '' "
+          "outside.")
+      .def(
           "home_findings",
           [](const World& w) {
             std::vector<pyb::tuple> all;

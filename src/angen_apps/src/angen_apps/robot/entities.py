@@ -52,7 +52,6 @@ def entities_of(world: Any) -> list[Entity]:
     home, found = Home.of_world(world), []
     for kind, name, model, pose in world.entities():
         x, y, z, *turned = (float(value) for value in pose)
-        room = home.room_at(x, y, z)
         found.append(Entity(kind, name, model, (x, y, z, *turned), floor=home.storey_at(z),
-                            room=room.name if room else ''))
+                            room=world.room_at(x, y, z)))
     return found
