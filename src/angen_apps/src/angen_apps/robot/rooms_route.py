@@ -17,6 +17,7 @@ from angen_apps.robot.building import Survey
 from angen_apps.robot.entities import Entity, entities_of
 from angen_apps.robot.planner import Planner, Point, distances
 from angen_apps.robot.route_file import Lift, Route, Waypoint, default_route, read_route
+from angen_apps.robot.tour import in_order
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import make_folder, write_text
 from angen_tools.common.home import Home, Room
@@ -140,7 +141,7 @@ def lift_of(home: Home, planner: Planner, floor: int) -> Lift | None:
 
 def _visits(route: Route, survey: Survey, planners: dict[int, Planner], start: Point, floor: int,
             lift: Lift | None) -> list[Waypoint]:
-    """A place in each room, the nearest first, floor by floor."""
+    """A place in each room, in the order of a short way, floor by floor."""
     found: list[Waypoint] = []
     numbers = sorted(planners, key=lambda number: (number != floor, number))
     for number in numbers:
@@ -150,15 +151,17 @@ def _visits(route: Route, survey: Survey, planners: dict[int, Planner], start: P
             origin: Point | None = start
         else:
             origin = lift.cabin if lift and planners[number].is_free(lift.cabin) else None
-        reached = []
+        reached: list[Waypoint] = []
         places = _Places(planners[number], origin)
         for room in rooms:
             place = places.of(room, survey, number, route)
             if place is None:
                 print(f'angen: the robot does not reach {room.name}', file=sys.stderr)
             else:
-                reached.append((place[0], Waypoint(room.name, number, place[1], 0)))
-        found += [waypoint for _, waypoint in sorted(reached, key=lambda each: each[0])]
+                reached.append(Waypoint(room.name, number, place, 0))
+        if origin and reached:
+            order = in_order(planners[number], origin, [waypoint.at for waypoint in reached])
+            found += [reached[i] for i in order]
     return found
 
 
@@ -170,17 +173,15 @@ class _Places:
         rows, columns = np.nonzero(planner.passable & np.isfinite(costs))
         clear = distances(planner.grid, CENTRAL)
         order = np.lexsort((costs[rows, columns], -clear[rows, columns]))
-        self._costs = costs[rows, columns][order]
         self._at = np.array([planner.grid.point(row, column) for row, column in
                              zip(rows[order].tolist(), columns[order].tolist())]).reshape(-1, 2)
 
-    def of(self, room: Room, survey: Survey, floor: int, route: Route
-           ) -> tuple[float, Point] | None:
-        """The cost of the way to the first one in a room, and the place."""
+    def of(self, room: Room, survey: Survey, floor: int, route: Route) -> Point | None:
+        """The first one in a room."""
         for i in np.nonzero(in_room(room, *self._at.T))[0]:
             point = (float(self._at[i, 0]), float(self._at[i, 1]))
             if _keeps_off(point, survey, floor, route):
-                return float(self._costs[i]), point
+                return point
         return None
 
 
