@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,12 +15,14 @@ from angen_apps.robot.planner import Door
 from angen_apps.robot.views import View
 
 
-def test_a_leaf_hides_what_is_behind_it_and_not_above() -> None:
+def test_a_leaf_hides_what_is_behind_it_and_not_above_or_on_a_lower_floor() -> None:
     door = Door('d', (0.0, 0.0), 0.0, -math.pi / 2, 1.0, top=2.0)
     origin = np.array([0.5, -2.0, 2.5])
     points = np.array([[0.5, 2.0, 0.2], [0.5, 2.0, 2.4], [3.0, 2.0, 0.2], [0.5, -1.0, 0.2]])
     assert hidden(origin, points, door, np.zeros(4)).tolist() == [True, False, False, False]
     assert not hidden(origin, points, door, np.full(4, -1.57)).any()
+    upper = replace(door, bottom=4.0, top=6.0)
+    assert not hidden(origin, points, upper, np.zeros(4)).any()
 
 
 def test_a_view_has_angles_and_a_reach() -> None:

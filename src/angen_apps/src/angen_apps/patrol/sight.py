@@ -32,7 +32,8 @@ def hidden(origin: np.ndarray, points: np.ndarray, door: Door, turned: np.ndarra
     along_line = (start[0] * leaf[:, 1] - start[1] * leaf[:, 0]) / across
     along_leaf = (start[0] * line[:, 1] - start[1] * line[:, 0]) / across
     meets = (along_line > 0) & (along_line < 1) & (along_leaf > 0) & (along_leaf < 1)
-    return meets & (origin[2] + along_line * (points[:, 2] - origin[2]) < door.top)
+    height = origin[2] + along_line * (points[:, 2] - origin[2])
+    return meets & (door.bottom < height) & (height < door.top)
 
 
 def outline(world: Any, start: np.ndarray) -> np.ndarray:
@@ -75,8 +76,10 @@ class Sight:
 
     def first(self, view: View, track: np.ndarray) -> float | None:
         """When a sensor first has a free line to a point of the robot; None where it never has."""
-        for start in range(0, len(track), CHUNK):
-            rows = track[start:start + CHUNK]
+        away = np.hypot(*(track[:, 1:3] - view.position[:2]).T)
+        near = track[away <= view.reach + AROUND]
+        for start in range(0, len(near), CHUNK):
+            rows = near[start:start + CHUNK]
             bodies = self._bodies(rows)
             times = np.repeat(rows[:, 0], bodies.shape[1])
             points = bodies.reshape(-1, 3)
@@ -89,13 +92,13 @@ class Sight:
     def _free(self, origin: np.ndarray, points: np.ndarray, times: np.ndarray) -> np.ndarray:
         if len(points) == 0:
             return np.zeros(0, bool)
-        free = self._caster.sees(origin, points)
+        free = np.nonzero(self._caster.sees(origin, points))[0]
         for door in self._doors:
             history = self._angles[door.name]
-            which = np.searchsorted(history[:, 0], times, side='right') - 1
+            which = np.searchsorted(history[:, 0], times[free], side='right') - 1
             turned = history[np.maximum(which, 0), 1]
-            free &= ~hidden(origin, points, door, turned)
-        return free
+            free = free[~hidden(origin, points[free], door, turned)]
+        return np.isin(np.arange(len(points)), free)
 
 
 def door_beside(switch: Entity, doors: Iterable[Door]) -> str:

@@ -16,7 +16,7 @@ def door_of(described: Described, state: Mapping[str, Any]) -> Door:
     if 'hinge' in state:
         x, y, _ = state['hinge']
         return Door(described.name, (x, y), state['shut'], state['shut'] + state['opens'],
-                    state['width'], top, described.partner)
+                    state['width'], top, described.partner, bottom=z)
     half = described.width / 2
     end = (x - half * math.cos(yaw), y - half * math.sin(yaw))
-    return Door(described.name, end, yaw, yaw, described.width, top, described.partner, True)
+    return Door(described.name, end, yaw, yaw, described.width, top, described.partner, True, z)

@@ -161,6 +161,7 @@ class Door:
     top: float = math.inf  # m, z of the leaf's upper edge
     partner: str = ''  # the other leaf of a double door
     slides: bool = False
+    bottom: float = -math.inf  # m, z of the leaf's lower edge
 
     def tip(self, angle: float) -> Point:
         return (self.hinge[0] + self.width * math.cos(angle),
