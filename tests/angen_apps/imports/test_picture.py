@@ -1,6 +1,9 @@
 """Plans that are pictures, against a plan of known areas at four sizes of noise."""
 from __future__ import annotations
 
+import struct
+import warnings
+import zlib
 from pathlib import Path
 from typing import Any
 
@@ -276,6 +279,19 @@ def test_a_picture_needs_a_scale_and_walls(tmp_path: Path, capsys: pytest.Captur
     path.write_bytes(path.read_bytes()[:40])
     assert cli.run(['import', str(path), '--scale', '0.05', '-o', str(out)]) == 1
     assert len(capsys.readouterr().err.splitlines()) == 1 and not out.exists()
+
+
+def test_a_large_picture_is_refused_without_a_warning_of_pillow(tmp_path: Path) -> None:
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return (struct.pack('>I', len(data)) + kind + data
+                + struct.pack('>I', zlib.crc32(kind + data)))
+
+    path = tmp_path / 'large.png'
+    path.write_bytes(b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack(
+        '>IIBBBBB', 12_000, 8_000, 8, 0, 0, 0, 0)) + chunk(b'IDAT', zlib.compress(b'')))
+    with warnings.catch_warnings(), pytest.raises(Failure, match='12000 x 8000 pixels'):
+        warnings.simplefilter('error')
+        read_picture(path, 0.05, True)
 
 
 def test_a_scan_of_a_home_by_seed_has_its_rooms_and_doors(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from angen_tools.common.failure import Failure
-from angen_tools.common.text_file import read_text, separator_hint
+from angen_tools.common.text_file import read_text, separator_hint, shortened
 
 
 def test_a_byte_order_mark_is_not_text(tmp_path: Path) -> None:
@@ -33,3 +33,7 @@ def test_another_separator() -> None:
     assert 'semicolons, must be by commas' in separator_hint('time;target;command')
     assert 'tabs' in separator_hint('time\ttarget')
     assert separator_hint('time,target; command') == separator_hint('time') == ''
+
+
+def test_a_long_value_is_cut() -> None:
+    assert shortened('12') == '12' and shortened('9' * 5000) == '9' * 37 + '...'

@@ -22,11 +22,15 @@ CLEARER = 1.15  # times as much of the walls in line as before a picture is turn
 def darkness(path: Path) -> np.ndarray:
     """The pixels from 0 (white) to 1 (black); row 0 is the lowest."""
     import io
+    import warnings
 
     from PIL import Image, UnidentifiedImageError
     data = read_bytes(path)
     try:
-        with Image.open(io.BytesIO(data)) as picture:
+        with warnings.catch_warnings():
+            warnings.simplefilter('ignore')  # of large pictures, which are refused below
+            picture = Image.open(io.BytesIO(data))
+        with picture:
             if picture.width * picture.height > PIXELS:
                 raise Failure(f'{path}: has {picture.width} x {picture.height} pixels, at most '
                               f'{PIXELS // 1_000_000} million are read')

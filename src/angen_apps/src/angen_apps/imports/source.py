@@ -8,6 +8,7 @@ from pathlib import Path
 from lxml import etree
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.text_file import shortened
 
 LARGEST = 64 << 20  # bytes of a file
 LARGEST_XML = 32 << 20  # bytes of Home.xml
@@ -63,10 +64,10 @@ class Xml:
         except ValueError:
             value = math.nan
         if not math.isfinite(value):
-            raise self.fail(element, f'{key} of <{element.tag}> is "{_short(text)}", must be a '
+            raise self.fail(element, f'{key} of <{element.tag}> is "{shortened(text)}", must be a '
                             'finite number')
         if not low <= value <= high:
-            raise self.fail(element, f'{key} of <{element.tag}> is {_short(text)}, must be '
+            raise self.fail(element, f'{key} of <{element.tag}> is {shortened(text)}, must be '
                             f'{low:g} to {high:g}')
         return value
 
@@ -75,10 +76,6 @@ class Xml:
         """A length given in cm, in m."""
         given = None if default is None else default * 100
         return self.number(element, key, given, low * 100, high * 100) / 100
-
-
-def _short(text: str) -> str:
-    return text if len(text) <= 40 else text[:37] + '...'
 
 
 def home_xml(path: Path) -> Xml:

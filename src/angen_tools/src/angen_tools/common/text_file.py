@@ -6,6 +6,8 @@ from pathlib import Path
 
 from angen_tools.common.failure import Failure
 
+LONGEST = 40  # characters of a value in an error
+
 
 def read_text(path: Path) -> str:
     """The text of a file; Failure with the line where it is not UTF-8."""
@@ -27,3 +29,8 @@ def separator_hint(line: str) -> str:
         if mark in line and ',' not in line:
             return f'; its values are separated by {name}, must be by commas'
     return ''
+
+
+def shortened(text: str) -> str:
+    """A value for an error."""
+    return text if len(text) <= LONGEST else text[:LONGEST - 3] + '...'

@@ -9,7 +9,7 @@ import yaml
 
 from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import did_you_mean
-from angen_tools.common.text_file import read_text
+from angen_tools.common.text_file import read_text, shortened
 
 DEEPEST = 100  # levels of lists in lists: the composer of libyaml calls itself for each
 
@@ -73,7 +73,7 @@ class YamlFile:
         """One of some words."""
         word = self.text(node, what)
         if word not in choices:
-            raise self.fail(node, f"{what} is '{word}'; {did_you_mean(word, choices)}")
+            raise self.fail(node, f"{what} is '{shortened(word)}'; {did_you_mean(word, choices)}")
         return word
 
     def number(self, node: Any, what: str, low: float = -math.inf, high: float = math.inf
@@ -83,9 +83,9 @@ class YamlFile:
         try:
             value = float(text)
         except ValueError:
-            raise self.fail(node, f"{what} is '{text}', must be a number") from None
+            raise self.fail(node, f"{what} is '{shortened(text)}', must be a number") from None
         if not (math.isfinite(value) and low <= value <= high):
-            raise self.fail(node, f'{what} is {text}, must be {low:g} to {high:g}')
+            raise self.fail(node, f'{what} is {shortened(text)}, must be {low:g} to {high:g}')
         return value
 
 
