@@ -4,7 +4,9 @@ from __future__ import annotations
 from html import unescape
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from angen_apps.plan.apartment import apartment
 from angen_apps.plan.draw import draw
@@ -54,3 +56,16 @@ def test_a_wrong_name_is_one_line_with_its_place(name: str, why: str, text: str,
         assert f'{world}:{line}: ' in said and why in said and '\n' not in said
         assert len(said) < 1000
     assert not (tmp_path / 'p.svg').exists()
+
+
+def test_a_roof_over_a_room_does_not_cover_its_plan(text: str, tmp_path: Path) -> None:
+    roof = ('<model name="roof"><static>true</static><pose>2 2 1.5 0 0.4 0</pose><link name="l">'
+            '<collision name="c"><geometry><box><size>6 6 0.1</size></box></geometry></collision>'
+            '</link></model></world>')
+    dark = []
+    for name, world in (('plain', text), ('roof', text.replace('</world>', roof))):
+        (tmp_path / f'{name}.world').write_text(world)
+        draw(tmp_path / f'{name}.world', tmp_path / f'{name}.png', What())
+        with Image.open(tmp_path / f'{name}.png') as picture:
+            dark.append(float((np.asarray(picture.convert('L')) < 64).mean()))
+    assert 0 < dark[1] < 1.1 * dark[0]

@@ -140,7 +140,8 @@ def draw_storey(axis: Any, scene: Scene, storey: Storey, inch: float | None) -> 
     if scene.shapes.unread:
         _draw_section(axis, scene, storey)
     swings = [s for s in scene.shapes.swings if is_on(s.bottom, storey)]
-    leaves = {swing.model for swing in swings}
+    slides = [s for s in scene.shapes.slides if is_on(s.bottom, storey)]
+    leaves = {swing.model for swing in swings} | {slide.model for slide in slides}
     for shape in scene.shapes.solids:
         if shape.model not in leaves and len(shape.corners) > 2:
             _draw_solid(axis, scene, storey, shape)
@@ -151,6 +152,9 @@ def draw_storey(axis: Any, scene: Scene, storey: Storey, inch: float | None) -> 
             _draw_window(axis, door)
     for swing in swings:
         _draw_swing(axis, swing)
+    for slide in slides:
+        axis.fill(*zip(*slide.open), facecolor='none', edgecolor=GRAY, lw=0.5, ls=':', zorder=7)
+        axis.fill(*zip(*slide.shut), facecolor='white', edgecolor=INK, lw=THIN, zorder=7)
     if inch:
         for room in rooms:
             _label(axis, room, inch)
@@ -188,6 +192,10 @@ def _draw_solid(axis: Any, scene: Scene, storey: Storey, shape: Shape) -> None:
         if not is_on(shape.bottom, storey):
             return
         axis.fill(*zip(*shape.corners), color='#4a7fb5', lw=0, zorder=6)  # a pane or a fixed leaf
+    elif is_building and shape.tilted:  # as a roof: lines above the cut
+        if is_on(shape.bottom, storey):
+            axis.fill(*zip(*shape.corners), facecolor='none', edgecolor=GRAY, lw=THIN, ls=':',
+                      zorder=6)
     elif is_building and shape.bottom < cut < shape.top and shape.top > storey.elevation + TALL:
         axis.fill(*zip(*shape.corners), color=INK, lw=0, zorder=6)
     elif is_building and _is_low(shape, storey, 0.3):

@@ -12,6 +12,7 @@ from angen_tools.world import sdf
 from angen_tools.world.models import find
 from angen_tools.world.placing import generator
 
+LEVEL = 0.999  # of an axis that is upright
 DEPTH = 8  # includes within includes
 Corners = list[tuple[float, float]]
 
@@ -26,6 +27,7 @@ class Shape:
     bottom: float
     top: float
     round: bool = False
+    tilted: bool = False  # at a height it is less than its outline
 
 
 @dataclass(frozen=True)
@@ -39,12 +41,23 @@ class Swing:
     window: bool
 
 
+@dataclass(frozen=True)
+class Slide:
+    """A leaf that slides: its outlines shut and open."""
+
+    model: str
+    shut: Corners
+    open: Corners
+    bottom: float
+
+
 @dataclass
 class Shapes:
     """All shapes of a world; `thing` by the model's name, with the pose of the model."""
 
     solids: list[Shape] = field(default_factory=list)
     swings: list[Swing] = field(default_factory=list)
+    slides: list[Slide] = field(default_factory=list)
     sensors: dict[str, list[etree._Element]] = field(default_factory=dict)
     moving: set[str] = field(default_factory=set)
     unread: set[str] = field(default_factory=set)  # models with meshes and other shapes
@@ -102,6 +115,7 @@ def _add_model(made: Shapes, element: etree._Element, frame: np.ndarray, outer: 
         made.moving.add(top)
     for joint in element.iterfind('joint'):
         _add_swing(made, top, element, joint, links)
+        _add_slide(made, top, joint, links)
     for inner in [*element.iterfind('model'), *element.iterfind('include')]:
         if depth:
             _add_model(made, inner, frame, top, depth - 1)
@@ -127,7 +141,7 @@ def _shape(model: str, link: str, collision: etree._Element, frame: np.ndarray) 
     corners = np.array([[a, b, c] for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]) * half
     points = corners @ pose[:3, :3].T + pose[:3, 3]
     return Shape(model, link, _hull(points[:, :2]), float(points[:, 2].min()),
-                 float(points[:, 2].max()))
+                 float(points[:, 2].max()), tilted=bool(np.abs(pose[2, :3]).max() < LEVEL))
 
 
 def _disc(model: str, link: str, pose: np.ndarray, radius: float, half: float) -> Shape:
@@ -181,3 +195,19 @@ def _add_swing(made: Shapes, model: str, element: etree._Element, joint: etree._
             for a in np.linspace(0, end, 16)]
     made.swings.append(Swing(model, (float(hinge[0]), float(hinge[1])), path,
                              min(shape.bottom for shape in leaf), joint.get('name') == 'sash'))
+
+
+def _add_slide(made: Shapes, model: str, joint: etree._Element,
+               links: dict[str | None, np.ndarray]) -> None:
+    """Adds the leaf of a sliding door."""
+    child = (joint.findtext('child') or '').strip()
+    leaf = [shape for shape in made.solids if shape.model == model and shape.link == child]
+    if joint.get('type') != 'prismatic' or joint.get('name') != 'slide' or not leaf:
+        return
+    axis = (links[child] @ _pose(joint))[:3, :3] @ np.array(
+        [float(v) for v in (joint.findtext('axis/xyz') or '1 0 0').split()])
+    low, high = (float(joint.findtext(f'axis/limit/{end}') or 0) for end in ('lower', 'upper'))
+    far = low if -low > high else high
+    for shape in leaf:
+        made.slides.append(Slide(model, shape.corners, [
+            (x + far * axis[0], y + far * axis[1]) for x, y in shape.corners], shape.bottom))
