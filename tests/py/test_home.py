@@ -133,6 +133,12 @@ def test_contradictions_are_found(world: Make) -> None:
     assert finds(bed.format(2)) == []
     # through the west wall
     assert any("bed 'bed' is" in text and 'in a wall' in text for text in finds(bed.format(0.5)))
+    plant = ('<model name="plant"><static>true</static><pose>{} 1 0.5 0 0 0.7854</pose>'
+             '<link name="l"><collision name="c"><geometry><cylinder><radius>0.3</radius>'
+             '<length>0.8</length></cylinder></geometry></collision></link>'
+             '<angen:thing>plant</angen:thing></model>')
+    assert finds(plant.format(0.31)) == []  # the corners of a box around it are in the wall
+    assert any("plant 'plant' is 0.05 m in a wall" in text for text in finds(plant.format(0.25)))
     assert any("bed 'bed' is in no room" in text for text in finds(bed.format(30)))
     site = '<angen:home><angen:entrance>gate</angen:entrance></angen:home>'
     named = contradictions(world(walls, room('a', rooms['a']) + site))

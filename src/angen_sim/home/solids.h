@@ -12,6 +12,7 @@ namespace angen {
 struct OrientedBox {
   Pose pose;  // of its middle
   Vec3 size = Vec3::Zero();
+  bool round = false;  // of a cylinder or capsule about z
 
   Eigen::AlignedBox3d bounds() const;
 };
@@ -19,8 +20,8 @@ struct OrientedBox {
 /// The box around a shape in `frame`; none for planes, heightmaps and empty shapes.
 std::optional<OrientedBox> box_around(const Shape& shape, const Pose& frame);
 
-/// By how much two boxes overlap along the direction in which they do least, m; at most 0 where
-/// they are apart.
+/// By how much two boxes, or what is round in them, overlap along the direction in which they do
+/// least, m; at most 0 where they are apart.
 double overlap_of(const OrientedBox& a, const OrientedBox& b);
 
 /// The boxes around the collisions of a model.

@@ -205,7 +205,7 @@ def _parts(piece: Piece) -> list[object]:
     if any(piece.tilt):  # turned about its middle
         return [box('body', (-deep / 2, -wide / 2, -high / 2), (deep / 2, wide / 2, high / 2))]
     if piece.shape == 'cylinder':
-        return [blocks.Part('body', ((wide + deep) / 4, high), (0, 0, high / 2), **look)]
+        return [blocks.Part('body', (min(wide, deep) / 2, high), (0, 0, high / 2), **look)]
     if piece.shape == 'flat' or (high < THIN and prod((wide, deep)) > 0.1):
         return [box('body', *whole, collide=False)]
     if piece.shape == 'tray':
