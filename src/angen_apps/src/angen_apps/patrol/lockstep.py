@@ -37,7 +37,7 @@ class Lockstep:
         self._publishers: dict[str, Any] = {}
         self._latest: dict[str, Any] = {}
         self._subscribers = [rospy.Subscriber('/angen/events', EventMessage,
-                                              self._receive_event)]
+                                              self._receive_event, tcp_nodelay=True)]
         began = self._call(0).sim_time
         self.tick = (self._call(1).sim_time - began).to_sec()
         self._ticks = round(cycle / self.tick)
@@ -77,7 +77,7 @@ class Lockstep:
                 self._news.notify_all()
 
         self._topics.append(topic)
-        self._subscribers.append(rospy.Subscriber(topic, kind, receive))
+        self._subscribers.append(rospy.Subscriber(topic, kind, receive, tcp_nodelay=True))
 
     def _receive_event(self, message: Any) -> None:
         with self._news:
@@ -100,7 +100,7 @@ class Lockstep:
     def advertise(self, topic: str, kind: type) -> None:
         """Makes a publisher that the node has subscribed to."""
         import rospy
-        self._publishers[topic] = rospy.Publisher(topic, kind, queue_size=100)
+        self._publishers[topic] = rospy.Publisher(topic, kind, queue_size=100, tcp_nodelay=True)
         self.wait_for_subscribers(1)
 
     def wait_for_subscribers(self, count: int) -> None:
