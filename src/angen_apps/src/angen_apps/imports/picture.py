@@ -2,31 +2,27 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import pi, radians
+from math import radians
 from pathlib import Path
 from typing import Sequence
 
 import numpy as np
 import yaml
-from scipy.ndimage import binary_closing, binary_opening, label
+from scipy.ndimage import binary_opening, label
 
 from angen_apps.imports.flood import rooms_of
+from angen_apps.imports.gaps import DOOR_TOP, NARROW, THICKEST, WIDE, doors
 from angen_apps.imports.raster import (darkness, reduced, straightened, threshold, turn_of,
-                                       without_noise)
+                                       without_noise, without_specks)
 from angen_apps.imports.source import FARTHEST, read_bytes
+from angen_apps.imports.strokes import LEAST_WALL, cleaned_walls, slices, straight_walls
 from angen_apps.plan.finish import finish, room_at, sides
-from angen_apps.plan.model import Leaf, Opening, Piece, Plan, Point, Storey, Wall, turned
+from angen_apps.plan.model import Opening, Piece, Plan, Point, Storey, Wall, turned
 from angen_apps.plan.names import slug
-from angen_apps.plan.polygons import rectangles
 from angen_tools.common.failure import Failure
 from angen_tools.common.yaml_file import YamlFile
 
 HEIGHT = 2.5  # m
-DOOR_TOP = 2.1  # m
-NARROW, WIDE = 0.7, 1.1  # m: gaps that are doors
-LEAST_STUB = 0.08  # m across of a shorter piece of wall, as between a corner and a door
-THICKEST = 0.45  # m of a wall across
-LEAST_WALL = 0.25  # m of a wall along: shorter dark spots are text and dirt
 FURNITURE = 0.4, 3.0  # m of the longer side: smaller things are text and pillars
 LONGEST_THIN = 1.0  # m of a thing thinner than LEAST_WALL: a longer one is a wall that stands free
 FURNITURE_HEIGHT = 0.75  # m
@@ -38,8 +34,6 @@ FINE = 0.035  # m a pixel: thin walls have several pixels across
 WALLS = 20_000
 MODES = ('trinary', 'scale', 'raw')  # of map_server; walls are the same in the first two
 SEAM = 1e-4  # m that walls overlap, so that no seam is between them
-JOINT = 2  # pixels between walls that meet
-Box = tuple[int, int, int, int]  # west, south, east, north
 Island = tuple[slice, slice]  # rows and columns
 Origin = tuple[float, float, float]  # x, y and yaw of a picture's lower left corner
 ENDINGS = ('.png', '.pgm', '.jpg', '.jpeg')
@@ -53,8 +47,11 @@ def read_picture(path: Path, scale: float, with_doors: bool) -> Plan:
         dark, scale = reduced(dark, factor), scale * factor
     if scale < FINE:
         dark = without_noise(dark)
-    walls, known, _, remarks = _straight(path, dark, np.ones(dark.shape, bool),
-                                         threshold(path, dark), scale, (0.0, 0.0, 0.0))
+    limit = threshold(path, dark)
+    if scale >= FINE:
+        dark = without_specks(dark, limit)
+    walls, known, _, remarks = _straight(path, dark, np.ones(dark.shape, bool), limit, scale,
+                                         (0.0, 0.0, 0.0))
     if remarks:  # the page is put upright
         known[:] = True
         remarks = [f'{remarks[0]}; the picture is put upright']
@@ -176,7 +173,7 @@ def _storey(path: Path, dark: np.ndarray, known: np.ndarray, scale: float, with_
     for west, south, east, north in boxes:
         storey.walls.append(_wall(west * scale - SEAM, south * scale - SEAM, east * scale + SEAM,
                                   north * scale + SEAM))
-    gaps = _doors(storey.walls)
+    gaps = doors(storey.walls)
     storey.openings = gaps if with_doors else [
         replace(gap, kind='opening', leaves=()) for gap in gaps]
     storey.rooms = rooms_of(storey, HEIGHT, (), (known, scale))
@@ -200,7 +197,7 @@ def find_islands(dark: np.ndarray, scale: float, storey: Storey, thin: bool) -> 
                 for u in (-opening.width / 2, opening.width / 2)]
         is_wall[list(ends[0] | ends[1] if thin else ends[0] & ends[1])] = True
     found: list[Island] = []
-    for number, (rows, columns) in enumerate(_slices(labels, count), 1):
+    for number, (rows, columns) in enumerate(slices(labels, count), 1):
         low, high = sorted((s.stop - s.start) * scale for s in (rows, columns))
         is_wall[number] |= high > FURNITURE[1] or (low < LEAST_WALL and high > LONGEST_THIN)
         if not is_wall[number] and high >= FURNITURE[0] and (low <= THICKEST) == thin:
@@ -217,7 +214,7 @@ def thick_spots(dark: np.ndarray, scale: float) -> list[float]:
     across = round(THICKEST / scale) + 1
     filled = dark | pockets[labels]
     labels, count = label(binary_opening(filled, np.ones((across, across))))
-    widths = [max(s.stop - s.start for s in where) * scale for where in _slices(labels, count)]
+    widths = [max(s.stop - s.start for s in where) * scale for where in slices(labels, count)]
     return [width for width in widths if width <= FURNITURE[1]]
 
 
@@ -260,138 +257,12 @@ def _move(storey: Storey, origin: Origin) -> None:
                     for room in storey.rooms]
 
 
-def cleaned_walls(dark: np.ndarray, scale: float) -> np.ndarray:
-    """The dark pixels without noise: specks are removed, holes of a pixel or two filled."""
-    closed = binary_closing(np.pad(dark, 3), np.ones((3, 3)))[3:-3, 3:-3]
-    opened = closed if scale >= 0.03 else binary_opening(closed, np.ones((2, 2)))
-    labels, count = label(opened, np.ones((3, 3)))
-    kept = np.zeros(count + 1, bool)
-    rows, columns = np.nonzero(labels)
-    index = labels[rows, columns]
-    for values in (rows, columns):
-        low = np.full(count + 1, 1 << 30)
-        high = np.full(count + 1, -1)
-        np.minimum.at(low, index, values)
-        np.maximum.at(high, index, values)
-        kept |= (high - low + 1) * scale >= LEAST_WALL
-    kept[0] = False
-    return np.asarray(kept[labels])
-
-
-def straight_walls(dark: np.ndarray, scale: float) -> list[Box]:
-    """In pixels: runs along x and y, their edges straightened."""
-    found: list[Box] = []
-    left = dark.copy()
-    least = max(2, round(LEAST_WALL / scale))
-    for upright in (False, True):
-        cells = left.T if upright else left
-        runs = binary_opening(cells, np.ones((1, least)))
-        labels, count = label(runs)
-        for k, where in enumerate(_slices(labels, count), 1):
-            part = labels[where] == k
-            for row, column, high, wide in _bands(part):
-                south, west = where[0].start + row, where[1].start + column
-                found.append((south, west, south + high, west + wide) if upright
-                             else (west, south, west + wide, south + high))
-        cells &= ~runs
-    for row, column, high, wide in rectangles(left):
-        if max(high, wide) >= least or min(high, wide) * scale >= LEAST_STUB:
-            found.append((column, row, column + wide, row + high))
-    return _joined(found, dark.shape)
-
-
-def _joined(boxes: list[Box], shape: tuple[int, ...]) -> list[Box]:
-    """The boxes, longer by a pixel or two where another one begins so near to an end."""
-    walls = np.zeros(shape, bool)
-    for west, south, east, north in boxes:
-        walls[south:north, west:east] = True
-    found = []
-    for west, south, east, north in boxes:
-        wide, high = east - west, north - south
-        left, right = _nearby(walls[south:north], west, east) if 2 * wide >= high else (0, 0)
-        below, above = _nearby(walls[:, west:east].T, south, north) if 2 * high >= wide else (0, 0)
-        found.append((west - left, south - below, east + right, north + above))
-    return found
-
-
-def _nearby(lines: np.ndarray, low: int, high: int) -> tuple[int, int]:
-    """How many pixels before `low` and after `high` the next wall is; 0 where it is not near."""
-    before, after = lines[:, :low][:, ::-1][:, :JOINT + 1], lines[:, high:high + JOINT + 1]
-    return (int(before.any(axis=0).argmax()) if before.any() else 0,
-            int(after.any(axis=0).argmax()) if after.any() else 0)
-
-
-def _slices(labels: np.ndarray, count: int) -> list[tuple[slice, slice]]:
-    from scipy.ndimage import find_objects
-    return [where for where in find_objects(labels, count) if where is not None]
-
-
-def _bands(part: np.ndarray) -> list[tuple[int, int, int, int]]:
-    """A run's rectangles: one if it is nearly straight, otherwise those that cover it."""
-    filled = part.mean()
-    if filled > 0.8:
-        rows = np.nonzero(part.mean(axis=1) >= 0.5)[0]
-        if len(rows):
-            return [(int(rows[0]), 0, int(rows[-1] - rows[0] + 1), part.shape[1])]
-    return rectangles(part)
-
-
 def _wall(west: float, south: float, east: float, north: float) -> Wall:
     wide, high = east - west, north - south
     x, y = (west + east) / 2, (south + north) / 2
     if wide >= high:
         return Wall((west, y), (east, y), high, 0.0, HEIGHT)
     return Wall((x, south), (x, north), wide, 0.0, HEIGHT)
-
-
-def _doors(walls: list[Wall]) -> list[Opening]:
-    """Gaps of 0.7 to 1.1 m between two walls in one line, and between a wall's end and a face."""
-    found = []
-    for along in (0, 1):
-        spans = []
-        for wall in walls:
-            run = 0 if abs(wall.end[0] - wall.start[0]) >= abs(wall.end[1] - wall.start[1]) else 1
-            half = wall.thickness / 2
-            low, high = sorted((wall.start[along], wall.end[along]))
-            across = wall.start[1 - along]
-            if run == along:
-                spans.append((low, high, across - half, across + half, True))
-            else:
-                first, last = sorted((wall.start[1 - along], wall.end[1 - along]))
-                spans.append((wall.start[along] - half, wall.start[along] + half, first, last,
-                              False))
-        for low, high, first, last, runs in spans:
-            if not runs or last - first > THICKEST:
-                continue
-            found += _gaps(spans, (low, high, first, last), along)
-    return _once(found)
-
-
-def _gaps(spans: list[tuple[float, float, float, float, bool]],
-          wall: tuple[float, float, float, float], along: int) -> list[Opening]:
-    """The gaps at both ends of a wall."""
-    low, high, first, last = wall
-    found = []
-    for end, sign in ((high, 1), (low, -1)):
-        beyond = [(s[0] - end if sign > 0 else end - s[1]) for s in spans
-                  if min(s[3], last) - max(s[2], first) > 0.5 * (last - first)]
-        gap = min((g for g in beyond if g > 0.02), default=0.0)
-        if NARROW <= gap <= WIDE and not any(-0.02 < g <= 0.02 for g in beyond):
-            at, across = end + sign * gap / 2, (first + last) / 2
-            x, y = (at, across) if along == 0 else (across, at)
-            half = (last - first) / 2
-            leaf = Leaf((-gap / 2 + 0.005, -half), gap - 0.01, 0.0, -pi / 2)
-            found.append(Opening('door', x, y, 0.0 if along == 0 else pi / 2, gap, 0.0, DOOR_TOP,
-                                 (-half, half), (leaf,), source='gap'))
-    return found
-
-
-def _once(openings: list[Opening]) -> list[Opening]:
-    kept: list[Opening] = []
-    for opening in openings:
-        if all(abs(opening.x - o.x) + abs(opening.y - o.y) > 0.3 for o in kept):
-            kept.append(opening)
-    return kept
 
 
 def _over(opening: Opening) -> Wall:

@@ -5,7 +5,7 @@ from math import cos, radians, sin
 from pathlib import Path
 
 import numpy as np
-from scipy.ndimage import affine_transform, median_filter
+from scipy.ndimage import affine_transform, convolve, median_filter
 
 from angen_apps.imports.source import read_bytes
 from angen_tools.common.failure import Failure
@@ -15,6 +15,9 @@ DARK = 0.5  # darkness of walls, unless that makes all or nothing a wall
 FEW, MOST = 0.002, 0.5  # shares of a picture that are dark
 CONTRAST = 0.1  # of paper and walls, at least
 SAMPLE = 20_000  # dark pixels by which the direction of walls is measured
+AROUND = np.array([[0, 1, 0], [1, 0, 1], [0, 1, 0]], np.uint8)  # the neighbors of a pixel
+SPECKS = 0.001  # of the pixels of a picture with noise that are alone
+KEPT = 0.5  # of the dark pixels: a median that changes more of them removes walls
 PLAIN = 0.15  # degrees: pictures that are turned less are left as they are
 CLEARER = 1.15  # times as much of the walls in line as before a picture is turned
 
@@ -53,6 +56,17 @@ def darkness(path: Path) -> np.ndarray:
 def without_noise(dark: np.ndarray) -> np.ndarray:
     """A median of 3 x 3, twice, takes the noise of a scan away."""
     return np.asarray(median_filter(median_filter(dark, 3), 3))
+
+
+def without_specks(dark: np.ndarray, limit: float) -> np.ndarray:
+    """The same of a coarse picture that has noise, if its walls are wide enough to remain."""
+    walls = dark > limit
+    calm = np.asarray(median_filter(dark, 3))
+    changed = (calm > limit) != walls
+    around = convolve(walls.astype(np.uint8), AROUND, mode='nearest')
+    alone = np.where(walls, around == 0, around == AROUND.sum())
+    is_noisy = alone.mean() > SPECKS and (changed & ~alone).sum() < KEPT * walls.sum()
+    return calm if is_noisy else dark
 
 
 def reduced(pixels: np.ndarray, factor: int) -> np.ndarray:
