@@ -9,6 +9,7 @@ namespace angen::rays {
 namespace {
 
 constexpr std::size_t kMaxLoose = 24;
+constexpr double kFloatError = 1e-3;  // m, of a float within 4 km of the origin
 
 void bounds(const RTCBoundsFunctionArguments* args) {
   const auto* solids = static_cast<const Solid*>(args->geometryUserPtr);
@@ -50,6 +51,20 @@ bool query_inside(RTCPointQueryFunctionArguments* args) {
   const Solid& solid = (*cover.solids)[args->primID];
   if (solid.slot == cover.except || !(cover.fixed || solid.anchored)) return false;
   cover.found = cover.found || contains(solid, cover.point);
+  return false;  // keeps the query's radius
+}
+
+struct Search {
+  RTCPointQueryContext context;  // first, as in SceneQuery
+  const std::vector<Solid>* solids;
+  const ShaftHull* hull;
+  const std::function<void(const Solid&)>* visit;
+};
+
+bool query_hull(RTCPointQueryFunctionArguments* args) {
+  const auto& search = *static_cast<Search*>(args->userPtr);
+  const Solid& solid = (*search.solids)[args->primID];
+  if (!solid.loose && search.hull->overlaps(solid)) (*search.visit)(solid);
   return false;  // keeps the query's radius
 }
 
@@ -154,6 +169,25 @@ bool Layer::any(SceneQuery& q) const {
   aim(ray, q.origin, q.direction, q.min, q.best.range);
   rtcOccluded1(tree_.scene.get(), &q.context, &ray);
   return q.solid != nullptr;
+}
+
+void Layer::find_in(const ShaftHull& hull, const std::function<void(const Solid&)>& visit) const {
+  for (const Solid& plane : planes) {
+    if (hull.overlaps(plane)) visit(plane);
+  }
+  for (const std::uint32_t at : loose_) {
+    if (hull.overlaps(bounded[at])) visit(bounded[at]);
+  }
+  if (bounded.empty()) return;
+  Search search;
+  rtcInitPointQueryContext(&search.context);
+  search.solids = &bounded;
+  search.hull = &hull;
+  search.visit = &visit;
+  const Eigen::Vector3f middle = hull.box().center().cast<float>();
+  const auto radius = reach(0.5 * hull.box().sizes().norm() + kFloatError);
+  RTCPointQuery query{middle.x(), middle.y(), middle.z(), 0.0F, radius};
+  rtcPointQuery(tree_.scene.get(), &query, &search.context, query_hull, &search);
 }
 
 bool Layer::covers(const Vec3& point, std::uint32_t except) const {

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <mutex>
 #include <vector>
 
 #include "rays/device.h"
 #include "rays/scene.h"
+#include "rays/shaft.h"
 #include "rays/solid.h"
 
 namespace angen::rays {
@@ -82,6 +84,8 @@ class Layer {
   void nearest(SceneQuery& q) const;
   /// Whether the ray hits a shape of this layer. Requires prepare().
   bool any(SceneQuery& q) const;
+  /// Calls visit() for each shape that may have a part in the hull. Requires prepare().
+  void find_in(const ShaftHull& hull, const std::function<void(const Solid&)>& visit) const;
   /// Whether a bounded static or anchored solid other than `except` contains the point (m, world).
   /// Requires prepare().
   bool covers(const Vec3& point, std::uint32_t except) const;

@@ -4,18 +4,19 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <set>
 #include <utility>
 
 #include "core/slots.h"
 #include "rays/height_tree.h"
 #include "rays/layer.h"
 #include "rays/mesh_tree.h"
+#include "rays/shaft.h"
 
 namespace angen::rays {
 namespace {
 
 constexpr std::size_t kMaxChanges = 4096;
+constexpr double kRim = 2e-3;  // m, of a box: what only reaches there is beside it
 
 struct Entry {
   Mobility mobility;
@@ -55,6 +56,7 @@ struct Scene::Impl {
   Layer fixed{true};
   Layer moving{false};
   std::map<const TriangleMesh*, std::weak_ptr<const MeshTree>> meshes;
+  std::uint64_t placements = 0;
   std::uint64_t revision = 0;
   std::uint64_t static_revision = 0;
   bool warm_dirty = false;
@@ -142,6 +144,7 @@ ShapeId Scene::add(const Shape& shape, const Pose& pose, Mobility mobility,
   impl_->places[id.index] = {};
   if (shape.type == Shape::Type::kEmpty) return id;
   solid.slot = id.index;
+  solid.placed = ++impl_->placements;
   solid.anchored = mobility == Mobility::kAnchored;
   Layer& layer = impl_->layer(mobility);
   std::vector<Solid>& list = layer.list(shape.type);
@@ -173,7 +176,9 @@ void Scene::move(ShapeId shape, const Pose& pose) {
   entry.pose = pose;
   if (entry.type == Shape::Type::kEmpty) return;
   Layer& layer = impl_->layer(entry.mobility);
-  layer.list(entry.type)[impl_->places[shape.index].at].place(pose);
+  Solid& solid = layer.list(entry.type)[impl_->places[shape.index].at];
+  solid.place(pose);
+  solid.placed = ++impl_->placements;
   if (entry.mobility == Mobility::kMoving && entry.type != Shape::Type::kPlane) {
     layer.move(impl_->places[shape.index].at);
   } else {
@@ -272,64 +277,19 @@ bool Scene::blocked(const Vec3& from, const Vec3& to, double margin, Mobilities 
   return q.prepare(from, direction, margin, length - margin, among) && impl_->any(q, among);
 }
 
-namespace {
-
-constexpr double kPast = 1e-7;  // m beyond a surface, more than the error of its range
-
-/// The surfaces of one shape that are on a line ahead of its origin.
-std::vector<Hit> surfaces_on(const Scene& scene, std::uint32_t shape, const Vec3& origin,
-                             const Vec3& direction) {
-  std::vector<Hit> surfaces;
-  Ray ray{origin, direction};
-  for (Hit hit = scene.cast_at(shape, ray); hit.hit(); hit = scene.cast_at(shape, ray)) {
-    surfaces.push_back(hit);
-    ray.min = hit.range + kPast;
+Shaft Scene::shaft(const Vec3& from, double near, std::uint32_t shape_index) const {
+  impl_->prepare(kAll);
+  const Solid& target = impl_->solid(shape_index);
+  const Vec3 rim = (0.25 * target.box.sizes()).cwiseMin(kRim);
+  const ShaftHull hull(from, near, {target.box.min() + rim, target.box.max() - rim});
+  std::vector<Shaft::Blocker> blockers;
+  for (const Layer* layer : {&impl_->fixed, &impl_->moving}) {
+    layer->find_in(hull, [&](const Solid& solid) {
+      if (&solid != &target) blockers.push_back({&solid, layer->fixed});
+    });
   }
-  return surfaces;
-}
-
-/// Appends the parts of the infinite line from `origin` that are inside one shape.
-void add_insides(const Scene& scene, std::uint32_t shape, const Vec3& origin, const Vec3& direction,
-                 std::vector<Crossing>& found) {
-  const std::vector<Hit> surfaces = surfaces_on(scene, shape, origin, direction);
-  if (scene.placement(shape).type == Shape::Type::kPlane) {
-    for (const Hit& hit : surfaces) found.push_back({hit.range, hit.range, shape, hit.normal});
-    return;
-  }
-  std::size_t next = 0;
-  // Odd, where the line starts inside; or where it touches the shape, and starts outside.
-  if (surfaces.size() % 2 == 1 && surfaces_on(scene, shape, origin, -direction).size() % 2 == 1) {
-    found.push_back({0.0, surfaces[0].range, shape, surfaces[0].normal});
-    next = 1;
-  }
-  for (; next + 1 < surfaces.size(); next += 2) {
-    found.push_back({surfaces[next].range, surfaces[next + 1].range, shape, surfaces[next].normal});
-  }
-}
-
-}  // namespace
-
-std::vector<Crossing> Scene::crossings(const Vec3& from, const Vec3& to, Mobilities among) const {
-  std::vector<Crossing> found;
-  const double length = (to - from).norm();
-  if (!(length > 0.0)) return found;
-  Ray ray{from, (to - from) / length, 0.0, length};
-  std::set<std::uint32_t> hit_shapes;
-  Hit hit;
-  for (cast(&ray, &hit, 1, among); hit.hit(); cast(&ray, &hit, 1, among)) {
-    if (hit_shapes.insert(hit.shape).second) {
-      add_insides(*this, hit.shape, from, ray.direction, found);
-    }
-    ray.min = hit.range + kPast;
-  }
-  found.erase(std::remove_if(found.begin(), found.end(),
-                             [&](const Crossing& c) { return c.enter > length; }),
-              found.end());
-  for (Crossing& crossing : found) crossing.leave = std::min(crossing.leave, length);
-  std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
-    return a.enter != b.enter ? a.enter < b.enter : a.shape < b.shape;
-  });
-  return found;
+  const bool is_fixed = impl_->places[shape_index].layer == &impl_->fixed;
+  return {hull, {&target, is_fixed}, std::move(blockers)};
 }
 
 Hit Scene::cast_at(std::uint32_t shape_index, const Ray& ray) const {

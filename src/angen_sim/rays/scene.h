@@ -69,6 +69,8 @@ struct Standing {
   Eigen::AlignedBox3d box;  // m, world; infinite for a plane
 };
 
+class Shaft;
+
 class Scene {
  public:
   Scene();
@@ -111,6 +113,11 @@ class Scene {
 
   /// All shapes on the segment (m, world), in the order in which it enters them. Requires commit().
   std::vector<Crossing> crossings(const Vec3& from, const Vec3& to, Mobilities among = kAll) const;
+
+  /// For many rays from one point (m, world) to one shape, of which none hits anything nearer than
+  /// `near` (m). A shape that reaches less than 2 mm into the other's box, as a floor does with
+  /// what stands on it, counts as beside it. Requires commit().
+  Shaft shaft(const Vec3& from, double near, std::uint32_t shape_index) const;
 
   /// The nearest hit on one shape; ignores all others.
   Hit cast_at(std::uint32_t shape_index, const Ray& ray) const;

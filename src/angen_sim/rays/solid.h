@@ -17,7 +17,8 @@ struct Solid {
   Vec3 half = Vec3::Zero();  // box: half lengths; cylinder, capsule: z is half the length
   double radius = 0.0;
   std::uint32_t slot = UINT32_MAX;
-  bool aligned = true;  // rotation is exactly the identity
+  std::uint64_t placed = 0;  // counts placements in its scene; the number of its latest one
+  bool aligned = true;       // rotation is exactly the identity
   bool anchored = false;
   mutable bool loose = false;                // has moved since its layer's hierarchy was built
   std::shared_ptr<const TriangleTree> mesh;  // also of a heightmap, which is a mesh here
