@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "plugin/plugin.h"
+#include "rays/shaft.h"
 
 /// A world of plain values, for testing one device or sensor without a simulation.
 namespace angen::test {
@@ -58,6 +59,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   Nanoseconds now = 0;
   Nanoseconds dt = 1'000'000;
   const rays::Scene* scene = nullptr;  // none: rays hit nothing
+  mutable int shafts = 0;              // that a sensor asked for
   Pose at;
   std::string instance = "it";
   std::string model_name = "model";
@@ -140,6 +142,10 @@ class FakeWorld : public View, public Wiring, public Outputs {
   }
   rays::Hit cast_at(std::uint32_t shape, const rays::Ray& ray) const override {
     return scene == nullptr ? rays::Hit{0.0, shape} : scene->cast_at(shape, ray);
+  }
+  rays::Shaft shaft(const Vec3& from, double near, std::uint32_t shape) const override {
+    ++shafts;
+    return scene->shaft(from, near, shape);
   }
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override {
     return light_at ? light_at(probe, pose) : light::Sample{};

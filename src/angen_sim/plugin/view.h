@@ -109,6 +109,8 @@ class View {
   }
   /// The nearest hit on this shape, as if there were no others.
   virtual rays::Hit cast_at(std::uint32_t shape, const rays::Ray& ray) const = 0;
+  /// For many rays from one point (world, m) to one shape; see rays::Scene::shaft.
+  virtual rays::Shaft shaft(const Vec3& from, double near, std::uint32_t shape) const = 0;
   /// The albedo, r g b, 0 to 1, of a shape that a ray hit.
   virtual Eigen::Vector3f reflectance(std::uint32_t shape) const = 0;
   /// Light at a place; see light::Lighting::measure. The first query in a world finds the light of

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "rays/shaft.h"
+
 namespace angen::sim {
 
 namespace {
@@ -75,6 +77,12 @@ void InstanceView::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hi
   engines_.rays.commit();
   hits.resize(rays.size());
   engines_.rays.cast(rays.data(), hits.data(), rays.size(), among);
+}
+
+rays::Shaft InstanceView::shaft(const Vec3& from, double near, std::uint32_t shape) const {
+  queried_.other = queried_.other || !watches();
+  engines_.rays.commit();
+  return engines_.rays.shaft(from, near, shape);
 }
 
 light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {

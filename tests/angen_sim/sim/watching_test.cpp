@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "angen_sim/sim/household.h"
+#include "rays/shaft.h"
 
 namespace angen::sim {
 namespace {
@@ -41,6 +42,9 @@ class Forgetful : public View {
   }
   rays::Hit cast_at(std::uint32_t shape, const rays::Ray& ray) const override {
     return view_.cast_at(shape, ray);
+  }
+  rays::Shaft shaft(const Vec3& from, double near, std::uint32_t shape) const override {
+    return view_.shaft(from, near, shape);
   }
   Eigen::Vector3f reflectance(std::uint32_t shape) const override {
     return view_.reflectance(shape);

@@ -22,7 +22,7 @@ constexpr double kSameAir = 0.01;                    // K
 constexpr double kZeroCelsius = 273.15;              // K
 constexpr double kWatchCell = 0.02;                  // rad between the rays that bound its view
 constexpr std::size_t kEach = 4;                     // of the rays to a surface, one is probed
-constexpr std::size_t kFewProbed = 24;               // of fewer rays all are cast
+constexpr std::size_t kFewProbed = 24;               // of fewer rays all are tested
 constexpr Nanoseconds kHiddenPeriod = kSecond / 20;  // while all surfaces are hidden
 constexpr std::size_t kMostScans = 64;
 
@@ -98,10 +98,9 @@ bool HeatSources::constant(Nanoseconds time) const {
   });
 }
 
-void Heat::aim(const View& view, RayBatch& rays) {
+void Heat::sample(const View& view) {
   const Pose pose = view.pose();
   view.watch([&] { return all_rays(pose); });
-  sampled_ = false;
   const bool still = view.scene_revision() == revision_ && pose == pose_;
   const std::uint64_t set = view.surfaces_set();
   const bool was_set = std::exchange(surfaces_set_, set) != set;
@@ -114,20 +113,19 @@ void Heat::aim(const View& view, RayBatch& rays) {
   pending_ = waits(view.time());
   if (pending_) return;
   follow_air(view);
-  sampled_ = true;
   revision_ = view.scene_revision();
   if (!(pose == pose_)) scans_.clear();
   pose_ = pose;
+  rotation_ = pose.rotation.toRotationMatrix();
   shapes_.clear();
   radiating_.all.clear();
-  samples_.clear();
   near_ = false;
   for (const rays::WarmShape& shape : view.warm_shapes()) {
     if (!radiates(shape, view)) continue;
     shapes_.push_back(shape.shape);
-    radiating_.all.push_back({0.0, view.warming(shape)});
-    aim_at(shape, pose, view, rays);
+    radiating_.all.push_back({factor_of(shape, view), view.warming(shape)});
   }
+  publish_sources();
 }
 
 bool Heat::radiates(const rays::WarmShape& shape, const View& view) const {
@@ -204,126 +202,108 @@ bool Heat::sees(const Eigen::AlignedBox3d& box, const Pose& pose) const {
   return angle <= cone + std::asin(radius / away);
 }
 
-void Heat::aim_at(const rays::WarmShape& shape, const Pose& pose, const View& view,
-                  RayBatch& rays) {
-  if (shape.box.isEmpty() || shape.box.exteriorDistance(pose.position) > range_) return;
-  if (!sees(shape.box, pose)) return;
+/// m^2 sr: the share of a surface's radiance that reaches the elements' difference.
+double Heat::factor_of(const rays::WarmShape& shape, const View& view) {
+  if (shape.box.isEmpty() || shape.box.exteriorDistance(pose_.position) > range_) return 0.0;
+  if (!sees(shape.box, pose_)) return 0.0;
+  Scan& found = scan_of(shape);
+  if (found.windows.empty()) return 0.0;
+  near_ = true;
+  const rays::Shaft shaft = view.shaft(pose_.position, kHousing, shape.shape);
+  const std::uint64_t blockers = shaft.blockers();
+  if (!found.is_known || found.blockers != blockers) {
+    found.factor = seen_factor(shaft, shape.shape, view, found);
+    found.blockers = blockers;
+    found.is_known = true;
+  }
+  return found.factor;
+}
+
+Heat::Scan& Heat::scan_of(const rays::WarmShape& shape) {
   if (scans_.size() > kMostScans) scans_.clear();
   const auto [at, is_new] = scans_.try_emplace(shape.shape);
   Scan& found = at->second;
-  if (is_new || found.box.min() != shape.box.min() || found.box.max() != shape.box.max() ||
-      found.rotation != shape.rotation || found.static_revision != view.static_revision()) {
-    scan_all(shape, pose, view, found);
-  } else if (!found.is_cleared) {  // it rests, or it would have another box
-    clear_blocked(view, found);
-  }
-  near_ = near_ || found.near;
-  for (std::size_t part = 0; part < found.parts.size(); ++part) {
-    const std::size_t end =
-        part + 1 < found.parts.size() ? found.parts[part + 1] : found.rays.size();
-    const std::size_t first = samples_.size();
-    for (std::size_t i = found.parts[part]; i < end; ++i) {
-      rays.push_back(found.rays[i]);
-      samples_.push_back({shapes_.size() - 1, found.factors[i]});
-    }
-    take_visible(first, view, rays);
-  }
-}
-
-void Heat::scan_all(const rays::WarmShape& shape, const Pose& pose, const View& view, Scan& found) {
-  found = {shape.box, shape.rotation, false, {}, {}, {}, false, view.static_revision()};
-  const Window around = window_of(shape.box, pose, lens_.window());
+  const bool rests = !is_new && found.box.min() == shape.box.min() &&
+                     found.box.max() == shape.box.max() && found.rotation == shape.rotation;
+  if (rests) return found;
+  found = Scan{};
+  found.box = shape.box;
+  found.rotation = shape.rotation;
+  const Window around = window_of(shape.box, pose_, lens_.window());
   for (const double turn : {0.0, kTurn, -kTurn}) {
     const Window seen = common(lens_.window(), around, turn);
-    if (seen.right >= seen.left || seen.low >= seen.high) continue;
-    found.near = true;
-    found.parts.push_back(found.rays.size());
-    scan(seen, pose, view, found);
+    if (seen.right < seen.left && seen.low < seen.high) found.windows.push_back(seen);
   }
+  return found;
 }
 
-// Removes the rays to a resting shape that static shapes block: others are cast again whenever
-// something moves.
-void Heat::clear_blocked(const View& view, Scan& found) {
-  found.is_cleared = true;
-  view.cast(found.rays, probed_, rays::only(rays::Mobility::kStatic));
-  std::size_t kept = 0;
-  std::size_t next_part = 0;
-  for (std::size_t i = 0; i < found.rays.size(); ++i) {
-    while (next_part < found.parts.size() && found.parts[next_part] == i) {
-      found.parts[next_part++] = kept;
-    }
-    const rays::Hit own = view.cast_at(shapes_.back(), found.rays[i]);
-    if (!own.hit() || probed_[i].range < own.range) continue;
-    found.rays[kept] = found.rays[i];
-    found.factors[kept++] = found.factors[i];
+double Heat::seen_factor(const rays::Shaft& shaft, std::uint32_t shape, const View& view,
+                         Scan& found) {
+  if (shaft.blocked()) return 0.0;
+  if (found.parts.empty()) {
+    for (const Window& seen : found.windows) found.parts.push_back(scan(seen, shape, view));
   }
-  found.rays.resize(kept);
-  found.factors.resize(kept);
+  double sum = 0.0;
+  for (const std::vector<Cell>& cells : found.parts) sum += visible(cells, shaft);
+  return sum;
 }
 
-// A grid of rays that moves with the shape, so that its outline makes no noise.
-void Heat::scan(const Window& seen, const Pose& pose, const View& view, Scan& found) {
+rays::Ray Heat::ray_to(double azimuth, double level, double up) const {
+  const Vec3 way(level * std::cos(azimuth), level * std::sin(azimuth), up);
+  return {pose_.position, (rotation_ * way).normalized(), kHousing, range_};
+}
+
+// A grid that moves with the shape, so that its outline makes no noise.
+std::vector<Heat::Cell> Heat::scan(const Window& seen, std::uint32_t shape, const View& view) {
   const int columns = cells(seen.left - seen.right, cell_width_);
   const int rows = cells(seen.high - seen.low, cell_height_);
   const double width = (seen.left - seen.right) / columns;
   const double height = (seen.high - seen.low) / rows;
-  const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
+  std::vector<Cell> found;
   for (int row = 0; row < rows; ++row) {
     const double elevation = seen.low + (row + 0.5) * height;
     const double level = std::cos(elevation);
     const double up = std::sin(elevation);
     const double shift = std::fmod(0.5 + row * 0.6180339887498949, 1.0);  // no edge falls on all
-    const auto ray_to = [&](int column) {
-      const double azimuth = seen.right + (column + shift) * width;
-      const Vec3 way(level * std::cos(azimuth), level * std::sin(azimuth), up);
-      return rays::Ray{pose.position, (rotation * way).normalized(), kHousing, range_};
-    };
-    const auto misses = [&](int column) {
-      return !view.cast_at(shapes_.back(), ray_to(column)).hit();
-    };
-    int first = 0;
-    while (first < columns && misses(first)) ++first;
-    int last = columns - 1;
-    while (last > first && misses(last)) --last;
-    for (int column = first; column <= last; ++column) {  // a convex shape fills the row between
+    const std::size_t first = found.size();
+    for (int column = 0; column < columns; ++column) {
       const double azimuth = seen.right + (column + shift) * width;
       const double sensitivity = lens_.sensitivity(azimuth, elevation);
       if (sensitivity == 0.0) continue;
       const double solid_angle = width * height * level;
-      found.rays.push_back(ray_to(column));
-      found.factors.push_back(solid_angle * sensitivity * opening_);
+      found.push_back({azimuth, level, up, solid_angle * sensitivity * opening_});
     }
+    const auto misses = [&](const Cell& cell) {
+      return !view.cast_at(shape, ray_to(cell.azimuth, cell.level, cell.up)).hit();
+    };
+    // A convex shape fills the row between two of its cells.
+    while (found.size() > first && misses(found.back())) found.pop_back();
+    const auto begin = found.begin() + static_cast<std::ptrdiff_t>(first);
+    found.erase(begin, std::find_if_not(begin, found.end(), misses));
   }
+  return found;
 }
 
 // Mostly all or nothing of a surface is in sight: some of its rays tell that, and save the others.
-void Heat::take_visible(std::size_t first, const View& view, RayBatch& rays) {
-  const std::size_t count = samples_.size() - first;
-  if (count < kFewProbed) return;
-  const std::size_t begin = rays.size() - count;
-  probes_.clear();
-  for (std::size_t i = 0; i < count; i += kEach) probes_.push_back(rays[begin + i]);
-  view.cast(probes_, probed_);
-  const auto seen = std::count_if(probed_.begin(), probed_.end(), [&](const rays::Hit& hit) {
-    return hit.shape == shapes_.back();
-  });
-  if (seen != 0 && seen != static_cast<std::ptrdiff_t>(probes_.size())) return;
-  for (std::size_t i = first; seen != 0 && i < samples_.size(); ++i) {
-    radiating_.all.back().factor += samples_[i].factor;
+double Heat::visible(const std::vector<Cell>& cells, const rays::Shaft& shaft) const {
+  const auto is_seen = [&](const Cell& cell) {
+    return shaft.sees(ray_to(cell.azimuth, cell.level, cell.up));
+  };
+  std::size_t probed = 0;
+  std::size_t seen = 0;
+  if (!shaft.clear() && cells.size() >= kFewProbed) {
+    for (std::size_t i = 0; i < cells.size(); i += kEach, ++probed) seen += is_seen(cells[i]);
+    if (seen == 0) return 0.0;
   }
-  samples_.resize(first);
-  rays.resize(begin);
+  const bool whole = shaft.clear() || (probed > 0 && seen == probed);
+  double sum = 0.0;
+  for (const Cell& cell : cells) {
+    if (whole || is_seen(cell)) sum += cell.factor;
+  }
+  return sum;
 }
 
-double Heat::flux(Hits hits, Nanoseconds now) {
-  if (sampled_) {
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const std::size_t surface = samples_[i].surface;
-      if (hits[i].shape == shapes_[surface]) radiating_.all[surface].factor += samples_[i].factor;
-    }
-    publish_sources();
-  }
+double Heat::flux(Nanoseconds now) {
   flux_ = radiating_.flux(now);
   return flux_;
 }

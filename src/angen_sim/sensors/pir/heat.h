@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plugin/view.h"
+#include "rays/shaft.h"
 #include "sensors/pir/fresnel_lens.h"
 
 namespace angen::sensors {
@@ -36,11 +37,11 @@ class Heat {
   /// transmittance of the lens and the detector's window.
   Heat(FresnelLens lens, double range, double opening, Nanoseconds period);
 
-  /// Requests rays towards every such surface; none where nothing moved since the last time.
-  void aim(const View& view, RayBatch& rays);
+  /// Looks at every such surface; at none where nothing moved since the last time.
+  void sample(const View& view);
 
-  /// Flux on the positive element less that on the negative one, in W, now.
-  double flux(Hits hits, Nanoseconds now);
+  /// Flux on the positive element less that on the negative one, in W.
+  double flux(Nanoseconds now);
 
   /// What it comes from, until something moves or a surface is set to another temperature. The
   /// object is replaced when it changes.
@@ -56,35 +57,37 @@ class Heat {
   /// Whether it has yet to sample moved surfaces.
   bool pending() const { return pending_; }
 
-  /// Samples all surfaces at the next aim().
+  /// Samples all surfaces at the next sample().
   void forget() { revision_ = UINT64_MAX; }
 
  private:
   /// The solid angle of one ray.
-  struct Sample {
-    std::size_t surface;  // in shapes_
-    double factor;        // m^2 sr, of the elements' difference, where the ray hits the surface
+  struct Cell {
+    double azimuth;  // rad
+    double level;    // the ray's horizontal part …
+    double up;       // … and its vertical one
+    double factor;   // m^2 sr, of the elements' difference, where the ray hits the surface
   };
 
-  /// The rays to a shape that stays where it is, and what each counts.
+  /// A shape as the detector sees it, as long as neither moves.
   struct Scan {
-    Eigen::AlignedBox3d box;  // the shape's
+    Eigen::AlignedBox3d box;
     Eigen::Matrix3d rotation;
-    bool near = false;
-    std::vector<rays::Ray> rays;
-    std::vector<double> factors;     // as in Sample
-    std::vector<std::size_t> parts;  // where each window begins
-    bool is_cleared = false;         // of the rays that static shapes block
-    std::uint64_t static_revision = 0;
+    std::vector<Window> windows;           // of the lens, around the shape
+    std::vector<std::vector<Cell>> parts;  // that it fills of each window; once needed
+    std::uint64_t blockers = 0;            // of its shaft, when it was last looked at …
+    double factor = 0.0;                   // … and what was seen of it, m^2 sr
+    bool is_known = false;
   };
 
   std::vector<rays::Ray> all_rays(const Pose& pose) const;
   bool sees(const Eigen::AlignedBox3d& box, const Pose& pose) const;
-  void aim_at(const rays::WarmShape& shape, const Pose& pose, const View& view, RayBatch& rays);
-  void scan_all(const rays::WarmShape& shape, const Pose& pose, const View& view, Scan& found);
-  void scan(const Window& seen, const Pose& pose, const View& view, Scan& found);
-  void clear_blocked(const View& view, Scan& found);
-  void take_visible(std::size_t first, const View& view, RayBatch& rays);
+  double factor_of(const rays::WarmShape& shape, const View& view);
+  Scan& scan_of(const rays::WarmShape& shape);
+  double seen_factor(const rays::Shaft& shaft, std::uint32_t shape, const View& view, Scan& found);
+  std::vector<Cell> scan(const Window& seen, std::uint32_t shape, const View& view);
+  double visible(const std::vector<Cell>& cells, const rays::Shaft& shaft) const;
+  rays::Ray ray_to(double azimuth, double level, double up) const;
   bool waits(Nanoseconds now) const;
   bool radiates(const rays::WarmShape& shape, const View& view) const;
   bool reheat(const View& view);
@@ -100,20 +103,17 @@ class Heat {
   std::vector<std::uint32_t> shapes_;  // that radiate more or less than the air …
   HeatSources radiating_;              // … and how they do
   std::shared_ptr<const HeatSources> sources_ = std::make_shared<HeatSources>();  // a copy of that
-  std::vector<Sample> samples_;
   std::uint64_t revision_ = UINT64_MAX;
   Pose pose_;
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();  // of pose_
   bool near_ = false;                              // whether a surface is where the lens looks
   std::unordered_map<std::uint32_t, Scan> scans_;  // by shape, from pose_
-  std::vector<rays::Ray> probes_;
-  std::vector<rays::Hit> probed_;
-  bool sampled_ = false;  // whether aim() has requested rays
-  bool pending_ = false;  // something has moved since
+  bool pending_ = false;                           // something has moved since
   double flux_ = 0.0;
   double air_ = 0.0;  // K
   double drift_ = 0.0;
   bool rests_ = false;
-  std::uint64_t surfaces_set_ = UINT64_MAX;  // at the last aim()
+  std::uint64_t surfaces_set_ = UINT64_MAX;  // at the last sample()
   Nanoseconds felt_at_ = -1;                 // that air, in whole seconds
 };
 

@@ -155,13 +155,13 @@ void Pyroelectric::Decay::read(Nanoseconds to, const Draws& draws, Reading& read
   then.write(then.with_noise(rng), reading);
 }
 
-void Pyroelectric::aim(const View& view, RayBatch& rays) {
+void Pyroelectric::aim(const View& view, RayBatch&) {
   if (view.time() < state_.time) heat_.forget();  // the clock was set back
-  heat_.aim(view, rays);
+  heat_.sample(view);
 }
 
-void Pyroelectric::read(const View& view, Hits hits, Rng& rng, Reading& reading) {
-  const double flux = heat_.flux(hits, view.time()) - heat_.drift();
+void Pyroelectric::read(const View& view, Hits, Rng& rng, Reading& reading) {
+  const double flux = heat_.flux(view.time()) - heat_.drift();
   const bool first = state_.time < 0 || view.time() < state_.time;
   if (first) {
     trigger_ = Trigger(times_, view.time());
