@@ -11,6 +11,7 @@ namespace angen::devices {
 
 namespace {
 
+constexpr rays::Mobilities kStatic = rays::only(rays::Mobility::kStatic);
 constexpr double kScanHeights[] = {0.15, 0.5, 1.2};  // m, as a person sees
 constexpr double kDetour = 20.0;                     // m around both places
 constexpr double kBorder = 1.0;                      // m around the static shapes
@@ -58,9 +59,7 @@ FloorMap::FloorMap(const View& view, const Vec3& feet, const Vec2& to, Extent ex
   squares_.assign(static_cast<std::size_t>(columns_) * rows_, kRoomyMap * kRoomyMap);
   toll_.assign(squares_.size(), 0.0F);
   known_.assign(squares_.size(), 0);
-  for (const double height : kScanHeights) {
-    for (const int axis : {0, 1}) scan_lines(view, floor_ + height, axis);
-  }
+  for (const int axis : {0, 1}) scan_lines(view, axis);
 }
 
 Eigen::AlignedBox2d FloorMap::area(const View& view, const Eigen::AlignedBox2d& ends) {
@@ -81,18 +80,26 @@ bool FloorMap::serves(const View& view, const Vec3& feet, const Vec2& to) const 
 }
 
 // Lines along both axes, so that none of two is along a thin wall.
-void FloorMap::scan_lines(const View& view, double z, int axis) {
+void FloorMap::scan_lines(const View& view, int axis) {
   const int lines = axis == 0 ? rows_ : columns_;
   const double length = kCell * ((axis == 0 ? columns_ : rows_) - 1);
+  const Vec2 ahead = Vec2::Unit(axis);
+  std::vector<std::pair<double, double>> spans;
   for (int line = 0; line < lines; ++line) {
-    Vec3 from(corner_.x(), corner_.y(), z);
+    Vec2 from = corner_;
     from[1 - axis] += line * kCell;
-    Vec3 to = from;
-    to[axis] += length;
-    for (const rays::Crossing& c : view.crossings(from, to, rays::only(rays::Mobility::kStatic))) {
-      const Vec3 ahead = Vec3::Unit(axis);
-      add_span((from + c.enter * ahead).head<2>(), (from + c.leave * ahead).head<2>());
+    const Vec2 to = from + length * ahead;
+    spans.clear();
+    for (const double height : kScanHeights) {
+      const double z = floor_ + height;
+      for (const rays::Crossing& c :
+           view.crossings({from.x(), from.y(), z}, {to.x(), to.y(), z}, kStatic)) {
+        spans.emplace_back(c.enter, c.leave);
+      }
     }
+    std::sort(spans.begin(), spans.end());  // most walls are alike at all heights
+    spans.erase(std::unique(spans.begin(), spans.end()), spans.end());
+    for (const auto& [enter, leave] : spans) add_span(from + enter * ahead, from + leave * ahead);
   }
 }
 

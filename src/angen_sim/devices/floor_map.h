@@ -48,7 +48,7 @@ class FloorMap {
   struct Search;
 
   static Eigen::AlignedBox2d area(const View& view, const Eigen::AlignedBox2d& ends);
-  void scan_lines(const View& view, double z, int axis);
+  void scan_lines(const View& view, int axis);
   void add_span(const Vec2& enter, const Vec2& leave);
   void add_point(const Vec2& point);
   int column(double x) const;
