@@ -20,7 +20,7 @@ BODY = 0.3  # m: half the width of a person, with a margin
 CLEAR = 1.05  # m from a door's middle: its leaf does not meet who is there
 SWING = 1.25  # m from a door's middle: its leaf does not reach farther
 LEAF = 0.2  # m beyond a door's width from its middle: the farthest end of its leaf
-GOALS = 64  # goals whose ways are cached
+CACHED = 1 << 25  # bytes of ways to goals that are kept
 REACH = 1.1  # m from a person to the thing that the person uses
 
 
@@ -237,7 +237,7 @@ class Ground:
         found = self._toward.pop(key, None)
         if found is None:
             found = planner.toward(goal)
-            if len(self._toward) >= GOALS:
+            while self._toward and (len(self._toward) + 1) * found.nbytes > CACHED:
                 del self._toward[next(iter(self._toward))]
         self._toward[key] = found
         return found

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.ndimage import distance_transform_edt
@@ -39,6 +40,10 @@ class Planner:
         self._passable = (clear >= radius) & (grid.cells == FREE)
         cost = 1 + NEAR_COST * np.clip((radius + OPEN - clear) / OPEN, 0, 1)
         self._graph = step_costs(self._passable, cost)
+
+    @cached_property
+    def _reversed(self) -> csr_matrix:
+        return csr_matrix(self._graph.T)
 
     def is_free(self, point: Point) -> bool:
         """Whether the robot fits there."""
@@ -85,7 +90,7 @@ class Planner:
         are counted row by row."""
         columns = self._passable.shape[1]
         row, column = self.grid.cell(*goal)
-        return np.asarray(dijkstra(self._graph.T, indices=row * columns + column,
+        return np.asarray(dijkstra(self._reversed, indices=row * columns + column,
                                    return_predecessors=True)[1])
 
     def along(self, following: np.ndarray, start: Point, goal: Point) -> list[Point] | None:
