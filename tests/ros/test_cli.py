@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Iterator
 
 import pytest
-from angen_msgs.srv import Delete, Step
+from angen_msgs.srv import Delete, List, Step
 from harness import Angen, Cli, Master, end, open_terminal, own_terminal
 from gazebo_msgs.msg import ContactsState
 from lxml import etree
@@ -90,12 +90,15 @@ def test_delete_stops_at_the_first_that_is_not_there(cli: Cli, spawned: list[str
     assert [n for n in cli.listed('switch') if n.startswith('cli_')] == ['cli_b']
 
 
-def test_list_is_an_aligned_table(cli: Cli) -> None:
+def test_list_is_an_aligned_table(cli: Cli, angen: Angen) -> None:
     head, *rows = cli.does('list').splitlines()
     columns = [head.index(word) for word in ('NAME', 'KIND', 'MODEL', 'X')]
     assert all(row[at - 1:at] in ('', ' ') and row[at] != ' ' for row in rows for at in columns)
     assert cli.does('list', '--kind', 'person').splitlines() == [
-        'NAME  KIND  MODEL  X  Y  Z  YAW  TOPIC']
+        'NAME  KIND  MODEL  ROOM  X  Y  Z  YAW  TOPIC']
+    listed = json.loads(cli.does('list', '--kind', 'door', '--json'))
+    answer = angen.call('/angen/list', List, kind='door')
+    assert [door['room'] for door in listed] == [door.room for door in answer.entities] != []
     assert 'did you mean door' in cli.fails('list', '--kind', 'dor')
 
 

@@ -24,7 +24,7 @@ def list_entities(kind: str, json: bool) -> RenderableType:
     chosen = [entity for entity in every if kind in ('', entity.kind)]
     if json:
         return as_json([_as_dict(entity) for entity in chosen])
-    return table(('NAME', 'KIND', 'MODEL', 'X', 'Y', 'Z', 'YAW', 'TOPIC'),
+    return table(('NAME', 'KIND', 'MODEL', 'ROOM', 'X', 'Y', 'Z', 'YAW', 'TOPIC'),
                  (_row(entity) for entity in chosen))
 
 
@@ -32,12 +32,12 @@ def _row(entity: Any) -> list[str]:
     at = entity.pose.position
     numbers = [f'{round(v, 3) + 0.0:g}'
                for v in (at.x, at.y, at.z, yaw_of(entity.pose.orientation))]
-    return [entity.name, entity.kind, entity.model, *numbers, entity.topic]
+    return [entity.name, entity.kind, entity.model, entity.room, *numbers, entity.topic]
 
 
 def _as_dict(entity: Any) -> dict[str, Any]:
     at, turn = entity.pose.position, entity.pose.orientation
-    return {'name': entity.name, 'kind': entity.kind, 'model': entity.model, 'topic': entity.topic,
-            'type': entity.type,
+    return {'name': entity.name, 'kind': entity.kind, 'model': entity.model, 'room': entity.room,
+            'topic': entity.topic, 'type': entity.type,
             'pose': {'position': [at.x, at.y, at.z],
                      'orientation': [turn.x, turn.y, turn.z, turn.w]}}
