@@ -105,6 +105,30 @@ def test_rooms_are_found_between_walls(world: Make) -> None:
     assert kinds == {'guessed'}, made.home_findings()
 
 
+def walls_of(name: str, x: float, y: float, wide: float, z: float, high: float) -> str:
+    """Four walls around a square."""
+    sides = ((x + wide / 2, y, wide, 0.1), (x + wide / 2, y + wide, wide, 0.1),
+             (x, y + wide / 2, 0.1, wide), (x + wide, y + wide / 2, 0.1, wide))
+    return ''.join(box(f'{name}{i}', f'{u} {v} {z + high / 2} 0 0 0', f'{a + 0.1} {b + 0.1} {high}',
+                       static=True) for i, (u, v, a, b) in enumerate(sides))
+
+
+def test_neither_a_low_bed_is_a_floor_nor_a_shaft_the_only_room(world: Make) -> None:
+    bed = box('bed', '2 2 0.13 0 0 0', '1.6 2 0.26', static=True)
+    made = world(walls_of('room', 0, 0, 4, 0, 2.2) + walls_of('shaft', 8, 0, 1.6, 0, 3.0) + bed)
+    home = Home.of_world(made)
+    assert sorted(room.area for room in home.rooms) == pytest.approx([1.96, 14.44], abs=0.3)
+    assert [room.floor for room in home.rooms] == [0.0, 0.0]
+
+
+def test_floors_that_are_found_at_two_heights_are_storeys(world: Make) -> None:
+    slab = box('slab', '2 2 2.9 0 0 0', '4.1 4.1 0.2', static=True)
+    made = world(walls_of('low', 0, 0, 4, 0, 2.8) + slab + walls_of('high', 0, 0, 4, 3, 2.5))
+    home = Home.of_world(made)
+    assert [(storey.number, storey.elevation) for storey in home.storeys] == [(0, 0), (1, 3)]
+    assert home.storey_at(3.1) == 1 and home.elevation(1) == 3
+
+
 def test_doorways_as_high_as_walls_separate_rooms_too(world: Make) -> None:
     parts = HOUSE.split('</model>')
     open_house = '</model>'.join(part for part in parts if '_c"' not in part)

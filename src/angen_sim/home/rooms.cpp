@@ -23,6 +23,8 @@ constexpr double kTolerance = 0.08;     // m, of corners
 constexpr double kNarrow = 0.3;         // m, half the width of the narrowest room
 constexpr double kPillar = 0.25;        // m^2: smaller ones are left out
 constexpr double kLowestCeiling = 1.9;  // m
+constexpr double kPlane = 10.0;         // m^2 of a slab on a plane that is the floor instead of it
+constexpr double kAsMuch = 0.8;         // of the area found at a lower height is enough at a higher
 constexpr double kHeights[] = {2.3, 2.0, 1.5,
                                1.0};  // m over the floor: above lintels, if there are
 
@@ -65,26 +67,30 @@ std::vector<double> floors_of(const HomeSurvey& survey, const std::vector<Solid>
     if (is_wall(solid)) feet.push_back(solid.bounds.min().z());
   }
   std::sort(feet.begin(), feet.end());
-  std::vector<double> slabs;
+  std::vector<std::pair<double, double>> slabs;  // z of the top, area
   for (const Solid& solid : solids) {
     const Vec3 size = solid.bounds.sizes();
-    if (size.z() < kWallHeight / 2 && size.x() * size.y() > kSmallestRoom) {
-      slabs.push_back(solid.bounds.max().z());
+    const double area = size.x() * size.y();
+    if (size.z() < kWallHeight / 2 && area > kSmallestRoom) {
+      slabs.emplace_back(solid.bounds.max().z(), area);
     }
   }
   for (const HomeSurvey::Standing& standing : survey.models) {
     for (const desc::Link& link : standing.model->links) {
       for (const desc::Collision& collision : link.collisions) {
         if (collision.shape.type != Shape::Type::kPlane) continue;
-        slabs.push_back((standing.pose * link.pose * collision.pose).position.z());
+        slabs.emplace_back((standing.pose * link.pose * collision.pose).position.z(), kPlane);
       }
     }
   }
   std::vector<double> floors;
   for (const double foot : feet) {
     double floor = foot;
-    for (const double slab : slabs) {
-      if (slab >= foot - 0.1 && slab < foot + 0.3) floor = std::max(floor, slab);
+    double widest = 0.0;
+    for (const auto& [top, area] : slabs) {
+      if (top < foot - 0.1 || top >= foot + 0.3 || area <= widest) continue;
+      floor = std::max(foot, top);
+      widest = area;
     }
     if (floors.empty() || floor - floors.back() > kFloorsApart) floors.push_back(floor);
   }
@@ -263,6 +269,12 @@ double ceiling_over(const Room& room, const std::vector<Solid>& solids, double f
   return ceiling;
 }
 
+double covered(const std::vector<Room>& rooms) {
+  double area = 0.0;
+  for (const Room& room : rooms) area += std::abs(signed_area(room.outline));
+  return area;
+}
+
 }  // namespace
 
 std::vector<Room> guess_rooms(const HomeSurvey& survey) {
@@ -271,8 +283,8 @@ std::vector<Room> guess_rooms(const HomeSurvey& survey) {
   for (const double floor : floors_of(survey, solids)) {
     std::vector<Room> best;
     for (const double height : kHeights) {
-      best = Plan(solids, floor + height).rooms();
-      if (!best.empty()) break;
+      std::vector<Room> found = Plan(solids, floor + height).rooms();
+      if (kAsMuch * covered(found) > covered(best)) best = std::move(found);
     }
     for (Room& room : best) {
       room.use = "other";

@@ -128,11 +128,11 @@ def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH,
 
 
 def floors(world: Any) -> list[int]:
-    """The floors that the world describes without those on which nothing is, such as a roof; or
-    0, 1, … that are not empty, up to the first that is."""
+    """The storeys of the world without those on which nothing is, such as a roof; where only one
+    was found, 0, 1, … that are not empty, up to the first that is."""
     home = Home.of_world(world)
     surveyor = _Surveyor(world)
-    if home.described:
+    if home.has_storeys:
         return [storey.number for storey in home.storeys
                 if surveyor.bounds(storey.elevation) is not None]
     found: list[int] = []

@@ -201,6 +201,11 @@ class Home:
         return any(not room.guessed for room in self.rooms)
 
     @property
+    def has_storeys(self) -> bool:
+        """Whether its storeys are described, or floors were found at several heights."""
+        return self.described or len(self.storeys) > 1
+
+    @property
     def time_of_day(self) -> float:
         """At simulated time 0, in s since midnight; 0 where the world does not say."""
         return time_of_day(self.start.partition('T')[2] or '0:00')
@@ -210,14 +215,14 @@ class Home:
 
     def storey_at(self, z: float) -> int:
         """The number of the highest storey whose floor is not above z."""
-        if not self.described:
+        if not self.has_storeys:
             return math.floor((z + ON_FLOOR) / STOREY)
         below = [storey for storey in self.storeys if storey.elevation - ON_FLOOR <= z]
         return below[-1].number if below else self.storeys[0].number
 
     def elevation(self, number: int) -> float:
         """The height of a storey's floor."""
-        storey = self.storey(number) if self.described else None
+        storey = self.storey(number) if self.has_storeys else None
         return storey.elevation if storey else number * STOREY
 
 
