@@ -174,7 +174,21 @@ void pair_leaves(std::vector<Leaf>& leaves) {
   }
 }
 
-std::optional<Landing> landing_at(const Home& home, const Pose& cabin, double z) {
+// m from the origin of a cabin to its edge along a way.
+double edge_of(const desc::Link& cabin, const Pose& pose, const Vec3& way) {
+  double edge = 0.0;
+  for (const desc::Collision& collision : cabin.collisions) {
+    const auto box = box_around(collision.shape, pose * collision.pose);
+    if (!box) continue;
+    const Vec3 inside = box->pose.rotation.conjugate() * way;
+    edge = std::max(
+        edge, (box->pose.position - pose.position).dot(way) + inside.cwiseAbs().dot(box->size) / 2);
+  }
+  return edge;
+}
+
+std::optional<Landing> landing_at(const Home& home, const desc::Link& link, const Pose& cabin,
+                                  double z) {
   const Storey* storey = nullptr;
   for (const Storey& each : home.storeys) {
     if (std::abs(each.elevation - z) < kAtStop) storey = &each;
@@ -185,14 +199,15 @@ std::optional<Landing> landing_at(const Home& home, const Pose& cabin, double z)
     for (int side = 0; side < 4; ++side) {
       const double angle = yaw + side * M_PI_2;
       const Vec3 way(std::cos(angle), std::sin(angle), 0.0);
-      const Vec3 edge =
-          Vec3(cabin.position.x(), cabin.position.y(), storey->elevation) + away * way;
-      const Room* room = room_in(home, edge + Vec3::UnitZ());
+      const Vec3 middle(cabin.position.x(), cabin.position.y(), storey->elevation);
+      const Room* room = room_in(home, middle + away * way + Vec3::UnitZ());
       if (room == nullptr) continue;
       Landing landing;
       landing.storey = storey->number;
       landing.room = room->name;
-      landing.pose = {edge + kWaits * way, std::remainder(angle + M_PI, 2 * M_PI)};
+      // also where the room that the elevator is in has no wall around it
+      const double edge = std::max(away, edge_of(link, cabin, way));
+      landing.pose = {middle + (edge + kWaits) * way, std::remainder(angle + M_PI, 2 * M_PI)};
       return landing;
     }
   }
@@ -210,7 +225,7 @@ void add(const HomeSurvey& survey, const HomeSurvey::Lift& lift, Home& home) {
   elevator.pose.position.z() += lift.stops.front();
   for (const double stop : lift.stops) {
     const double z = elevator.pose.position.z() + stop - lift.stops.front();
-    if (const auto landing = landing_at(home, elevator.pose, z)) {
+    if (const auto landing = landing_at(home, *cabin, elevator.pose, z)) {
       elevator.landings.push_back(*landing);
     }
   }
