@@ -132,6 +132,18 @@ def test_layers_of_one_height_are_one_storey(tmp_path: Path) -> None:
     assert not plan.remarks
 
 
+@pytest.mark.parametrize('name, shown', [('a&#9;b&#10; c', 'a b c'), ('&#9;', 'Floor 0'),
+                                         ('x' * 300, 'x' * 40)])
+def test_odd_names_of_levels_are_one_line(name: str, shown: str, tmp_path: Path) -> None:
+    path = small(tmp_path, f'<level id="a" name="{name}" elevation="0" height="250"/>')
+    text = path.read_text().replace('<wall ', '<wall level="a" ').replace('<room ',
+                                                                          '<room level="a" ')
+    path.write_text(text)
+    write_world(read_sweethome(path), tmp_path / 'a.world', 'none')
+    storey, = angen.World(str(tmp_path / 'a.world')).home['storeys']
+    assert storey['name'] == shown
+
+
 def test_a_door_ends_below_the_ceiling(tmp_path: Path) -> None:
     path = small(tmp_path, '<doorOrWindow catalogId="eTeks#door" name="Door" x="200" y="300" '
                  f'width="90" depth="20" height="400">{SASH}</doorOrWindow>')

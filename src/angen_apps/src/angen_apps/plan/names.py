@@ -51,6 +51,11 @@ def plain_name(text: str, otherwise: str) -> str:
     return re.sub(r'[^A-Za-z0-9_. -]', '_', text).strip()[:LONGEST] or otherwise
 
 
+def line_of(text: str) -> str:
+    """A text for people as one line without control characters."""
+    return ' '.join(''.join(each if each.isprintable() else ' ' for each in text).split())[:LONGEST]
+
+
 def use_of(name: str) -> str:
     """The use of a room by its name; '' if the name does not tell it."""
     plain = ''.join(each for each in unicodedata.normalize('NFKD', name.lower())

@@ -13,7 +13,7 @@ from angen_apps.plan.doors import GLASS, OAK, Hung, leaf_model
 from angen_apps.plan.finish import beside_box, sides, stem
 from angen_apps.plan.furnish import obstacles, piece_model
 from angen_apps.plan.lifts import add_lift
-from angen_apps.plan.names import with_number
+from angen_apps.plan.names import line_of, with_number
 from angen_apps.plan.model import Lamp, Opening, Plan, Room, Storey
 from angen_apps.plan.slabs import Slabs, slabs
 from angen_apps.plan.travel import Obstacle, hang
@@ -155,7 +155,8 @@ def _add_building(world: etree._Element, plan: Plan, storey: Storey, made: Slabs
     model = blocks.add(world, 'model', name=f'building{storey.number}')
     blocks.add(model, 'static', 'true')
     if storey.rooms:
-        described = _angen(model, 'storey', name=storey.name, number=str(storey.number))
+        described = _angen(model, 'storey', name=line_of(storey.name) or f'Floor {storey.number}',
+                           number=str(storey.number))
         _angen(described, 'elevation', round(storey.elevation, 4))
         _angen(described, 'height', round(storey.height, 4))
     for room in storey.rooms:
