@@ -8,6 +8,7 @@ import os
 import shutil
 import signal
 import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -20,6 +21,7 @@ from angen_apps.data.site import apartment
 from angen_apps.data.validate import homes, validate
 from angen_tools.common.failure import Failure
 
+SCRIPT = Path(__file__).resolve().parents[3] / 'src/angen_tools/scripts/angen'
 HOMES = 2
 STARTS = 60.0  # s of wall time, at most, until a worker is there
 
@@ -44,9 +46,13 @@ def world(tmp_path_factory) -> Path:
 
 @pytest.fixture(scope='module')
 def made(tmp_path_factory, world) -> Path:
-    """Homes by one process."""
+    """Homes by one process of the command."""
     folder = tmp_path_factory.mktemp('made')
-    generate(job(folder, world), HOMES, 1)
+    wanted = job(folder, world)
+    subprocess.run([sys.executable, str(SCRIPT), 'generate', '--homes', str(HOMES), '--days', '1',
+                    '--residents', *wanted.residents, '--seed', str(wanted.seed), '--processes',
+                    '1', '--format', ','.join(wanted.formats), '--world', str(world),
+                    '--own-sensors', '-o', str(folder)], check=True)
     return folder
 
 
