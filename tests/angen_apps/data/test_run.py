@@ -91,6 +91,22 @@ def test_validate_finds_walls_and_seats(lived, tmp_path):
     assert len(validate(tmp_path).wrong['nobody crossed a wall']) == 1
 
 
+def test_validate_knows_a_room_within_another(lived, tmp_path):
+    FORMATS['csv'](tmp_path, lived)
+    write_truth(tmp_path, lived)
+    layout = json.loads((tmp_path / 'layout.json').read_text())
+    core = [[2.0, 2.0], [4.0, 2.0], [4.0, 4.0], [2.0, 4.0]]
+    ring = [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0]]
+    layout |= {'doors': [], 'rooms': [
+        {**layout['rooms'][0], 'name': name, 'storey': 0, 'polygon': polygon, 'holes': holes}
+        for name, polygon, holes in (('hall', ring, [core]), ('bathroom', core, []))]}
+    (tmp_path / 'layout.json').write_text(json.dumps(layout))
+    with gzip.open(tmp_path / 'track.csv.gz', 'wt') as file:
+        file.write('time,resident,x,y,storey\n5000.0,anna,1.9,3.0,0\n5000.4,anna,2.1,3.0,0\n')
+    wrong, = validate(tmp_path).wrong['nobody crossed a wall']
+    assert 'from hall' in wrong and 'to bathroom' in wrong
+
+
 def test_validate_lets_a_step_pass_an_opening_aslant(lived, tmp_path):
     FORMATS['csv'](tmp_path, lived)
     write_truth(tmp_path, lived)

@@ -178,7 +178,7 @@ def write_truth(folder: Path, data: run.Data) -> list[Path]:
         'residents': [{'name': name, 'profile': profile, 'speed': read(profile).speed}
                       for name, profile in data.residents],
         'rooms': [{'name': r.name, 'use': r.use, 'storey': r.storey,
-                   'polygon': r.polygon, 'area': r.area}
+                   'polygon': r.polygon, 'holes': r.holes, 'area': r.area}
                   for r in home.rooms],
         'doors': [{'name': d.name, 'kind': d.kind, 'rooms': list(d.rooms), 'pose': list(d.pose),
                    'width': d.width} for d in home.doors],

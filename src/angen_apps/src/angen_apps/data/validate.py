@@ -125,8 +125,8 @@ def _walls(findings: Findings, layout: Any, folder: Path) -> None:
 
 def _room(layout: Any, x: float, y: float, storey: int) -> str:
     return next((str(room['name']) for room in layout['rooms']
-                 if room['storey'] == storey
-                 and contains(room['polygon'], x, y)), '')
+                 if room['storey'] == storey and contains(room['polygon'], x, y)
+                 and not any(contains(hole, x, y) for hole in room.get('holes', ()))), '')
 
 
 def _through(door: Any, start: tuple[float, float], end: tuple[float, float]) -> bool:
