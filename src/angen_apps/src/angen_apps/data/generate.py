@@ -247,7 +247,7 @@ def generate(job: Job, homes: int, processes: int, scheduler: str = '') -> list[
 
 
 def _left(share: float, begun: float) -> str:
-    seconds = (time.monotonic() - begun) * (1 - share) / max(share, 1e-6)
+    seconds = (time.monotonic() - begun) * max(0.0, 1 - share) / max(share, 1e-6)
     for unit, size in (('h', 3600), ('min', 60)):
         if seconds > 1.5 * size:
             return f'{seconds / size:.0f} {unit} left'
