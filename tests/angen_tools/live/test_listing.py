@@ -15,7 +15,8 @@ from angen_tools.live import listing
 def entity(name: str, kind: str, topic: str) -> SimpleNamespace:
     turn = SimpleNamespace(**dict(zip('xyzw', quaternion(0.0, 0.0, 1.5))))
     pose = SimpleNamespace(position=SimpleNamespace(x=1.0, y=-1e-9, z=0.25), orientation=turn)
-    return SimpleNamespace(name=name, kind=kind, model='hall', topic=topic, type='t', pose=pose)
+    return SimpleNamespace(name=name, kind=kind, model='hall', room='living0', topic=topic,
+                           type='t', pose=pose)
 
 
 class Simulator:
@@ -33,13 +34,14 @@ def simulator(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_row_has_place_and_topic() -> None:
     lines = plain(listing.list_entities('pir', False)).splitlines()
     assert [line.split() for line in lines] == [
-        ['NAME', 'KIND', 'MODEL', 'X', 'Y', 'Z', 'YAW', 'TOPIC'],
-        ['eye', 'pir', 'hall', '1', '0', '0.25', '1.5', '/eye']]
+        ['NAME', 'KIND', 'MODEL', 'ROOM', 'X', 'Y', 'Z', 'YAW', 'TOPIC'],
+        ['eye', 'pir', 'hall', 'living0', '1', '0', '0.25', '1.5', '/eye']]
 
 
 def test_json_has_every_digit() -> None:
     door, eye = json.loads(str(listing.list_entities('', True)))
     assert (door['name'], eye['name']) == ('hall0', 'eye')
+    assert door['room'] == 'living0'
     assert door['pose']['position'] == [1.0, -1e-9, 0.25]
 
 
