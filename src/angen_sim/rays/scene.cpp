@@ -16,7 +16,7 @@ namespace angen::rays {
 namespace {
 
 constexpr std::size_t kMaxChanges = 4096;
-constexpr double kRim = 2e-3;  // m, of a box: what only reaches there is beside it
+constexpr double kRim = 2e-3;  // m: a shape that reaches less into a target's box does not block
 
 struct Entry {
   Mobility mobility;

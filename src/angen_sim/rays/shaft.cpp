@@ -35,13 +35,11 @@ ShaftHull::ShaftHull(const Vec3& from, double near, const Eigen::AlignedBox3d& t
 // As seen along an axis, the hull has two sides through the point and a corner, with all other
 // corners inward of them; none where the point is within the box.
 void ShaftHull::add_sides(int u, int v) {
-  std::array<Eigen::Vector2d, 4> ways;
   const auto part = [&](const Vec3& p) {
     return Eigen::Vector2d(p[u] - from_[u], p[v] - from_[v]);
   };
-  const Vec3 &low = corners_[0], &high = corners_[7];
-  const Eigen::Vector2d a = part(low), b = part(high);
-  ways = {a, Eigen::Vector2d(b.x(), a.y()), b, Eigen::Vector2d(a.x(), b.y())};
+  const Eigen::Vector2d low = part(corners_[0]), high = part(corners_[7]);
+  const std::array<Eigen::Vector2d, 4> ways = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
   std::size_t found = 0;
   for (const Eigen::Vector2d& way : ways) {
     for (const double turn : {1.0, -1.0}) {
@@ -103,7 +101,7 @@ bool ShaftHull::is_cut_by(const Solid& solid) const {
 Shaft::Shaft(const ShaftHull& hull, Blocker target, std::vector<Blocker> blockers)
     : hull_(hull), target_(target), blockers_(std::move(blockers)) {}
 
-std::uint64_t Shaft::blockers() const {
+std::uint64_t Shaft::fingerprint() const {
   std::uint64_t sum = 0;
   for (const Blocker& each : blockers_) {
     sum += Rng(each.solid->placed, each.solid->slot, 0).next();

@@ -56,9 +56,9 @@ class Shaft {
   bool clear() const { return blockers_.empty(); }
   /// Whether one convex shape blocks all of them.
   bool blocked() const;
-  /// A number for these shapes and their poses: where it is the same, so is all that the shape at
-  /// the same place sees of the point.
-  std::uint64_t blockers() const;
+  /// Equal for the same shapes in the same poses: then sees() has the same answers for a target
+  /// that has not moved.
+  std::uint64_t fingerprint() const;
   /// Whether a ray from the point hits the shape before any other: what Scene::cast() answers, bit
   /// for bit.
   bool sees(const Ray& ray) const;

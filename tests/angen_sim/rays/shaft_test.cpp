@@ -100,14 +100,14 @@ TEST(Shaft, ADetectorsOwnHousingIsNotInIt) {
   EXPECT_TRUE(scene.shaft(turned * Vec3(0.03, 0, 0), kNear, ball.index).clear());
 }
 
-TEST(Shaft, NumbersItsBlockersByShapeAndPose) {
+TEST(Shaft, HasAFingerprintOfItsBlockersAndTheirPoses) {
   Scene scene;
   const ShapeId ball = add(scene, round(Shape::Type::kSphere, 0.2), at(4, 0, 0));
   const ShapeId post = add(scene, box(0.1, 0.1, 2), at(2, 0.1, 0), Mobility::kMoving);
   const ShapeId beside = add(scene, box(0.1, 0.1, 2), at(2, 3, 0), Mobility::kMoving);
   const auto number = [&] {
     scene.commit();
-    return scene.shaft(Vec3::Zero(), kNear, ball.index).blockers();
+    return scene.shaft(Vec3::Zero(), kNear, ball.index).fingerprint();
   };
   const std::uint64_t first = number();
   scene.move(beside, at(2, 4, 0));

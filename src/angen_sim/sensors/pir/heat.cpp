@@ -210,7 +210,7 @@ double Heat::factor_of(const rays::WarmShape& shape, const View& view) {
   if (found.windows.empty()) return 0.0;
   near_ = true;
   const rays::Shaft shaft = view.shaft(pose_.position, kHousing, shape.shape);
-  const std::uint64_t blockers = shaft.blockers();
+  const std::uint64_t blockers = shaft.fingerprint();
   if (!found.is_known || found.blockers != blockers) {
     found.factor = seen_factor(shaft, shape.shape, view, found);
     found.blockers = blockers;
@@ -248,8 +248,8 @@ double Heat::seen_factor(const rays::Shaft& shaft, std::uint32_t shape, const Vi
   return sum;
 }
 
-rays::Ray Heat::ray_to(double azimuth, double level, double up) const {
-  const Vec3 way(level * std::cos(azimuth), level * std::sin(azimuth), up);
+rays::Ray Heat::ray_to(const Cell& cell) const {
+  const Vec3 way(cell.level * std::cos(cell.azimuth), cell.level * std::sin(cell.azimuth), cell.up);
   return {pose_.position, (rotation_ * way).normalized(), kHousing, range_};
 }
 
@@ -273,9 +273,7 @@ std::vector<Heat::Cell> Heat::scan(const Window& seen, std::uint32_t shape, cons
       const double solid_angle = width * height * level;
       found.push_back({azimuth, level, up, solid_angle * sensitivity * opening_});
     }
-    const auto misses = [&](const Cell& cell) {
-      return !view.cast_at(shape, ray_to(cell.azimuth, cell.level, cell.up)).hit();
-    };
+    const auto misses = [&](const Cell& cell) { return !view.cast_at(shape, ray_to(cell)).hit(); };
     // A convex shape fills the row between two of its cells.
     while (found.size() > first && misses(found.back())) found.pop_back();
     const auto begin = found.begin() + static_cast<std::ptrdiff_t>(first);
@@ -286,9 +284,7 @@ std::vector<Heat::Cell> Heat::scan(const Window& seen, std::uint32_t shape, cons
 
 // Mostly all or nothing of a surface is in sight: some of its rays tell that, and save the others.
 double Heat::visible(const std::vector<Cell>& cells, const rays::Shaft& shaft) const {
-  const auto is_seen = [&](const Cell& cell) {
-    return shaft.sees(ray_to(cell.azimuth, cell.level, cell.up));
-  };
+  const auto is_seen = [&](const Cell& cell) { return shaft.sees(ray_to(cell)); };
   std::size_t probed = 0;
   std::size_t seen = 0;
   if (!shaft.clear() && cells.size() >= kFewProbed) {

@@ -87,7 +87,7 @@ class Heat {
   double seen_factor(const rays::Shaft& shaft, std::uint32_t shape, const View& view, Scan& found);
   std::vector<Cell> scan(const Window& seen, std::uint32_t shape, const View& view);
   double visible(const std::vector<Cell>& cells, const rays::Shaft& shaft) const;
-  rays::Ray ray_to(double azimuth, double level, double up) const;
+  rays::Ray ray_to(const Cell& cell) const;
   bool waits(Nanoseconds now) const;
   bool radiates(const rays::WarmShape& shape, const View& view) const;
   bool reheat(const View& view);
