@@ -1,6 +1,7 @@
 """angen drive in a terminal of its own, against the real node."""
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -105,6 +106,17 @@ def test_what_is_wrong_is_told(cli: Cli) -> None:
     driver = Driver(cli, '--robot', 'missing')
     assert driver.process.wait(30) == 1
     assert "there is no robot 'missing'; did you mean turtlebot?" in driver.said()
+    driver.close()
+
+
+def test_commands_may_be_read_as_json(cli: Cli) -> None:
+    driver = Driver(cli, '--json')
+    until(lambda: 'q quits' in driver.said(), 'it waits for keys')
+    until(lambda: driver.press(UP) or '}' in driver.said(), 'it drives')
+    driver.press(b'q')
+    assert driver.process.wait(30) == 0
+    shown = [json.loads(line) for line in driver.said().splitlines() if line.startswith('{')]
+    assert [one['speed_m_per_s'] for one in shown] == [0.2, 0.0]
     driver.close()
 
 

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import io
+import json
 
 import pytest
 import qrcode
@@ -23,7 +24,7 @@ def test_the_code_is_dark_on_light_in_terminals_of_any_theme(
         monkeypatch: pytest.MonkeyPatch) -> None:
     out = Terminal()
     monkeypatch.setattr('sys.stdout', out)
-    show_address(URL, True)
+    show_address(URL, True, False)
     address, *lines = out.getvalue().splitlines()
     assert address == f'angen web: {URL}'
     dark = []
@@ -35,3 +36,8 @@ def test_the_code_is_dark_on_light_in_terminals_of_any_theme(
     expected.add_data(URL)
     size = len(expected.get_matrix())
     assert dark[:size] == expected.get_matrix()
+
+
+def test_the_address_as_json(capsys: pytest.CaptureFixture[str]) -> None:
+    show_address(URL, True, True)
+    assert json.loads(capsys.readouterr().out) == {'address': URL}

@@ -16,6 +16,7 @@ from angen_tools.common.catalog import kind_of
     ('drive', 'stop', 'Stop'), ('person', 'go', 'Go'),
     ('person', 'goto 1.5, -2', 'GoTo 1.5 -2'), ('door', 'unlatch', 'Unlatch'),
     ('climate', 'outside -5', 'Outside -5'), ('door', '-90deg', 'Set -1.57079633'),
+    ('drive', '0.2 -90deg', '0.2 -1.57079633'), ('drive', '90deg 0', None),
     ('door', 'set -45°', 'Set -0.785398163'), ('lamp', '40deg', None), ('door', '90degrees', None)])
 def test_values_become_commands(kind: str, words: str, text: str | None) -> None:
     if text is None:

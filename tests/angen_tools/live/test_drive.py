@@ -1,9 +1,11 @@
 """Keys and the robot's motion by them; the test sets the time."""
 from __future__ import annotations
 
+import json
+
 import pytest
 
-from angen_tools.live.drive import FIRST_HOLD, HOLD, SPEED, STEP, TURN, Keys
+from angen_tools.live.drive import FIRST_HOLD, HOLD, SPEED, STEP, TURN, JsonLines, Keys
 
 UP, DOWN, RIGHT, LEFT = (b'\x1b[' + end for end in (b'A', b'B', b'C', b'D'))
 
@@ -76,3 +78,13 @@ def test_q_ends_it(key: bytes) -> None:
     keys = Keys()
     keys.read(UP + key, 0.0)
     assert keys.quit and keys.command(0.0) == (0, 0)
+
+
+def test_each_change_of_the_command_is_a_line_of_json(capsys: pytest.CaptureFixture[str]) -> None:
+    lines = JsonLines('robot2')
+    for command in ((0.0, 0.0), (SPEED, 0.0), (SPEED, 0.0)):
+        lines.show(Keys(), *command)
+    lines.end()
+    shown = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert shown == [{'robot': 'robot2', 'speed_m_per_s': SPEED, 'turn_rad_per_s': 0.0},
+                     {'robot': 'robot2', 'speed_m_per_s': 0.0, 'turn_rad_per_s': 0.0}]

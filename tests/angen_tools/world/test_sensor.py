@@ -109,6 +109,11 @@ def test_text_that_looks_like_xml_stays_text() -> None:
     assert again.findtext('.//frameName') == '</plugin><x>&'
 
 
+def test_durations_and_angles_may_have_units() -> None:
+    built = build('pir', 'model=pyroelectric', 'hold_time=1h30min', 'warm_up=5')
+    assert built.findtext('.//hold_time') == '5400' and built.findtext('.//warm_up') == '5'
+
+
 def test_the_model_is_read_not_changed(models_folder: Path) -> None:
     before = (models_folder / 'pir/model.sdf').read_bytes()
     assert build('pir', 'threshold=9').findtext('.//threshold') == '9'

@@ -17,9 +17,9 @@ def run_web(args: argparse.Namespace) -> int:
     if args.world is not None and args.replay is None:
         args.parser.error('--world needs --replay; the world of a run is that of ./angen run')
     if args.replay is not None:
-        web_recording(args.replay, args.world, args.host, args.port)
+        web_recording(args.replay, args.world, args.host, args.port, args.json)
     else:
-        web_live(args.host, args.port)
+        web_live(args.host, args.port, args.json)
     return 0
 
 
@@ -40,3 +40,4 @@ def add_web(commands: Any) -> None:
     web.add_argument('--host', metavar='ADDRESS', default='127.0.0.1',
                      help='an address of this machine that other machines reach, or 0.0.0.0: the '
                      'address that it prints then has a token (127.0.0.1)')
+    web.add_argument('--json', action='store_true', help='prints the address as JSON')

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import json
 import logging
 import signal
 import socket
@@ -38,9 +39,9 @@ def own_address() -> str:
     return '127.0.0.1'
 
 
-def show_address(url: str, with_code: bool) -> None:
-    print(f'angen web: {url}', flush=True)
-    if with_code:
+def show_address(url: str, with_code: bool, as_json: bool) -> None:
+    print(json.dumps({'address': url}) if as_json else f'angen web: {url}', flush=True)
+    if with_code and not as_json:
         import qrcode
         code = qrcode.QRCode()
         code.add_data(url)
@@ -48,7 +49,7 @@ def show_address(url: str, with_code: bool) -> None:
         sys.stdout.flush()
 
 
-async def _serve(source: Source, host: str, port: int) -> None:
+async def _serve(source: Source, host: str, port: int, as_json: bool) -> None:
     anywhere = host in ('0.0.0.0', '::')
     shown = own_address() if anywhere else host
     guard = Guard(host, port, {shown, socket.gethostname()})
@@ -57,7 +58,7 @@ async def _serve(source: Source, host: str, port: int) -> None:
 
     async def started(_: int) -> None:
         query = f'?token={guard.token}' if guard.token else ''
-        show_address(f'http://{url_host(shown)}:{port}/{query}', bool(guard.token))
+        show_address(f'http://{url_host(shown)}:{port}/{query}', bool(guard.token), as_json)
 
     work = asyncio.ensure_future(
         listen(Server(source, guard, page(), described_kinds()), host, port, started))
@@ -71,16 +72,17 @@ async def _serve(source: Source, host: str, port: int) -> None:
             raise not_served(host, port, error) from None
 
 
-def serve(source: Source, host: str, port: int) -> None:
+def serve(source: Source, host: str, port: int, as_json: bool) -> None:
     """Serves until Ctrl-C."""
     logging.basicConfig(level=logging.WARNING, format='%(message)s')
     if not is_loopback(host):
         print('angen web: reachable from other machines; whoever has the address with its token '
               'controls the building, and nothing is encrypted', file=sys.stderr)
-    asyncio.run(_serve(source, host, port))
+    asyncio.run(_serve(source, host, port, as_json))
 
 
-def web_recording(path: Path, world: Path | None, host: str, port: int) -> None:
+def web_recording(path: Path, world: Path | None, host: str, port: int,
+                  as_json: bool) -> None:
     """A recorded run, or a folder of angen generate."""
     require_free(host, port)
     if path.is_dir():
@@ -90,13 +92,13 @@ def web_recording(path: Path, world: Path | None, host: str, port: int) -> None:
         from angen_apps.web.recording import Recording
         played = Recording(path)
     with played:
-        serve(played, host, port)
+        serve(played, host, port, as_json)
 
 
-def web_live(host: str, port: int) -> None:
+def web_live(host: str, port: int, as_json: bool) -> None:
     """A running node, or the one that will run."""
     from angen_apps.web.feed import Feed
     from angen_apps.web.node import start_node
     require_free(host, port)
     start_node()
-    serve(Feed(), host, port)
+    serve(Feed(), host, port, as_json)

@@ -1,6 +1,7 @@
 """This process as a node of ROS that outlives its master."""
 from __future__ import annotations
 
+import sys
 import time
 
 from angen_apps.web.feed import master_process
@@ -12,7 +13,8 @@ def start_node() -> None:
     told = False
     while not master_process():
         if not told:
-            print('angen web: waits for a ROS master; start one with ./angen run', flush=True)
+            print('angen web: waits for a ROS master; start one with ./angen run', file=sys.stderr,
+                  flush=True)
             told = True
         time.sleep(0.5)
     rospy.init_node('angen_web', anonymous=True, disable_signals=True, disable_rosout=True,

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import asyncio
+import sys
 import tempfile
 import threading
 from pathlib import Path
@@ -46,7 +47,7 @@ class Played(Feed):
         try:
             self._run()
         except Failure as failure:
-            print(f'angen web: {failure}', flush=True)
+            print(f'angen web: {failure}', file=sys.stderr, flush=True)
 
     def _run(self) -> None:
         """Fills the store."""

@@ -86,7 +86,7 @@ def run_top(args: argparse.Namespace) -> int:
 
 def run_drive(args: argparse.Namespace) -> int:
     from angen_tools.live import drive
-    drive.drive(args.robot)
+    drive.drive(args.robot, args.json)
     return 0
 
 
@@ -315,3 +315,5 @@ def add_drive(commands: Any) -> None:
         '--robot', metavar='NAME',
         help='which robot, as angen list --kind drive shows it (the first)'),
         complete.names_of('drive'))
+    parser.add_argument('--json', action='store_true',
+                        help='prints each change of the command as a line of JSON')

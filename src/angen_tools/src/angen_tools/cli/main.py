@@ -37,7 +37,7 @@ def make_parser() -> Parser:
     """All that the command understands."""
     parser = Parser(
         prog='angen', description='Commands of the running simulator, and of files. Each has '
-        '--help; all but drive, web and completion have --json.',
+        '--help; all but completion have --json.',
         epilog='example:\n  angen list --kind door\n  angen check worlds/angen.world\n'
         '  angen help set door',
         formatter_class=argparse.RawDescriptionHelpFormatter)

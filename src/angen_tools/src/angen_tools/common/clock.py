@@ -17,6 +17,14 @@ def duration(text: str) -> float:
     return sum(float(number) * UNITS[unit] for number, unit in parts)
 
 
+def in_seconds(word: str) -> str:
+    """The word with a duration in units in s; any other word as it is."""
+    try:
+        return f'{duration(word):.9g}'
+    except ValueError:
+        return word
+
+
 def time_of_day(text: str) -> float:
     """Of '22:30' or '6:05:30', s since midnight; ValueError says what would be right."""
     found = re.fullmatch(r'(\d{1,2}):(\d{2})(?::(\d{2}))?', text)

@@ -32,9 +32,10 @@ def parse(kind: Plugin, words: Sequence[str]) -> Order:
     verb = next((v for v in kind['verbs'] if given and v['name'].lower() == given[0].lower()), None)
     if verb is not None:
         return _with_verb(kind, verb, given[1:])
-    numbers = [number(word) for word in given]
-    if kind['values'] and len(given) == len(kind['values']) and all(map(math.isfinite, numbers)):
-        return Order(' '.join(given), {})
+    if kind['values'] and len(given) == len(kind['values']):
+        words = [_plain(unit, word) for unit, word in zip(kind['values'], given)]
+        if all(math.isfinite(number(word)) for word in words):
+            return Order(' '.join(words), {})
     counted = _counted(kind, given)
     if counted is not None:
         return counted
@@ -81,10 +82,11 @@ def _with_verb(kind: Plugin, verb: dict[str, Any], rest: Sequence[str]) -> Order
 
 
 def _plain(unit: str, word: str) -> str:
-    """A number without its unit: of 40% 40, of 90deg rad. An angle may be in degrees by mistake,
-    which it warns of."""
+    """A number without its unit: of 40% 40, of 90deg rad or rad/s. An angle may be in degrees by
+    mistake, which it warns of."""
     if unit == 'rad':
         warn_of_turns(word)
+    if unit.startswith('rad'):
         return in_radians(word)
     return word.removesuffix(unit) if unit == '%' else word
 

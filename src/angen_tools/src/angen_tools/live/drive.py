@@ -1,6 +1,7 @@
 """angen drive: a robot by the arrow keys."""
 from __future__ import annotations
 
+import json
 import os
 import select
 import sys
@@ -69,23 +70,24 @@ class Keys:
         return self._way[0] * self.speed, self._way[1] * self.turn
 
 
-def drive(robot: str | None) -> None:
+def drive(robot: str | None, as_json: bool) -> None:
     """Drives a robot, the first without a name, until q or Ctrl-C; it is at rest when this returns.
 
-    Failure where there is no such robot, it has not subscribed or is deleted, or stdin is not a
-    terminal.
+    Shows the command in one line that changes, or each new one as a line of JSON. Failure where
+    there is no such robot, it has not subscribed or is deleted, or stdin is not a terminal.
     """
     if not sys.stdin.isatty():
         raise Failure('drive needs a terminal; use rostopic pub to drive from a script')
     client = Client()
     name = _chosen(robot, [entity.name for entity in client.entities('drive')])
     wheel = _Wheel(client, f'/{name}/cmd_vel')
-    print(f'{name}: {HELP}')
+    line = JsonLines(name) if as_json else Line()
+    print(f'{name}: {HELP}', file=sys.stderr if as_json else sys.stdout)
     try:
         with single_keys(), suppress(KeyboardInterrupt):
-            _drive(wheel)
+            _drive(wheel, line)
     finally:
-        print()
+        line.end()
         wheel.stop()
 
 
@@ -121,7 +123,37 @@ class _Wheel:
             time.sleep(0.1)  # the message is on its way
 
 
-def _drive(wheel: _Wheel) -> None:
+class Line:
+    """Shows the command in one line of the terminal."""
+
+    def show(self, keys: Keys, ahead: float, left: float) -> None:
+        """m/s and rad/s."""
+        print(f'\r\033[K{ahead:+.2f} m/s {left:+.2f} rad/s   (speed {keys.speed:.2f} m/s, '
+              f'{keys.turn:.2f} rad/s)', end='', flush=True)
+
+    def end(self) -> None:
+        print()
+
+
+class JsonLines(Line):
+    """Prints each new command as JSON."""
+
+    def __init__(self, robot: str) -> None:
+        self._robot = robot
+        self._last = (0.0, 0.0)
+
+    def show(self, keys: Keys, ahead: float, left: float) -> None:
+        if (ahead, left) != self._last:
+            print(json.dumps({'robot': self._robot, 'speed_m_per_s': ahead,
+                              'turn_rad_per_s': left}), flush=True)
+        self._last = ahead, left
+
+    def end(self) -> None:
+        """The robot stops."""
+        self.show(Keys(), 0.0, 0.0)
+
+
+def _drive(wheel: _Wheel, line: Line) -> None:
     keys, stopped = Keys(), True
     while not keys.quit:
         text = b''
@@ -134,5 +166,4 @@ def _drive(wheel: _Wheel) -> None:
         if moves or not stopped:
             wheel.send(ahead, left)
         stopped = not moves
-        print(f'\r\033[K{ahead:+.2f} m/s {left:+.2f} rad/s   (speed {keys.speed:.2f} m/s, '
-              f'{keys.turn:.2f} rad/s)', end='', flush=True)
+        line.show(keys, ahead, left)

@@ -7,6 +7,7 @@ from lxml import etree
 
 from angen_tools.common.angle import in_radians
 from angen_tools.common.catalog import Plugin, has_parameter, kind_of, parameters
+from angen_tools.common.clock import in_seconds
 from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import did_you_mean
 from angen_tools.world import models, sdf
@@ -14,6 +15,7 @@ from angen_tools.world import models, sdf
 Setting = tuple[str, str]  # key, value
 # Parameters that SDF has for every sensor; all others are in the plug-in.
 SENSOR_KEYS = ('update_rate', 'ray/', 'contact/', 'camera/')
+PLAIN = {'rad': in_radians, 's': in_seconds}  # by unit, the number of a word with another unit
 COLLISION = 'contact/collision'  # the parameter of kinds that sense contacts of their link
 
 
@@ -92,8 +94,7 @@ def _apply(sensor: etree._Element, kind: str, settings: Sequence[Setting]) -> No
         many = 'any number of times' in known[key]['type']
         if key in written and not many:
             raise Failure(f"'{given}' is set twice")
-        if known[key]['unit'] == 'rad':
-            value = in_radians(value)
+        value = PLAIN.get(known[key]['unit'], str)(value)
         at = sensor if key.startswith(SENSOR_KEYS) else sensor.find('plugin')
         try:
             _write(at, key, value, many and key in written)
