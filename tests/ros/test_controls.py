@@ -112,6 +112,15 @@ def test_the_menu_sends_a_robot_by_navigation(markers: Inbox) -> None:
         goals.wait(lambda goal: goal.header.frame_id == 'map', 'a goal')
 
 
+def test_the_button_of_a_battery_follows_its_robot(markers: Inbox) -> None:
+    robot = marker(markers, 'drive/turtlebot')
+    battery = until(lambda: next((m for m in markers.messages[-1].markers
+                                  if m.name.startswith('battery/')), None), 'its marker')
+    assert battery.header.frame_id == robot.header.frame_id != 'world'
+    below, above = (m.controls[0].markers[0].pose.position.z for m in (robot, battery))
+    assert above - below == pytest.approx(0.4)
+
+
 def test_the_menu_follows_a_robot_to_another_floor(home: Angen, markers: Inbox) -> None:
     upper = rooms(home, 1)
     state = ModelState('turtlebot', Pose(position=Point(5.3, 2.0, 4.001)), Twist(), 'world')

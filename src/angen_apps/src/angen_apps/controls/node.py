@@ -31,6 +31,7 @@ HAND = 1.05  # m over the foot of a door, where its button is
 OVER = {'person': 2.2, 'drive': 0.9}  # m over a mover's origin: over its label
 SCENE_LIMIT = 10.0  # s that the scene takes to come
 STATE_LIMIT = 1.0  # s that a latched state takes to come
+ABOVE = 0.4  # m from a mover's button to that of its battery, or of another device on it
 COLORS = {'lamp': (1.0, 0.8, 0.2), 'door': (0.0, 0.85, 0.75)}
 OTHER = (0.3, 0.5, 0.9)
 CHANGES = ('spawned', 'deleted', 'reset', 'arrived')  # the last: an elevator, perhaps with a mover
@@ -58,6 +59,7 @@ class Controls:
         self._made: dict[str, tuple[InteractiveMarker, list[Offer]]] = {}
         self._shown: dict[str, Any] = {}
         self._frames: dict[str, str] = {}
+        self._movers: dict[str, Any] = {}  # people and robots, by their models
         self._doors: dict[str, Any] = {}
         self._home = Home()
         self._goal = rospy.Publisher(TOPIC, PoseStamped, queue_size=1)
@@ -91,6 +93,7 @@ class Controls:
         """A marker for each device that takes commands."""
         entities = {f'{e.kind}/{e.name}': e for e in self._list('').entities}
         self._frames = self._moving_frames()
+        self._movers = {e.model: e for e in entities.values() if e.kind in OVER}
         offered = {key: self._offers(e) for key, e in entities.items() if e.kind in kinds('device')}
         self._shown = {key: entities[key] for key, found in offered.items() if found}
         for key in self._made.keys() - self._shown.keys():
@@ -137,7 +140,8 @@ class Controls:
         marker = InteractiveMarker()
         marker.name, marker.description = key, ''
         marker.scale = HANDLE
-        frame = self._frame(entity) if entity.kind in OVER else ''
+        mover = self._movers.get(entity.model)
+        frame = self._frame(mover) if mover is not None else ''
         marker.header.frame_id = frame or 'world'
         marker.pose = Pose() if frame else self._doors.get(key, entity.pose)
         marker.pose.orientation.w = marker.pose.orientation.w or 1.0
@@ -148,10 +152,19 @@ class Controls:
         landings = self._landings(entity)
         if landings:
             marker.pose, marker.pose.orientation.w = Pose(), 1.0
-        over = HAND if key in self._doors else OVER.get(entity.kind, 0.0)
+        over = HAND if key in self._doors else self._over(mover, entity)
         control.markers = [ball(entity.kind, *at) for at in landings or [(0.0, 0.0, over)]]
         marker.controls.append(control)
         return marker
+
+    def _over(self, mover: Any, entity: Any) -> float:
+        """m over the origin of a mover, or of the entity itself where it is on none."""
+        if mover is None:
+            return 0.0
+        others = sorted(key for key, e in self._shown.items()
+                        if e.model == mover.model and e is not mover)
+        key = f'{entity.kind}/{entity.name}'
+        return OVER[mover.kind] + ABOVE * (others.index(key) + 1 if key in others else 0)
 
     def _landings(self, entity: Any) -> list[tuple[float, float, float]]:
         """Where one calls an elevator: its cabin hides what is in it."""
