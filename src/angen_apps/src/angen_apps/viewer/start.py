@@ -1,6 +1,7 @@
 """The node that starts rviz with views of the world at hand, and becomes it."""
 from __future__ import annotations
 
+import ctypes
 import os
 import sys
 from pathlib import Path
@@ -17,13 +18,26 @@ from angen_tools.common.files import write_text
 LIMIT = 120.0  # s that scene and home take to come: until a large world is loaded
 
 
+def screen() -> tuple[int, int] | None:
+    """Width and height of the display in pixels; None without one."""
+    x11 = ctypes.CDLL('libX11.so.6')  # which rviz needs, too
+    x11.XOpenDisplay.restype = ctypes.c_void_p
+    display = ctypes.c_void_p(x11.XOpenDisplay(None))
+    if not display:
+        return None
+    number = x11.XDefaultScreen(display)
+    size = x11.XDisplayWidth(display, number), x11.XDisplayHeight(display, number)
+    x11.XCloseDisplay(display)
+    return size
+
+
 def received(config: dict[str, Any]) -> dict[str, Any]:
     """A configuration of rviz with views of the running world; this process is a node."""
     import rospy
     from angen_msgs.msg import Home, Scene
     scene = rospy.wait_for_message('/angen/scene', Scene, LIMIT)
     home = rospy.wait_for_message('/angen/home', Home, LIMIT)
-    return framed(config, bounds(scene), home.storeys)
+    return framed(config, bounds(scene), home.storeys, screen())
 
 
 def main() -> None:

@@ -8,7 +8,8 @@ from typing import Any, Sequence
 
 import numpy as np
 
-PANEL = (1000.0, 720.0)  # pixels of the picture in the window of angen.rviz
+AROUND = np.array([400.0, 180.0])  # pixels of a window of angen.rviz around its picture
+SMALLEST = 200.0  # pixels of a picture
 FILLS = 0.94  # of the picture
 ROUNDS = 8  # to center a perspective
 ORTHO_HEIGHT = 500.0  # m above the world's origin, where rviz has the camera of TopDownOrtho
@@ -16,12 +17,18 @@ BELOW_NEXT = 0.1  # m: so far below the next floor the view of a floor cuts
 STOREY = re.compile(r'(.*) (-?\d+)')  # the names of what each storey has: ceilings 0, Map 1
 
 
-def framed(config: dict[str, Any], box: np.ndarray, storeys: Sequence[Any]) -> dict[str, Any]:
-    """angen.rviz with views of a world within `box`, and namespaces and maps of its storeys.
+def framed(config: dict[str, Any], box: np.ndarray, storeys: Sequence[Any],
+           screen: tuple[int, int] | None) -> dict[str, Any]:
+    """angen.rviz with views of a world within `box`, namespaces and maps of its storeys, and a
+    window that fits on the screen.
 
-    `storeys` are those of angen_msgs/Home, from the lowest up.
+    `storeys` are those of angen_msgs/Home, from the lowest up; `screen` its size in pixels.
     """
     config = copy.deepcopy(config)
+    window = config['Window Geometry']
+    for name, pixels in zip(('Width', 'Height'), screen or ()):
+        window[name] = min(window[name], pixels)
+    panel = np.maximum(np.array([window['Width'], window['Height']]) - AROUND, SMALLEST)
     manager = config['Visualization Manager']
     numbers = [storey.number for storey in storeys] or [0]
     for display in manager['Displays']:
@@ -34,9 +41,10 @@ def framed(config: dict[str, Any], box: np.ndarray, storeys: Sequence[Any]) -> d
         {**maps[0], 'Name': f'Map {number}', 'Topic': f'/floor{number}/map'}
         for number in numbers] + others[place:]
     views = manager['Views']
-    whole = orbit(views['Current'], box)
+    whole = orbit(views['Current'], box, panel)
     views['Current'] = whole
-    views['Saved'] = [{**copy.deepcopy(whole), 'Name': 'Whole building'}] + _floors(box, storeys)
+    views['Saved'] = [{**copy.deepcopy(whole), 'Name': 'Whole building'}] + _floors(
+        box, storeys, panel)
     return config
 
 
@@ -50,15 +58,16 @@ def _of_storeys(names: dict[str, bool], numbers: Sequence[int]) -> dict[str, boo
     return found
 
 
-def orbit(view: dict[str, Any], box: np.ndarray) -> dict[str, Any]:
-    """The same direction, at the distance and focus at which the box fills the picture."""
+def orbit(view: dict[str, Any], box: np.ndarray, panel: np.ndarray) -> dict[str, Any]:
+    """The same direction, at the distance and focus at which the box fills a picture of this size.
+    """
     yaw, pitch = view['Yaw'], view['Pitch']
     axes = np.array([[-sin(yaw), cos(yaw), 0.0],
                      [-sin(pitch) * cos(yaw), -sin(pitch) * sin(yaw), cos(pitch)],
                      [cos(pitch) * cos(yaw), cos(pitch) * sin(yaw), sin(pitch)]])
     corners = np.array([[box[i][0], box[j][1], box[k][2]]
                         for i in (0, 1) for j in (0, 1) for k in (0, 1)])
-    half = FILLS * tan(view['Field of View'] / 2) * np.array([PANEL[0] / PANEL[1], 1.0])
+    half = FILLS * tan(view['Field of View'] / 2) * np.array([panel[0] / panel[1], 1.0])
     focus, distance = box.mean(axis=0), 0.0
     for _ in range(ROUNDS):
         seen = (corners - focus) @ axes.T  # right, up, towards the camera
@@ -70,19 +79,20 @@ def orbit(view: dict[str, Any], box: np.ndarray) -> dict[str, Any]:
     return {**view, 'Distance': round(distance, 3), 'Focal Point': place}
 
 
-def _floors(box: np.ndarray, storeys: Sequence[Any]) -> list[dict[str, Any]]:
+def _floors(box: np.ndarray, storeys: Sequence[Any], panel: np.ndarray) -> list[dict[str, Any]]:
     """From above, without what is higher than the floor."""
     views = []
     for i, storey in enumerate(storeys):
         top = (storeys[i + 1].elevation if i + 1 < len(storeys) else box[1][2] + 2 * BELOW_NEXT)
-        views.append(_from_above(f'Floor {storey.number} from above', box, top - BELOW_NEXT))
-    return views or [_from_above('From above', box, box[1][2] + BELOW_NEXT)]
+        views.append(_from_above(f'Floor {storey.number} from above', box, top - BELOW_NEXT,
+                                 panel))
+    return views or [_from_above('From above', box, box[1][2] + BELOW_NEXT, panel)]
 
 
-def _from_above(name: str, box: np.ndarray, top: float) -> dict[str, Any]:
+def _from_above(name: str, box: np.ndarray, top: float, panel: np.ndarray) -> dict[str, Any]:
     middle, size = box.mean(axis=0), np.maximum(box[1] - box[0], 1.0)
     return {'Class': 'rviz/TopDownOrtho', 'Name': name, 'Angle': 0,
             'Near Clip Distance': round(ORTHO_HEIGHT - float(top), 3),
-            'Scale': round(FILLS * float(min(PANEL[0] / size[0], PANEL[1] / size[1])), 2),
+            'Scale': round(FILLS * float((panel / size[:2]).min()), 2),
             'Target Frame': 'world', 'Value': 'TopDownOrtho (rviz)',
             'X': round(float(middle[0]), 3), 'Y': round(float(middle[1]), 3)}
