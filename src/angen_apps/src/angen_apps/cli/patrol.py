@@ -66,7 +66,7 @@ def add_seek(kinds: Any) -> None:
                       'for patrol; its waypoints do not matter (config/patrol.yaml of angen_apps)')
     seek.add_argument('--world', metavar='FILE', type=Path, help='the building; its first actor '
                       'is the person (worlds/angen.world)')
-    add_seed(seek, 'of start, noise, and the itinerary and habits of the person')
+    add_seed(seek, 'of start, noise, and the places and habits of the person')
     seek.add_argument('--seeds', metavar='N', type=checked(at_least(1)), default=1,
                       help='this many searches with, and as many without ambient sensors, on all '
                       'cores: a table and a figure (1)')

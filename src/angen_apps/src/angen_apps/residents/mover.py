@@ -19,6 +19,7 @@ TRIES = 3
 DOOR_WAIT = 20.0  # s to wait for another person in a doorway
 OPENS_IN, SHUTS_IN = 12.0, 6.0  # s
 LIFT_WAIT = 90.0  # s for an elevator, or for somebody else in it
+LIFT_ROOM = 1.6  # m around cabin and landing, where a robot uses the elevator
 LEAVES_AROUND = 2.5  # m to the middle of their doorways
 ASIDE = 0.55  # m between the middles of two people
 LEGS = 0.4  # m before a seat
@@ -148,8 +149,10 @@ class Mover:
         key, since = ('lift', ride.name if ride else ''), self.now
         if ride is None:
             return
-        while not self.household.take(key, self.name):
+        while not self.household.take(key, self.name) or any(
+                self.household.robot_near(*at, LIFT_ROOM) for at in (ride.cabin, ride.waits)):
             if self.now - since > LIFT_WAIT:
+                self.household.leave(key, self.name)
                 return
             yield self.now + 1.0
         try:
@@ -181,10 +184,12 @@ class Mover:
         while self.now - since < LIFT_WAIT:
             yield self.now + 0.5
             state = self.simulator.state('elevator', lift)
-            if (state.get('mode'), state.get('door_mode')) == ('IDLE', 'OPEN') \
-                    and state.get('target_floor') == storey:
+            if (state.get('mode'), state.get('door_mode')) != ('IDLE', 'OPEN'):
+                continue
+            if state.get('target_floor') == storey:
                 self._opened = True
                 return
+            self.household.do(self.name, 'elevator', lift, f'Floor{storey}')  # another called it
 
     def _follow(self, legs: list[Leg]) -> Process:
         self.walks = True
@@ -252,8 +257,9 @@ class Mover:
         """Opens and reserves a door; `self._opened` says whether it is open."""
         self._opened = False
         key, since = ('door', door.name), self.now
-        while not self.household.take(key, self.name):
+        while not self.household.take(key, self.name) or self._meets_robot(door):
             if self.now - since > DOOR_WAIT:
+                self.household.leave(key, self.name)
                 return
             yield self.now + 0.5
         state = self.simulator.state('door', door.name)
@@ -265,6 +271,12 @@ class Mover:
         self._opened = not state or state.get('mode') == 'OPEN'
         if not self._opened:
             self.household.leave(key, self.name)
+
+    def _meets_robot(self, door: Door) -> bool:
+        """Whether the leaf of a door that is not open would meet a robot."""
+        x, y = door.pose[:2]
+        return (self.household.robot_near(x, y, CLEAR, self.storey)
+                and self.simulator.state('door', door.name).get('mode') != 'OPEN')
 
     def _wait_for(self, mode: str, door: Door, seconds: float) -> Process:
         """Waits until a door is open or shut, for so long at most."""

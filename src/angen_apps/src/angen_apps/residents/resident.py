@@ -156,7 +156,7 @@ class Resident(User):
             except Refused as error:
                 self.diary.note(str(error))
         self._note('does', activity.name, index)
-        self._lamps(activity)
+        self._lamps(activity.dark)
         used = self._use(step, spot)
         if used and step.opens:
             yield from self._make_way(*used[0][:2], spot)
@@ -241,7 +241,7 @@ class Resident(User):
                 yield self.now + 5.0
                 continue
             self._note('does', activity.name, index)
-            self._lamps(activity)
+            self._lamps(activity.dark)
             yield from self._stay(min(self.now + self._habits.uniform(*ROAMS), end), step, 0)
 
     def _queue(self, activity: Activity, item: Item) -> Generator[float, None, bool]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Iterator
 
-from angen_apps.residents.activities import Activity, Step
+from angen_apps.residents.activities import Step
 from angen_apps.residents.agenda import Item
 from angen_apps.residents.household import Household
 from angen_apps.residents.mover import Mover
@@ -90,12 +90,13 @@ class User(Mover):
         return any(r is not self and r.item.activity == 'watch_tv' and not r.away
                    for r in self.household.residents)
 
-    def _lamps(self, activity: Activity) -> None:
-        """Switches the room's lamps by how light it is, and by habit."""
+    def _lamps(self, dark: bool = False) -> None:
+        """Switches the room's lamps by how light it is, and by habit; off where it has to be dark.
+        """
         household, room = self.household, self.room
         if self.profile.body != 'person' or room not in household.lamps:
             return
-        if activity.dark:
+        if dark:
             self._lamp_off(room)
         elif household.lux(room) < DARK and self._habits.random() < self.profile.lamps_on:
             for lamp in household.lamps[room]:

@@ -108,7 +108,7 @@ def survey(route_file: Path | None, world: Path | None, out: Path) -> tuple[Home
     route, world, known = prepare(route_file, world, out, False)
     empty = out / 'survey.world'
     try:
-        run.write_world(world, route, None, 0, 0.0, empty)
+        run.write_world(world, route, None, empty)
         entities = entities_of(load_world(str(empty)))
         route = served(route, entities)
         return make_home(route, empty, entities, (0.0, 0.0, 0.0), known), route, world

@@ -10,14 +10,16 @@ from typing import Callable
 import numpy as np
 from lxml import etree
 
+from angen_apps.maps.gridmap import load_world
 from angen_apps.patrol.scene import start_offset
+from angen_apps.residents.ground import Ground
 from angen_apps.robot.building import find_start, move_robot, remove_actors
 from angen_apps.robot.driver import Track
 from angen_apps.robot.interface import Event, collisions
 from angen_apps.robot.route_file import Route
 from angen_apps.seek.home import Home
-from angen_apps.seek.resident import Resident, add_actor, plan_walk
-from angen_apps.seek.search import LEAD, Found, Search
+from angen_apps.seek.person import add_person
+from angen_apps.seek.search import Found, Search
 from angen_apps.seek.simulation import Simulation
 from angen_tools.common.files import write_text
 from angen_tools.world import sdf
@@ -58,23 +60,18 @@ class Outcome:
 
 
 BELIEF = 1.0  # s between two beliefs that are kept
+SOON = 1e-6  # s
 
 
-def write_world(world: Path, route: Route, home: Home | None, seed: int, limit: float, to: Path
-                ) -> str:
-    """Writes the world of a search; the name of the person in it, or nothing.
-
-    The first person of the world walks by the seed; without `home` there are no people, and the
-    robot is at its place in the file.
-    """
+def write_world(world: Path, route: Route, seed: int | None, to: Path) -> str:
+    """Writes the world of a search, without people; returns the name of the first person of the
+    file, or nothing. Without a seed the robot is at its place in the file."""
     root: etree._Element = sdf.read(world)
     people = remove_actors(root)
-    if home is not None:
+    if seed is not None:
         move_robot(root, route.robot, start_offset(seed), world)
-        if people:
-            add_actor(root, people[0], plan_walk(home, route, seed, LEAD + limit), home)
     write_text(to, sdf.text(root))
-    return people[0] if people and home is not None else NO_PERSON
+    return people[0] if people else NO_PERSON
 
 
 def search(world: Path, route: Route, home: Home, seed: int, ambient: bool, limit: float,
@@ -82,19 +79,19 @@ def search(world: Path, route: Route, home: Home, seed: int, ambient: bool, limi
     """Runs one search; `scratch`: the file for its world; `note` is called with the time (s) and
     the robot's next action."""
     began = time.monotonic()
-    name = write_world(world, route, home, seed, limit, scratch)
+    name = write_world(world, route, seed, scratch)
     simulation = Simulation(scratch, seed, route.robot)
     start = find_start(route, simulation.entities, start_offset(seed))
     home = replace(home, start=start)
     seeker = Search(home, route, simulation, ambient, note)
     person: list[tuple[float, ...]] = []
     beliefs: list[tuple[float, np.ndarray]] = []
-    resident = (Resident(simulation, home, route, name, plan_walk(home, route, seed, LEAD + limit),
-                         seed) if name else None)
+    household = (add_person(simulation.world, Ground(load_world(str(scratch)), home.described),
+                            home, route, name, seed) if name else None)
 
     def others() -> None:
-        if resident is not None:
-            resident.act()
+        if household is not None:
+            household.run(simulation.now + SOON)
             person.append((simulation.now, *simulation.place(f'{name}::body')[:3]))
         if simulation.now >= len(beliefs) * BELIEF:
             beliefs.append((simulation.now, seeker.belief.cells.astype(np.float32)))

@@ -32,7 +32,6 @@ class Simulation:
         self.entities = entities_of(self.world)
         xml, link = bumper(path, robot)
         self.world.spawn(xml, BUMPER, on=link)
-        self._links = {name: i for i, name in enumerate(self.world.links)}
 
     def start(self, start: Start) -> None:
         """Switches the robot's lidar on."""
@@ -59,10 +58,6 @@ class Simulation:
 
     def command(self, kind: str, name: str, text: str) -> None:
         self.sent.append((self.now, kind, name))
-        self.order(kind, name, text)
-
-    def order(self, kind: str, name: str, text: str) -> None:
-        """Commands a device, but not for the robot."""
         with simulator():
             self.world.command(kind, name, text)
 
@@ -103,5 +98,5 @@ class Simulation:
 
     def place(self, link: str) -> tuple[float, float, float, float]:
         """Where a link is in truth: x, y, z (m), yaw (rad)."""
-        row = np.asarray(self.world.link_poses)[self._links[link]]
+        row = np.asarray(self.world.link_poses)[self.world.links.index(link)]
         return float(row[0]), float(row[1]), float(row[2]), yaw(*row[3:])
