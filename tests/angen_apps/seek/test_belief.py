@@ -1,6 +1,7 @@
 """The filter over cells, and the evidence of events."""
 from __future__ import annotations
 
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +14,7 @@ from angen_apps.robot.interface import Event
 from angen_apps.robot.pilot import Pose
 from angen_apps.robot.planner import Door
 from angen_apps.seek.ambient import Ambient, RobotNow
-from angen_apps.seek.belief import Belief
+from angen_apps.seek.belief import LIFT, Belief
 from angen_apps.seek.home import Home, Pir
 from angen_apps.seek.ways import Ways
 from angen_tools.common import home as described
@@ -128,3 +129,21 @@ def test_shut_doors_are_counted(home: Home) -> None:
     ways = Ways(home, None, {})  # type: ignore[arg-type]
     assert ways._doors_between(0, {'kitchen0'}).tolist() == [0, 1]
     assert ways._doors_between(0, set()).tolist() == [0, 0]
+
+
+def test_an_elevator_costs_no_matrix_of_all_cells(home: Home) -> None:
+    count = 4000
+    at = np.array([(0.5 * i, 0.5) for i in range(count)])
+    edges = np.array([(i, i + 1) for i in range(count - 1)])
+    by_lift = np.isin(np.arange(count), [3, count - 1])
+    large = replace(home, at=at, room=np.zeros(count, int), edges=edges, by_lift=by_lift,
+                    edge_door=[''] * (count - 1))
+    tracemalloc.start()
+    belief = Belief(large)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 8 * count ** 2 / 10  # bytes
+    for _ in range(2):
+        belief.weigh(np.where(np.arange(count) == 3, 1.0, 0.0))
+    belief.step(None)
+    assert belief.p[1, count - 1] == pytest.approx(0.5 * LIFT / 2, rel=0.2)

@@ -62,7 +62,7 @@ class Belief:
         if not near.any():
             return matrix
         share = np.where(near, LIFT, 0.0)
-        ride = csr_matrix(np.outer(share, near / near.sum()))
+        ride = csr_matrix(share[:, None]) @ csr_matrix(near[None] / near.sum())
         return csr_matrix(diags(1 - share) @ matrix + ride)
 
     def step(self, opened: frozenset[str] | None) -> None:

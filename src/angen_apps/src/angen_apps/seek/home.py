@@ -145,8 +145,13 @@ class Rooms:
         """The numbers of the rooms that places (m) are in, or nearest to."""
         if not self._rooms:
             return np.zeros(len(x), int)
-        away = [np.where(in_room(room, x, y), 0.0, _distance(room, x, y)) for room in self._rooms]
-        return np.array(away).argmin(axis=0)
+        found = np.full(len(x), -1)
+        for number, room in reversed(list(enumerate(self._rooms))):
+            found[in_room(room, x, y)] = number
+        rest = found < 0
+        away = np.array([_distance(room, x[rest], y[rest]) for room in self._rooms])
+        found[rest] = away.argmin(axis=0)
+        return found
 
 
 def _distance(room: Room, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -220,8 +225,9 @@ class _Cells:
             kept, which = np.unique(key, axis=0, return_inverse=True)
             lattice = np.full(grid.cells.shape, -1)
             lattice[rows, columns] = which.ravel() + len(at)
-            for i in range(len(kept)):
-                mine = which.ravel() == i
+            by_cell = np.argsort(which.ravel(), kind='stable')
+            ends = np.cumsum(np.bincount(which.ravel(), minlength=len(kept)))
+            for i, mine in enumerate(np.split(by_cell, ends[:-1])):
                 middle = np.array([x[mine].mean(), y[mine].mean()])
                 best = np.hypot(x[mine] - middle[0], y[mine] - middle[1]).argmin()
                 at.append((x[mine][best], y[mine][best]))

@@ -85,7 +85,7 @@ class Search:
         self._sighting: Sighting | None = None
         # s, floor, place of a thing that was not a person, and from where that was seen
         self._known: list[tuple[float, int, Point, Point]] = []
-        self._views = home.views.copy()
+        self._views = home.views.astype(float)  # for products with probabilities
         self._avoid: dict[int, float] = {}
         self._robot = RobotNow(home.start.pose.x, home.start.pose.y, home.start.floor, 0.0)
         self._seen_events = self._seen_sent = 0
@@ -274,7 +274,7 @@ class Search:
         else:
             for _ in range(2):
                 self._driver.cycle()
-            self._views[best] &= self._in_view()  # cells hidden from there remain hidden
+            self._views[best] *= self._in_view()  # cells hidden from there remain hidden
             self._avoid[best] = self._simulation.now
 
     def _note_goal(self, cell: int) -> None:
