@@ -7,14 +7,13 @@ from dataclasses import replace
 from pathlib import Path
 from random import Random
 
-import numpy as np
 import pytest
 
 from angen_apps.data.site import Site, apartment as furnished
 from angen_apps.imports.sweethome import read_sweethome
-from angen_apps.maps.gridmap import OCCUPIED
 from angen_apps.plan.apartment import apartment
 from angen_apps.plan.writer import write_world
+from angen_apps.residents import places
 from angen_apps.residents.activities import Step
 from angen_apps.residents.ground import BODY
 from angen_apps.residents.household import Household
@@ -22,8 +21,6 @@ from angen_apps.residents.mover import away_from
 from angen_apps.residents.places import Places, Spot
 from angen_apps.residents.profiles import read
 from angen_apps.residents.resident import Resident
-from angen_apps.residents.survey import middles
-from angen_apps.robot.planner import Planner
 from angen_bench.homes import examples
 
 LEAF = 0.9  # m
@@ -183,17 +180,6 @@ def test_no_gap_between_the_leaves_of_a_double_door_is_in_the_way(tmp_path):
     assert anna.arrived and modes == {'living_left0': 'OPEN', 'living_right0': 'OPEN'}
 
 
-def test_a_leaf_before_the_entrance_closes_off_the_outside(tmp_path):
-    site, _, _ = home_of(narrow(tmp_path))
-    planner = site.ground.planners[0]
-    x, y = middles(planner.grid, *np.indices(planner.grid.cells.shape))
-    rooms = {'hall0', 'kitchen0', 'living0'}
-    assert site.ground._reached(planner, x, y) == rooms | {''}
-    leaf = (abs(x - 0.3) < 0.1) & (abs(y + 3.0) < 0.4)
-    cells = np.where(leaf, OCCUPIED, planner.grid.cells).astype(np.int8)
-    assert site.ground._reached(Planner(replace(planner.grid, cells=cells), BODY), x, y) == rooms
-
-
 def test_a_resident_waits_for_another_one_who_is_in_the_way(tmp_path):
     site, household, anna = home_of(narrow(tmp_path))
     bert = Resident(household, 'bert', 1, read('retired'))
@@ -270,16 +256,18 @@ def test_a_door_that_opens_too_little_is_a_wall(tmp_path):
     assert 'kitchen0' not in site.ground.reached and 'kitchen0' not in site.ground.in_way
 
 
-def test_who_sleeps_on_the_floor_leaves_others_a_way(tmp_path):
+def test_who_sleeps_on_the_floor_leaves_others_a_way(tmp_path, monkeypatch):
     _, household, _ = home_of(narrow(tmp_path))
     hall = next(room for room in household.home.rooms if room.name == 'hall0')
-    beds = household.places._beds(hall)
+    beds = list(household.places._beds(hall))
     for (x, y), _, divides in beds:
         if 1.5 < x < 3.5:
             assert divides == (abs(y + 3.25) < 0.2), beds
-    spots = household.places.on_floor()
+    spots = household.places.on_floor
     assert {spot.room for spot in spots[:2]} == {'kitchen0'}  # the largest
     assert any(not divides for _, _, divides in beds) and len(spots) > 4
+    monkeypatch.setattr(places, 'MOST', 3)  # residents
+    assert Places(household.ground).on_floor == spots[:3]
 
 
 def test_a_room_drawn_over_another_one_takes_its_floor(tmp_path):

@@ -12,7 +12,7 @@ from angen_apps.data.cabins import Slide
 from angen_apps.data.recorder import Event, Missed, Recorder, Step
 from angen_apps.data.site import Sensor, Site
 from angen_apps.residents.household import Household
-from angen_apps.residents.profiles import DAY, Profile, read
+from angen_apps.residents.profiles import DAY, MOST, Profile, read
 from angen_apps.residents.resident import make
 from angen_apps.residents.truth import Interval
 from angen_tools.common.failure import Failure
@@ -20,7 +20,6 @@ from angen_tools.common.home import Home
 
 NAMES = ('anna', 'bert', 'clara', 'dora', 'emil', 'fritz', 'greta', 'hans')
 USUAL = ('worker', 'retired', 'student', 'child')
-MOST = 100  # residents of a home
 SLICE = 900.0  # s between two reports of progress
 
 

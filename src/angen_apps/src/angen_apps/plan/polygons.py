@@ -47,12 +47,15 @@ def contains(polygon: Sequence[Point], x: float, y: float) -> bool:
 
 def inside(polygon: Sequence[Point], x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Which points are inside, by the even-odd rule."""
-    found = np.zeros(np.shape(x), bool)
+    (low_x, low_y), (high_x, high_y) = np.min(polygon, axis=0), np.max(polygon, axis=0)
+    found = np.asarray((x >= low_x) & (x <= high_x) & (y >= low_y) & (y <= high_y))
+    x, y = np.asarray(x)[found], np.asarray(y)[found]
+    odd = np.zeros(np.shape(x), bool)
     for (x0, y0), (x1, y1) in zip(polygon, [*polygon[1:], polygon[0]]):
         if y0 == y1:
             continue
-        crosses = ((y0 > y) != (y1 > y)) & (x < (x1 - x0) * (y - y0) / (y1 - y0) + x0)
-        found ^= crosses
+        odd ^= ((y0 > y) != (y1 > y)) & (x < (x1 - x0) * (y - y0) / (y1 - y0) + x0)
+    found[found] = odd
     return found
 
 

@@ -8,10 +8,11 @@ from typing import Any, Sequence
 import numpy as np
 from scipy.ndimage import label
 
-from angen_apps.maps.gridmap import FREE, OCCUPIED, RESOLUTION, GridMap
+from angen_apps.maps.gridmap import OCCUPIED, RESOLUTION, GridMap
 from angen_apps.maps.rays import Caster
 from angen_apps.plan.polygons import inside
-from angen_apps.residents.survey import (DEEP, PORCH, delete, elevation, middles, open_all, opening,
+from angen_apps.residents.leaves import Leaves, Reach, largest
+from angen_apps.residents.survey import (DEEP, delete, elevation, middles, open_all, opening,
                                          storey_at, survey)
 from angen_apps.robot.planner import Planner, Point
 from angen_tools.common.home import Door, Home, Place, Room
@@ -19,7 +20,6 @@ from angen_tools.common.home import Door, Home, Place, Room
 BODY = 0.3  # m: half the width of a person, with a margin
 CLEAR = 1.05  # m from a door's middle: its leaf does not meet who is there
 SWING = 1.25  # m from a door's middle: its leaf does not reach farther
-LEAF = 0.2  # m beyond a door's width from its middle: the farthest end of its leaf
 CACHED = 1 << 25  # bytes of ways to goals that are kept
 REACH = 1.1  # m from a person to the thing that the person uses
 
@@ -62,10 +62,11 @@ class Ground:
         delete(world, 'door')
         self.planners = {storey: self._planner(survey(self._caster, home, storey), opened)
                          for storey, opened in leaves.items()}
-        self.free = {storey: _largest(planner.passable)
+        self.free = {storey: largest(planner.passable)
                      for storey, planner in self.planners.items()}
         self._toward: dict[tuple[int, tuple[int, int]], np.ndarray] = {}  # the last used at the end
         self._floors: dict[str, np.ndarray] = {}  # of rooms
+        self._places: dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}  # _by_doors()
         self._names: dict[tuple[int, int, int], str] = {}  # of rooms, by storey, row and column
 
     def _storeys(self, lives: int) -> list[int]:
@@ -148,23 +149,30 @@ class Ground:
             for other in self.home.rooms[:self.home.rooms.index(room)]:  # as Home.room_at()
                 if other.storey == room.storey:
                     here &= ~inside(other.polygon, x, y)
-            self._floors[room.name] = _largest(here)
+            self._floors[room.name] = largest(here)
         return self._floors[room.name]
 
     def spots(self, room: str, count: int, numbers: Any) -> list[Point]:
         """Places in a room, in the open first."""
-        found = next(r for r in self.home.rooms if r.name == room)
-        rows, columns = np.nonzero(self.floor_of(found))
-        x, y = middles(self.planners[found.storey].grid, rows, columns)
-        away = np.full(len(x), np.inf)
-        for door in self.home.doors:
-            away = np.minimum(away, np.hypot(x - door.pose[0], y - door.pose[1]))
+        if room not in self._places:
+            self._places[room] = self._by_doors(next(r for r in self.home.rooms if r.name == room))
+        x, y, away = self._places[room]
         for least in (SWING - 0.2, 0.6, 0.0):
             cells = np.nonzero(away >= least)[0]
             if len(cells):
                 chosen = [cells[numbers.randrange(len(cells))] for _ in range(count)]
                 return [(float(x[i]), float(y[i])) for i in chosen]
         return []
+
+    def _by_doors(self, room: Room) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """x and y of the places of a room, and m to the middle of a door, where that is near."""
+        rows, columns = np.nonzero(self.floor_of(room))
+        x, y = middles(self.planners[room.storey].grid, rows, columns)
+        away = np.full(len(x), np.inf)
+        for door in self.home.doors:
+            if room.contains(*door.pose[:2]) or room.distance(*door.pose[:2]) < SWING:
+                away = np.minimum(away, np.hypot(x - door.pose[0], y - door.pose[1]))
+        return x, y, away
 
     def porch(self) -> tuple[Point, int] | None:
         """The free place outside the main entrance, and its storey; None if there is none."""
@@ -267,49 +275,38 @@ class Ground:
         """Of a storey whose doors stand open: their leaves are in the way, but for those without
         which a room could not be reached. `grid` is without leaves. A door that opens too little
         for people is a wall, as `walls` are."""
-        planner = Planner(grid, BODY)
-        rows, columns = np.indices(grid.cells.shape)
-        x, y = middles(grid, rows, columns)
         doors = [door for door in self.home.doors
                  if door.kind == 'door' and self.storey_at(door.pose[2]) == grid.floor
                  and door not in walls]
-        away = np.array([np.hypot(x - door.pose[0], y - door.pose[1]) for door in doors])
-        leaves = {door.name: (grid.cells == FREE) & (opened.cells != FREE)
-                  & (far < door.width + LEAF) & (far == away.min(axis=0))
-                  for door, far in zip(doors, away)}
-        rooms = self._reached(planner, x, y)
-
-        def with_leaves(of: Sequence[Door]) -> tuple[Planner, bool]:
-            """A planner with these leaves open, and whether all rooms are reached."""
-            cells = grid.cells.copy()
-            for door in of:
-                cells[leaves[door.name]] = OCCUPIED
-            tried = Planner(replace(grid, cells=cells), BODY)
-            return tried, self._reached(tried, x, y) == rooms
-
+        leaves = Leaves(grid, opened, doors, BODY)
+        reach = self._reach(grid.floor, leaves)
+        rooms = reach.rooms(leaves.passable)
         kept: list[Door] = []
         in_way: list[Door] = []
+
+        def reaches_all(of: Sequence[Door]) -> bool:
+            return reach.rooms(leaves.passes(of)) == rooms
+
         for door in doors:
-            tried, fine = with_leaves([*kept, door])
-            if fine:
-                planner = tried
+            if reaches_all([*kept, door]):
                 kept.append(door)
                 continue
             in_way += [door, *(other for other in kept
                                if math.dist(other.pose[:2], door.pose[:2]) < 2 * SWING
-                               and with_leaves([*(d for d in kept if d != other), door])[1])]
-        open_alone = {door.name: with_leaves([door])[0].passable for door in in_way}
-        closed = [door for door in in_way if not _passes(door, open_alone[door.name], x, y)]
+                               and reaches_all([*(d for d in kept if d != other), door]))]
+        open_alone = {door.name: leaves.passes([door]) for door in in_way}
+        closed = [door for door in in_way
+                  if not _passes(door, open_alone[door.name], leaves.x, leaves.y)]
         if closed:
             cells = grid.cells.copy()
             for door in closed:
-                cells[opening(x, y, door, DEEP)] = OCCUPIED
+                cells[opening(leaves.x, leaves.y, door, DEEP)] = OCCUPIED
             return self._planner(replace(grid, cells=cells), opened, [*walls, *closed])
         for door in in_way:
-            self._add_stop(door, open_alone[door.name], leaves[door.name], x, y)
+            self._add_stop(door, open_alone[door.name], leaves.cells(door), leaves.x, leaves.y)
         self.in_way |= {door.name for door in in_way}
         self.reached |= rooms
-        return planner
+        return Planner(leaves.occupied(kept), BODY)
 
     def _add_stop(self, door: Door, passable: np.ndarray, leaf: np.ndarray, x: np.ndarray,
                   y: np.ndarray) -> None:
@@ -324,19 +321,11 @@ class Ground:
         if far[row, column] < CLEAR + REACH:
             self._stops[door.name] = float(x[row, column]), float(y[row, column])
 
-    def _reached(self, planner: Planner, x: np.ndarray, y: np.ndarray) -> set[str]:
-        """The rooms that the largest connected part has a place in, and '' for the outside."""
-        free = _largest(planner.passable)
-        rooms = [room for room in self.home.rooms if room.storey == planner.grid.floor]
-        found = {room.name for room in rooms if (free & inside(room.polygon, x, y)).any()}
+    def _reach(self, storey: int, leaves: Leaves) -> Reach:
         door = self.entrance()
-        if door is not None and self.storey_at(door.pose[2]) == planner.grid.floor:
-            away = np.hypot(x - door.pose[0], y - door.pose[1])
-            free &= opening(x, y, door, PORCH) & (away > PORCH - 0.2)
-            for room in rooms:
-                free &= ~inside(room.polygon, x, y)
-            found |= {''} if free.any() else set()
-        return found
+        here = door is not None and self.storey_at(door.pose[2]) == storey
+        return Reach([room for room in self.home.rooms if room.storey == storey],
+                     door if here else None, leaves.x, leaves.y)
 
 
 def _across(door: Door, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -351,12 +340,6 @@ def _passes(door: Door, passable: np.ndarray, x: np.ndarray, y: np.ndarray) -> b
     near = passable & opening(x, y, door, CLEAR)
     across = _across(door, x, y)
     return bool(set(parts[near & (across > DEEP)]) & set(parts[near & (across < -DEEP)]))
-
-
-def _largest(cells: np.ndarray) -> np.ndarray:
-    """The largest connected part."""
-    parts, count = label(cells, np.ones((3, 3), int))
-    return parts == 1 + int(np.argmax(np.bincount(parts.ravel())[1:])) if count else cells
 
 
 def _crossings(points: Sequence[Point], doors: Sequence[Door]) -> list[tuple[int, Door]]:

@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from random import Random
+from typing import Iterator
 
 import numpy as np
 from scipy.ndimage import binary_erosion, label
@@ -12,6 +13,7 @@ from scipy.ndimage import binary_erosion, label
 from angen_apps.maps.gridmap import RESOLUTION
 from angen_apps.residents.activities import Step
 from angen_apps.residents.ground import Ground
+from angen_apps.residents.profiles import MOST
 from angen_apps.residents.survey import middles
 from angen_apps.robot.planner import Point
 from angen_tools.common.home import Place, Room, Thing
@@ -101,8 +103,10 @@ class Places:
         point = self.ground.spots(room.name, 1, numbers or Random(room.name))[0]
         return Spot(point, room.storey, self.ground.elevation(room.storey), room.name)
 
+    @cached_property
     def on_floor(self) -> list[Spot]:
-        """Where people lie in a home without a bed: in a bedroom, or else in the largest room."""
+        """Where as many residents as a home may have lie without a bed: in a bedroom first, or
+        else in the largest room."""
         found: list[Spot] = []
         last: list[Spot] = []
         rooms = [room for room in self._reached if room.use not in UNUSED]
@@ -111,32 +115,37 @@ class Places:
             for at, yaw, divides in self._beds(room):
                 (last if divides else found).append(
                     Spot(at, room.storey, z, room.name, '', Place('lie', (*at, z, yaw))))
+                if len(found) == MOST:
+                    return found
         for spot in last:
             if all(math.dist(spot.stand, other.stand) > LONG for other in found
                    if other.storey == spot.storey):
                 found.append(spot)
         return found
 
-    def _beds(self, room: Room) -> list[tuple[Point, float, bool]]:
+    def _beds(self, room: Room) -> Iterator[tuple[Point, float, bool]]:
         """Places on the open floor where people can lie, the yaw of each, and whether one who lies
         there is in the way: far from doors first."""
         free, whole = self.ground.floor_of(room), self.ground.free[room.storey]
         x, y = middles(self.ground.planners[room.storey].grid, *np.indices(free.shape))
         cells = round(LONG / RESOLUTION)
-        doors = [door.pose[:2] for door in self.home.doors if door.kind != 'window'
-                 and room.name in door.rooms]
-        found: list[tuple[float, Point, float]] = []
-        for shape, yaw in (((1, cells), 0.0), ((cells, 1), math.pi / 2)):
-            for at in np.argwhere(binary_erosion(free, np.ones(shape, bool))):
-                point = float(x[tuple(at)]), float(y[tuple(at)])
-                found.append((-min((math.dist(point, door) for door in doors), default=0.0),
-                              point, yaw))
-        chosen: list[tuple[Point, float, bool]] = []
-        for _, point, yaw in sorted(found):
-            if all(math.dist(point, at) > (LONG / 4 if divides and of == yaw else LONG)
-                   for at, of, divides in chosen if not divides or of == yaw):
-                chosen.append((point, yaw, _divides(whole, x - point[0], y - point[1], yaw)))
-        return chosen
+        lines = [(binary_erosion(free, np.ones(shape, bool)), yaw)
+                 for shape, yaw in (((1, cells), 0.0), ((cells, 1), math.pi / 2))]
+        px, py = (np.concatenate([part[line] for line, _ in lines]) for part in (x, y))
+        turned = np.concatenate([np.full(line.sum(), yaw) for line, yaw in lines])
+        near = np.full(len(px), np.inf)
+        for door in self.home.doors:
+            if door.kind != 'window' and room.name in door.rooms:
+                near = np.minimum(near, np.hypot(px - door.pose[0], py - door.pose[1]))
+        order = np.lexsort((turned, py, px, -near))
+        while len(order):
+            best = order[0]
+            point, yaw = (float(px[best]), float(py[best])), float(turned[best])
+            divides = _divides(whole, x - point[0], y - point[1], yaw)
+            yield point, yaw, divides
+            away = np.hypot(px[order] - point[0], py[order] - point[1])
+            taken = (away <= LONG / 4) & (turned[order] == yaw) if divides else away <= LONG
+            order = order[~taken]
 
     def _of(self, what: str, posture: str) -> list[Spot]:
         key = (what, posture)

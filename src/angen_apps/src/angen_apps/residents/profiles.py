@@ -12,6 +12,7 @@ from angen_tools.common.nearest import did_you_mean
 from angen_tools.common.yaml_file import YamlFile, is_text
 
 FOLDER = Path(__file__).with_name('profiles')
+MOST = 100  # residents of a home
 DAY = 86400.0  # s
 HOURS = re.compile(r'(\d{1,2}):(\d\d)-(\d{1,2}):(\d\d)')
 DAYS = ('all', 'weekday', 'weekend')

@@ -64,7 +64,7 @@ class Resident(User):
         return found
 
     def _on_floor(self, missing: str) -> list[Spot]:
-        spots = self.household.places.on_floor()
+        spots = self.household.places.on_floor
         if not spots:
             raise Failure(f'the home has {missing} where {self.name} ({self.profile.name}), who '
                           'sleeps, could lie, and no floor as long as that')

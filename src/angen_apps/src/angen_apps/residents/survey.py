@@ -115,7 +115,10 @@ def open_all(world: Any, home: Home) -> None:
 
 
 def opening(x: np.ndarray, y: np.ndarray, door: Door, deep: float) -> np.ndarray:
+    """Which places are in a door's opening, `deep` (m) to both sides of its middle."""
     c, s = math.cos(door.pose[3]), math.sin(door.pose[3])
-    dx, dy = x - door.pose[0], y - door.pose[1]
-    return np.asarray((np.abs(c * dx + s * dy) <= door.width / 2 + JOINT)
-                      & (np.abs(c * dy - s * dx) <= deep))
+    half = door.width / 2 + JOINT
+    found = (np.abs(x - door.pose[0]) <= half + deep) & (np.abs(y - door.pose[1]) <= half + deep)
+    dx, dy = x[found] - door.pose[0], y[found] - door.pose[1]
+    found[found] = (np.abs(c * dx + s * dy) <= half) & (np.abs(c * dy - s * dx) <= deep)
+    return np.asarray(found)
