@@ -30,7 +30,8 @@ def storey(floor: int, length: float) -> str:
 
 def start(master: Master, world: Path) -> subprocess.Popen[str]:
     return subprocess.Popen(['/usr/bin/python3', str(SCRIPT), str(world)], text=True,
-                            env=master.environment, stderr=subprocess.PIPE)
+                            env=master.environment, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE)
 
 
 @pytest.fixture
@@ -119,8 +120,9 @@ def test_without_floors_it_ends(angen: Angen) -> None:
 
 def test_a_world_that_does_not_load_is_one_line(angen: Angen, tmp_path: Path) -> None:
     process = start(angen.master, tmp_path / 'none.world')
-    said = process.communicate(timeout=60)[1]
+    said, errors = process.communicate(timeout=60)
     assert process.returncode == 1
+    assert not errors  # roslaunch would show it beside the error of the node
     line, = said.splitlines()
     assert line.startswith('map_publisher: ') and 'none.world' in line
 

@@ -128,6 +128,8 @@ def test_a_folder_that_is_none_is_named(tmp_path: Path) -> None:
                   lambda: check_folder(tmp_path / 'file/out')):
         with pytest.raises(Failure, match=f'{tmp_path}/file: is not a folder'):
             check()
+    with pytest.raises(Failure, match='/proc: cannot be written'):  # also by root
+        check_folder(Path('/proc/out'))
     check_folder(tmp_path / 'not/yet')
     assert names(tmp_path) == ['file']
 

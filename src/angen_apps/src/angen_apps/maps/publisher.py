@@ -138,4 +138,5 @@ def main() -> None:
     try:
         publish_maps(words[0])
     except Failure as failure:
-        sys.exit(f'map_publisher: {failure}')
+        print(f'map_publisher: {failure}')  # under roslaunch into a log: the node reports it
+        sys.exit(1)

@@ -8,6 +8,7 @@ import errno
 import fcntl
 import os
 import signal
+import tempfile
 import time
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -135,8 +136,11 @@ def check_folder(path: Path, better: str = 'a folder of yours, as --out DIR') ->
                    if folder.exists())
     if not nearest.is_dir():
         raise Failure(f'{nearest}: is not a folder')
-    if not os.access(nearest, os.W_OK | os.X_OK):
-        raise Failure(f'{nearest}: cannot be written; give {better}')
+    try:
+        with tempfile.TemporaryFile(dir=nearest):  # root may write anywhere, and cannot in /proc
+            pass
+    except OSError:
+        raise Failure(f'{nearest}: cannot be written; give {better}') from None
 
 
 def check_output(path: Path, ending: str = '') -> None:
