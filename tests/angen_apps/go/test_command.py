@@ -105,6 +105,16 @@ def test_a_plug_in_of_the_world_that_only_the_node_has_is_left_out(tmp_path: Pat
         loaded(tmp_path / 'now.world', xml % ('<model name="c"><pose>x</pose></model>', ''))
 
 
+def test_a_model_of_the_running_world_may_come_from_any_folder(tmp_path: Path) -> None:
+    (tmp_path / 'own').mkdir()
+    (tmp_path / 'own/eye.sdf').write_text(
+        '<sdf version="1.6"><model name="eye"><static>true</static><link name="l"/></model></sdf>')
+    (tmp_path / 'saved').mkdir()
+    world = loaded(tmp_path / 'saved/now.world', f'''<sdf version="1.6"><world name="w"><include>
+        <uri>file://{tmp_path}/own/eye.sdf</uri><name>eye</name></include></world></sdf>''')
+    assert world.models == ['eye']
+
+
 def test_too_many_words() -> None:
     with pytest.raises(WrongWords, match=r'has 4 words; give ROOM or X Y \[FLOOR\]'):
         goal_of(['1', '2', '3', '4'], HOME, {})

@@ -94,7 +94,7 @@ class Surveyed:
         source = rospy.get_param('/angen/world', '')
         paths = [str(Path(source).parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
         os.environ['ANGEN_MODEL_PATH'] = ':'.join(filter(None, paths))
-        world, shut = loaded(path, saved), load_world(str(path))
+        world, shut = loaded(path, saved), loaded(path, saved)
         self.home = Home.of_world(world)
         self.entities = [entity_of(message, self.home) for message in client.entities()]
         for one in (world, shut):
@@ -110,7 +110,7 @@ def loaded(path: Path, xml: str) -> Any:
     while True:
         write_text(path, xml)
         try:
-            return load_world(str(path))
+            return load_world(str(path), allow_paths=True)  # its node has read the same files
         except Failure as failure:
             found = MISSING_LIBRARY.search(str(failure))
             world = etree.fromstring(xml.encode())

@@ -89,10 +89,11 @@ def _is_log(path: str) -> bool:
         return False
 
 
-def load_world(path: str, seed: int = 0) -> Any:
+def load_world(path: str, seed: int = 0, allow_paths: bool = False) -> Any:
     """The angen.World of a file, or of the beginning of a log; Failure where it does not load."""
     with simulator() as angen:
-        return angen.Replay(path).world() if _is_log(path) else angen.World(path, seed)
+        return (angen.Replay(path).world() if _is_log(path)
+                else angen.World(path, seed, allow_paths=allow_paths))
 
 
 def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH,
