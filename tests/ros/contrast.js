@@ -1,4 +1,5 @@
-// Texts that are shown, with the ratio of their contrast to what is behind them (WCAG 2.2, 1.4.3).
+// Texts that are shown, with the ratio of their contrast to what is behind them (WCAG 2.2, 1.4.3), and controls, with
+// that of their border, or of their face, to what is around them (1.4.11).
 const rgba = (text) => {
   const found = /rgba?\(([^)]+)\)/.exec(text);
   if (!found) return null;
@@ -38,5 +39,13 @@ for (const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEX
   const size = parseFloat(style.fontSize), large = size >= 24 || (size >= 18.66 && Number(style.fontWeight) >= 700);
   const least = Math.min(...behind(e).map((below) => ratio(over([...color.slice(0, 3), color[3] * alpha], below), below)));
   results.push({ text: text.slice(0, 40), of: `${e.tagName}.${e.getAttribute('class') ?? ''}#${e.closest('[id]')?.id}`, ratio: least, needed: large ? 3 : 4.5 });
+}
+for (const e of document.querySelectorAll('button, select, input, canvas.map, .stick')) {
+  const style = getComputedStyle(e), border = rgba(style.borderTopColor), face = rgba(style.backgroundColor);
+  if (e.disabled || !e.checkVisibility({ visibilityProperty: true }) || ['range', 'checkbox'].includes(e.type)) continue;
+  if (parseFloat(style.borderTopWidth) === 0 && face[3] === 0) continue; // a text that one clicks
+  const least = Math.min(...behind(e.parentElement).map((around) => Math.max(
+    parseFloat(style.borderTopWidth) > 0 ? ratio(over(border, around), around) : 1, ratio(over(face, around), around))));
+  results.push({ text: (e.textContent || e.type || '').slice(0, 40), of: `${e.tagName}.${e.className}`, ratio: least, needed: 3 });
 }
 return results;

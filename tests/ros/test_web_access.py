@@ -54,13 +54,13 @@ def press(page: Page, key: str) -> None:
 
 
 def low(page: Page) -> tuple[int, list[dict[str, Any]]]:
-    """How many texts there are, and those with too little contrast."""
+    """How many texts and controls there are, and those with too little contrast."""
     found = page.run(CONTRAST)
     return len(found), [one for one in found if one['ratio'] < one['needed']]
 
 
 @pytest.mark.parametrize('theme', ['light', 'dark'])
-def test_texts_have_the_contrast_of_wcag_aa(page: Page, theme: str) -> None:
+def test_texts_and_controls_have_the_contrast_of_wcag_aa(page: Page, theme: str) -> None:
     page.run('angen.setTheme(arguments[0]); angen.panels.plots.add("pir", "eye")', theme)
     wrong: dict[str, list[dict[str, Any]]] = {}
     for view in ('3d', 'plan'):
@@ -78,7 +78,10 @@ def test_texts_have_the_contrast_of_wcag_aa(page: Page, theme: str) -> None:
     assert not any(wrong.values()), wrong
     page.run('document.documentElement.style.setProperty("--soft", "#7a7a7a")')
     assert low(page)[1]  # a gray in the middle is noticed
-    page.run('document.documentElement.style.removeProperty("--soft")')
+    page.run('''document.documentElement.style.removeProperty("--soft");
+        document.documentElement.style.setProperty("--edge", "#808080a0")''')
+    assert low(page)[1]  # a pale border is noticed
+    page.run('document.documentElement.style.removeProperty("--edge")')
 
 
 def test_a_door_is_opened_by_keys_alone(page: Page) -> None:

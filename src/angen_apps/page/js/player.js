@@ -5,7 +5,7 @@ import { inside } from './home.js';
 const SPEEDS = [0.5, 1, 2, 5, 20, 100, 1000];
 const LINE = 14; // px of a person's line
 const NAMES = 44; // px of their names
-const COLORS = ['#0f766e', '#b45309', '#7c3aed', '#2563eb', '#be185d', '#4d7c0f', '#0e7490', '#a16207', '#9333ea', '#dc2626', '#475569', '#047857'];
+const COLORS = ['#0f766e', '#b45309', '#7c3aed', '#2563eb', '#cf2369', '#4d7c0f', '#0e7490', '#a16207', '#9333ea', '#dc2626', '#64748b', '#047857'];
 
 /** What one thing was over time. */
 class Track {
