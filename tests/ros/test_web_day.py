@@ -189,6 +189,9 @@ def test_a_link_opens_at_its_time(server: Server, tmp_path: Path) -> None:
         page.run('document.querySelector("#replay").focus()')
         ActionChains(page.driver, duration=0).send_keys(' ').perform()
         assert page.run('return angen.player.playing')
+        page.run('angen.player.seek(angen.player.end)')
+        page.press('#replay')  # from the beginning
+        assert page.run('return angen.player.playing && angen.player.time < 1000')
         card = '''angen.show(angen.home.entities.find((e) => e.kind === arguments[0]));
             return document.querySelector("#card .state").textContent'''
         assert page.run(card, 'stove') == 'The recording does not have it.'

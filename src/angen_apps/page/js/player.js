@@ -101,7 +101,7 @@ export class Player {
   }
 
   build() {
-    this.play = el('button', { type: 'button', class: 'icon main', id: 'replay', 'aria-label': 'Play or pause', onclick: () => { this.playing = !this.playing; } });
+    this.play = el('button', { type: 'button', class: 'icon main', id: 'replay', 'aria-label': 'Play or pause', onclick: () => this.toggle() });
     const speed = el('select', { 'aria-label': 'Speed', onchange: () => { this.speed = Number(speed.value); } }, ...SPEEDS.map((s) => el('option', { value: s, selected: s === 1 }, `${s}×`)));
     this.slider = el('input', { type: 'range', id: 'moment', min: 0, step: 'any', value: 0, 'aria-label': 'Time', oninput: () => this.seek(Number(this.slider.value)) });
     this.label = el('span', { class: 'number' });
@@ -144,6 +144,13 @@ export class Player {
   /** @param {string} key kind/name @returns {boolean} whether there is a state of it at any time */
   has(key) {
     return this.rows.get(key)?.v.some(([, , text]) => text) ?? false;
+  }
+
+  /** Plays or pauses; at the end it begins again. */
+  toggle() {
+    const ended = this.time >= this.end;
+    this.playing = ended || !this.playing;
+    if (ended) this.seek(0);
   }
 
   next() {
