@@ -78,27 +78,31 @@ class Sockets:
         return await session.ws_connect(f'{self.url}/socket', headers={'Origin': self.url},
                                         max_msg_size=0)
 
-    async def clicks(self, door: str, count: int) -> list[float]:
-        """ms from an order to the first pose of the door's leaf that differs."""
+    async def clicks(self, door: str, count: int, pages: int) -> list[float]:
+        """ms from an order to the first pose of the door's leaf that differs, on the last page that
+        gets it."""
         async with ClientSession() as session:
-            socket = await self.open(session)
+            sockets = [await self.open(session) for _ in range(pages)]
             times: list[float] = []
-            await self._quiet(socket, 3.0)  # all parts have come
+            await self._all_quiet(sockets)  # all parts have come
             async with session.get(f'{self.url}/scene.json') as answer:
                 scene = await answer.json()
             leaves = {i for i, link in enumerate(scene['links'])
                       if link['moves'] and link['model'] == f'{door[:-1]}_door{door[-1]}'}
             for i in range(count):
-                await self._quiet(socket, 3.0)
+                await self._all_quiet(sockets)
                 began = time.monotonic()
-                await socket.send_str(json.dumps({
+                await sockets[0].send_str(json.dumps({
                     'do': 'command', 'id': i, 'target': f'door/{door}',
                     'text': 'Close' if i % 2 else 'Open'}))
-                while not moves(await socket.receive(), leaves):
-                    pass
+                await asyncio.gather(*(moved(socket, leaves) for socket in sockets))
                 times.append(1000 * (time.monotonic() - began))
-            await socket.close()
+            for socket in sockets:
+                await socket.close()
             return times
+
+    async def _all_quiet(self, sockets: list[ClientWebSocketResponse]) -> None:
+        await asyncio.gather(*(self._quiet(socket, 3.0) for socket in sockets))
 
     async def _quiet(self, socket: ClientWebSocketResponse, seconds: float) -> None:
         end_at = time.monotonic() + seconds
@@ -107,6 +111,12 @@ class Sockets:
                 await socket.receive(timeout=left)
             except asyncio.TimeoutError:
                 return
+
+
+async def moved(socket: ClientWebSocketResponse, leaves: set[int]) -> None:
+    """Returns when a page has got the pose of one of these links."""
+    while not moves(await socket.receive(), leaves):
+        pass
 
 
 def moves(message: Any, leaves: set[int]) -> bool:
@@ -166,9 +176,10 @@ def main() -> None:
                 used = asyncio.run(sockets.hold(count, args.seconds, pids))
                 print(f'{count} pages:', ', '.join(f'{key} {value:.2f}' + (
                     ' %' if key in pids else '') for key, value in used.items()), flush=True)
-            times = asyncio.run(sockets.clicks(args.door, 10))
-            print(f'click to moving door: median {statistics.median(times):.0f} ms, '
-                  f'longest {max(times):.0f} ms')
+            for count in sorted({1, max(args.pages)}):
+                times = asyncio.run(sockets.clicks(args.door, 10, count))
+                print(f'click to moving door on {count} pages: median '
+                      f'{statistics.median(times):.0f} ms, longest {max(times):.0f} ms')
             if args.browser:
                 show(server.url, folder, args.seconds)
             print('load', os.getloadavg())

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-PAGE = Path(__file__).resolve().parents[3] / 'src/angen_apps/page'
+PAGE = Path(__file__).resolve().parents[2] / 'src/angen_apps/page'
 TEXT, GRAPHIC = 4.5, 3.0  # the least ratios of WCAG 2.2, AA
 LIGHT, DARK = re.findall(r'^:root.*?{(.*?)}', (PAGE / 'style.css').read_text(), re.M | re.S)[:2]
 THEMES = [dict(re.findall(r'--([a-z-]+): (#[0-9a-f]{6})', theme)) for theme in (LIGHT, DARK)]
