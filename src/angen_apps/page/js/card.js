@@ -4,7 +4,7 @@ import { middleOf } from './home.js';
 import { roomText } from './labels.js';
 
 export class Card {
-  /** @param {import('./home.js').Home} home @param {any} page choosePoint, plot, highlight */
+  /** @param {import('./home.js').Home} home @param {any} page choosePoint, plot, robot, isTold, say */
   constructor(home, page) {
     this.home = home;
     this.page = page;

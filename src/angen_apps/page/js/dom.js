@@ -36,6 +36,12 @@ function fill(element, attributes, children) {
 /** @param {string} id @returns {any} */
 export const by = (id) => document.getElementById(id);
 
+/** @returns {boolean} whether the page is as on a phone, by the rule of style.css */
+export const isNarrow = () => matchMedia('(max-width: 820px)').matches;
+
+/** @param {KeyboardEvent} e @returns {boolean} whether a key is the browser's, or one of a field in which one types */
+export const isForOthers = (e) => e.ctrlKey || e.metaKey || e.altKey || /^(INPUT|SELECT|TEXTAREA)$/.test(/** @type {any} */ (e.target).tagName ?? '');
+
 /** @param {string} text @param {boolean} [bad] */
 export function notice(text, bad = false) {
   const shown = el('div', { class: bad ? 'notice bad' : 'notice' }, text);

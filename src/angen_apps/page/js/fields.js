@@ -60,6 +60,12 @@ const quaternion = (pose) => [pose[3], pose[4], pose[5], pose[6]];
 /** @param {ArrayLike<number>} a @param {number[]} b */
 const add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 
+/** @param {ArrayLike<number>} pose x y z and quaternion @returns {number} its heading in rad */
+export function yawOf(pose) {
+  const [x, y, z, w] = quaternion(pose);
+  return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y ** 2 + z ** 2));
+}
+
 /** @param {number[]} q @param {ArrayLike<number>} v @returns {number[]} */
 export function rotate([x, y, z, w], v) {
   const t = [2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]), 2 * (x * v[1] - y * v[0])];

@@ -1,6 +1,7 @@
 /** A robot's goal, as the 2D Nav Goal of rviz: a press gives the place, a drag the heading; keys move it too. */
 import * as THREE from '../vendor/three/three.module.min.js';
-import { by } from './dom.js';
+import { by, isForOthers, isNarrow } from './dom.js';
+import { yawOf } from './fields.js';
 
 export const TURNS = 0.3; // m: a longer drag gives the heading too
 const STEP = 0.25, TURN = Math.PI / 12; // m, rad, of a key
@@ -106,9 +107,9 @@ export class Goal {
   begin(robot) {
     this.page.stopChoosing();
     this.robot = robot;
-    const [x, y, z, , , qz, qw] = Array.from(this.home.place(robot));
-    this.put([x, y, this.floorAt([x, y, z + 0.1]), 2 * Math.atan2(qz, qw)]);
-    const keys = matchMedia('(max-width: 820px)').matches ? '' : '. Keys: arrows move it, with Shift they turn it, Enter sends it, Esc ends';
+    const pose = this.home.place(robot), [x, y, z] = Array.from(pose);
+    this.put([x, y, this.floorAt([x, y, z + 0.1]), yawOf(pose)]);
+    const keys = isNarrow() ? '' : '. Keys: arrows move it, with Shift they turn it, Enter sends it, Esc ends';
     by('hint').textContent = `Goal of ${robot.name}: press on the floor and drag${keys}`;
     by('hint').hidden = false;
   }
@@ -152,7 +153,7 @@ export class Goal {
 
   /** @param {KeyboardEvent} e */
   key(e) {
-    if (!(this.robot || this.then) || !this.pose || e.ctrlKey || e.metaKey || e.altKey || /^(INPUT|SELECT|TEXTAREA)$/.test(/** @type {any} */ (e.target).tagName ?? '')) return;
+    if (!(this.robot || this.then) || !this.pose || isForOthers(e)) return;
     const [x, y, z, yaw] = this.pose, way = ARROWS[e.key];
     if (way && e.shiftKey) this.put([x, y, z, yaw - (way[0] - way[1]) * TURN]);
     else if (way) {

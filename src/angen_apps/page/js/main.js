@@ -1,5 +1,5 @@
 /** The page: what is chosen, the clock, the keys. */
-import { by, el, notice } from './dom.js';
+import { by, el, isForOthers, isNarrow, notice } from './dom.js';
 import { Card } from './card.js';
 import { Goal } from './goal.js';
 import { Home } from './home.js';
@@ -42,8 +42,8 @@ class Page {
     addEventListener('hashchange', () => { if (location.hash === '#home') this.whole(); });
     this.showNothing();
     this.setTheme(localStorage.getItem('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
-    this.setView(this.view && !matchMedia('(max-width: 820px)').matches ? '3d' : 'plan');
-    if (matchMedia('(max-width: 820px)').matches) by('side').classList.add('low');
+    this.setView(this.view && !isNarrow() ? '3d' : 'plan');
+    if (isNarrow()) by('side').classList.add('low');
     this.welcome();
     this.home.begin();
   }
@@ -177,7 +177,7 @@ class Page {
 
   /** What one can do, until one has done it. */
   welcome() {
-    const narrow = matchMedia('(max-width: 820px)').matches;
+    const narrow = isNarrow();
     by('welcome').textContent = `${narrow ? 'Tap' : 'Click'} a lamp, door, person or room${narrow || !this.view ? '' : ' · drag turns the 3D view'}`;
     by('welcome').hidden = localStorage.getItem('welcome') === 'seen';
     const seen = () => { by('welcome').hidden = true; localStorage.setItem('welcome', 'seen'); };
@@ -195,8 +195,8 @@ class Page {
     }
     if (hit.entity) { this.show(hit.entity); return; }
     const own = hit.model === undefined ? [] : home.ofModel(hit.model);
-    const sensorsOnly = own.filter((e) => home.kinds[e.kind]?.role === 'device');
-    const first = sensorsOnly.find((e) => home.kinds[e.kind].verbs.length) ?? sensorsOnly[0] ?? own[0];
+    const devices = own.filter((e) => home.kinds[e.kind]?.role === 'device');
+    const first = devices.find((e) => home.kinds[e.kind].verbs.length) ?? devices[0] ?? own[0];
     if (first && hit.cls !== 'floor' && hit.cls !== 'wall') { this.show(first); return; }
     this.place(hit.point);
   }
@@ -223,7 +223,7 @@ class Page {
   choosePoint(text, from, then) {
     this.choosing = then;
     this.goal.mark(from, (point) => { this.stopChoosing(); then(point); });
-    by('hint').textContent = `${text}. ${matchMedia('(max-width: 820px)').matches ? '' : 'Keys: arrows move the mark, Enter takes it, Esc ends'}`;
+    by('hint').textContent = `${text}. ${isNarrow() ? '' : 'Keys: arrows move the mark, Enter takes it, Esc ends'}`;
     by('hint').hidden = false;
   }
 
@@ -268,7 +268,7 @@ class Page {
   }
 
   rebuild() { this.panels.rebuild(); }
-  panelThings() { this.panels.refreshRooms(); }
+  refreshThings() { this.panels.refreshRooms(); }
   say(/** @type {string} */ text) { notice(text); }
 
   async save() {
@@ -284,7 +284,7 @@ class Page {
   /** @param {KeyboardEvent} e */
   key(e) {
     const target = /** @type {any} */ (e.target);
-    if (e.ctrlKey || e.metaKey || e.altKey || /^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName ?? '')) return;
+    if (isForOthers(e)) return;
     if (e.key === 'Escape') {
       if (this.choosing) this.stopChoosing();
       else this.card.close();

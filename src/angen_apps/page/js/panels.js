@@ -1,5 +1,5 @@
 /** The lists beside the view: rooms, sensors with plots, events, costs, robots. */
-import { by, el, words } from './dom.js';
+import { by, el, isNarrow, words } from './dom.js';
 import { thingRow } from './card.js';
 import { Plots } from './plots.js';
 import { RobotPanel } from './robot.js';
@@ -63,8 +63,7 @@ export class Panels {
 
   /** @param {string} id @param {boolean} [byHand] */
   open(id, byHand = false) {
-    const narrow = matchMedia('(max-width: 820px)').matches;
-    if (byHand && narrow) by('side').classList.toggle('low', this.current.id === id && !by('side').classList.contains('low'));
+    if (byHand && isNarrow()) by('side').classList.toggle('low', this.current.id === id && !by('side').classList.contains('low'));
     this.current = this.all.find((panel) => panel.id === id) ?? this.all[0];
     for (const panel of this.all) {
       by(`tab-${panel.id}`).setAttribute('aria-selected', String(panel === this.current));

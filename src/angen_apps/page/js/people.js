@@ -1,5 +1,6 @@
 /** The people of a home as figures. */
 import * as THREE from '../vendor/three/three.module.min.js';
+import { yawOf } from './fields.js';
 import { Figure } from './figure.js';
 
 export class People {
@@ -56,7 +57,7 @@ export class People {
     for (const { figure, link: own, low } of this.all.values()) {
       if (own !== link) continue;
       figure.group.position.set(pose[0], pose[1], pose[2] + low);
-      figure.group.rotation.z = Math.atan2(2 * (pose[6] * pose[5] + pose[3] * pose[4]), 1 - 2 * (pose[4] ** 2 + pose[5] ** 2));
+      figure.group.rotation.z = yawOf(pose);
       figure.group.visible = figure.posture !== 'away' && shows(this.home.storeyAt(pose[2] + low + 0.3));
     }
   }

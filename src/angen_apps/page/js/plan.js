@@ -1,6 +1,6 @@
 /** The plan of one floor, as SVG: large targets, and each item reached by the keyboard. */
 import { by, svg } from './dom.js';
-import { fieldShape } from './fields.js';
+import { fieldShape, yawOf } from './fields.js';
 import { roomText } from './labels.js';
 import { MOVES, scanPoints } from './overlays.js';
 import { Taken, around, nameOf } from './places.js';
@@ -218,7 +218,7 @@ export class Plan {
       const row = home.row(e), pose = home.place(e);
       const moves = home.isMover(e);
       if (moves) item.style.display = home.storeyAt(pose[2] + 0.2) === number ? '' : 'none';
-      const yaw = Math.atan2(2 * (pose[6] * pose[5] + pose[3] * pose[4]), 1 - 2 * (pose[4] ** 2 + pose[5] ** 2));
+      const yaw = yawOf(pose);
       const door = e.kind === 'door' ? this.door(e) : null;
       item.setAttribute('transform', door ? `translate(${door.x} ${-door.y})` : `translate(${pose[0]} ${-pose[1]})`);
       if (moves) {

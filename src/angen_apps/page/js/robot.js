@@ -1,5 +1,5 @@
 /** Robots: drive by keys or a stick, the camera's picture, a goal. */
-import { el } from './dom.js';
+import { el, isForOthers } from './dom.js';
 import { thingRow } from './card.js';
 import { RobotMap } from './robotmap.js';
 
@@ -73,7 +73,7 @@ export class RobotPanel {
   }
 
   update() {
-    this.page.panelThings();
+    this.page.refreshThings();
   }
 
   /** @param {string} name @param {ArrayBuffer} content */
@@ -87,7 +87,7 @@ export class RobotPanel {
   /** @param {KeyboardEvent} e @param {boolean} down */
   key(e, down) {
     const key = e.key.toLowerCase();
-    if (!KEYS[key] || !this.active || e.ctrlKey || e.metaKey || /^(INPUT|SELECT|TEXTAREA)$/.test(/** @type {any} */ (e.target).tagName ?? '')) return;
+    if (!KEYS[key] || !this.active || isForOthers(e)) return;
     if (down) this.keys.add(key);
     else this.keys.delete(key);
     const sum = [...this.keys].reduce(([x, y], one) => [x + KEYS[one][0], y + KEYS[one][1]], [0, 0]);

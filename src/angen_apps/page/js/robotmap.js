@@ -1,5 +1,6 @@
 /** The robot's map: the floor that it is on, its lidar's scan, and a goal that one drags. */
 import { el } from './dom.js';
+import { yawOf } from './fields.js';
 import { TURNS } from './goal.js';
 import { scanPoints } from './overlays.js';
 
@@ -96,7 +97,7 @@ export class RobotMap {
     }
     context.fillStyle = '#e8590c';
     for (const [x, y] of this.scan) context.fillRect(x - 0.025, y - 0.025, 0.05, 0.05);
-    const yaw = Math.atan2(2 * (pose[6] * pose[5] + pose[3] * pose[4]), 1 - 2 * (pose[4] ** 2 + pose[5] ** 2));
+    const yaw = yawOf(pose);
     arrow(context, pose[0], pose[1], yaw, 0.2, ink('--robot'));
     const at = this.goal.pose;
     if (at) arrow(context, at[0], at[1], at[3], 0.26, ink('--accent'));

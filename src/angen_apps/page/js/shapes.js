@@ -1,7 +1,7 @@
 /** The shapes of a scene as instanced meshes: one draw call for all boxes of a class. */
 import * as THREE from '../vendor/three/three.module.min.js';
 
-const BOX = 0, SPHERE = 1, CYLINDER = 2;
+const BOX = 0, CYLINDER = 2; // types of shapes; above the latter: meshes
 export const CUT = 1.15; // m over the floor, where walls are cut
 const FINE = 1e-5, COARSE = 0.035; // m: corners of a mesh that are nearer are one; coarse where the processor draws
 const MOST = 20000, COARSER = 1.5, COARSEST = 0.2; // triangles of all copies of a mesh there, above which it gets coarser
@@ -251,5 +251,3 @@ function cutBox(matrix, part, top) {
   e[14] = (low + top) / 2;
   return true;
 }
-
-export const SHAPE = { BOX, SPHERE, CYLINDER };
