@@ -113,6 +113,7 @@ def live(sandbox: Sandbox) -> None:
         drag_goal(page)
         page.press('#tab-rooms')
         show(page, 'lamp', 'kitchen0')
+        page.until('return angen.home.rows.get("luminosity/livingroom_lux0").values[0] > 20')
         save(page, 'web')
         page.run('angen.card.close(); angen.goal.put(null); angen.setTheme("dark");'
                  'angen.setStorey(null)')
