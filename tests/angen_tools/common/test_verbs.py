@@ -30,6 +30,7 @@ def test_values_become_commands(kind: str, words: str, text: str | None) -> None
     ('door', 'ajar',
      "'ajar' is not a command of a door, which takes open, close, openbyhand, closebyhand, "
      "unlatch or radians"),
+    ('door', 'opne', 'did you mean open?'), ('stove', 'frontlef 50', 'mean frontleft 50?'),
     ('door', 'nan', 'openbyhand, closebyhand, unlatch or radians'),
     ('door', 'open 3', 'too much after open'),
     ('door', 'set', 'set takes one number of radians'), ('door', 'set x', 'not a number'),

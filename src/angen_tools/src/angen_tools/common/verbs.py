@@ -4,12 +4,14 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import Any, Sequence
 
 from angen_tools.common.angle import in_radians, warn_of_turns
 from angen_tools.common.catalog import Plugin
 
 
+ALIKE = 0.7  # of a misspelled verb and the one that was meant
 DECIMAL_COMMA = re.compile(r'(?<![\d.,])\d+,\d+(?![\d.,])')
 
 
@@ -44,7 +46,15 @@ def parse(kind: Plugin, words: Sequence[str]) -> Order:
             math.isfinite(number(in_radians(word.removesuffix('%')))) for word in given):
         return _with_verb(kind, with_number[0], given)
     raise ValueError(f"'{' '.join(words)}' is not a command of {article(kind['kind'])}, "
-                     f'which takes {forms_in_words(kind)}{comma_hint(" ".join(words))}')
+                     f'which takes {forms_in_words(kind)}{_misspelled(kind, given)}'
+                     f'{comma_hint(" ".join(words))}')
+
+
+def _misspelled(kind: Plugin, given: Sequence[str]) -> str:
+    """For the end of an error: the verb that the first word is like; else ''."""
+    known = [verb['name'].lower() for verb in kind['verbs']]
+    likely = get_close_matches(given[0].lower(), known, 1, ALIKE) if given else []
+    return f'; did you mean {" ".join([*likely, *given[1:]])}?' if likely else ''
 
 
 def _counted(kind: Plugin, given: Sequence[str]) -> Order | None:
