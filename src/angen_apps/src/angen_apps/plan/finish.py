@@ -10,6 +10,7 @@ import numpy as np
 
 from angen_apps.plan.model import Lamp, Opening, Piece, Plan, Point, Room, Storey, Wall, local
 from angen_apps.plan.names import Names, slug, use_by_things, use_of
+from angen_apps.plan.nested import cut_out, holds
 from angen_apps.plan.passages import passages
 from angen_apps.plan.polygons import area, contains, overlap, rectangle
 from angen_apps.plan.travel import sided
@@ -27,6 +28,7 @@ def finish(plan: Plan) -> Plan:
     """Names rooms, openings, furniture and lamps; all names are unique."""
     rooms, doors, windows, pieces, lamps = (Names() for _ in range(5))
     for storey in plan.storeys:
+        storey.rooms = cut_out(storey)
         _name_rooms(storey, rooms, plan.remarks)
     for storey in plan.storeys:
         storey.openings = [_below_ceiling(opening, storey, plan)
@@ -50,7 +52,7 @@ def stem(name: str) -> str:
 
 def room_at(storey: Storey, point: Point) -> Room | None:
     """The smallest room around a point of a storey."""
-    around = [room for room in storey.rooms if contains(room.polygon, *point)]
+    around = [room for room in storey.rooms if holds(room, point)]
     return min(around, key=lambda room: area(room.polygon)) if around else None
 
 
@@ -69,7 +71,7 @@ def _name_rooms(storey: Storey, names: Names, remarks: list[str]) -> None:
     named = []
     for room in storey.rooms:
         things = {piece.thing for piece in storey.pieces
-                  if contains(room.polygon, piece.x, piece.y)}
+                  if holds(room, (piece.x, piece.y))}
         use = room.use or use_of(room.name) or use_by_things(things - {''})
         text = slug(room.name, use if use != 'other' else 'room')
         named.append((room, use, text))
