@@ -83,6 +83,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   std::function<std::vector<rays::Crossing>(const Vec3&, const Vec3&)> crossings_at;  // else none
   std::vector<FakeDevice> others;
   Home described;
+  std::vector<double> floor_heights;  // m, of the storeys from its model up
   struct Push {
     std::string link;
     Vec3 force;
@@ -180,6 +181,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   std::string name() const override { return instance; }
   std::string model() const override { return model_name; }
   std::vector<Room> rooms() const override { return described.rooms; }
+  std::vector<double> floors() const override { return floor_heights; }
   Vec3 gravity() const override { return gravity_vector; }
   bool has_joint(const std::string& joint) const override {
     for (const auto& [name, value] : joints) {

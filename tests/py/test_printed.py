@@ -22,6 +22,10 @@ def hung(name: str, joint: str, child: str, axis: str = '0 0 1', limits: str = '
       </joint>{plugin}</model>'''
 
 
+GROUND = '''<model name="ground"><static>true</static><link name="ground"><collision name="plane">
+  <geometry><plane/></geometry></collision></link></model>'''
+
+
 def door_plugin(parameters: str) -> str:
     return f'<plugin name="door" filename="libdoor_world_plugin.so">{parameters}</plugin>'
 
@@ -99,7 +103,8 @@ def test_a_door_that_nothing_drives_is_a_warning(tmp_path):
     ('flat', 'hall_f2_door_joint', 'block', '0 0 0', 'hall2'),
     ('flat', 'joint3', 'leaf', '0 0 0', 'flat0')])
 def test_a_door_is_named_after_what_says_door(world, name, joint, child, place, called):
-    assert world(hung(name, joint, child, place=place), DOORS).devices('door') == [called]
+    made = world(GROUND + hung(name, joint, child, place=place), DOORS)
+    assert made.devices('door') == [called]
 
 
 def test_what_is_no_door_is_none(world):
@@ -212,7 +217,8 @@ def rail(limits: str = '0 4', axis: str = '0 0 1', parameters: str = '') -> str:
 
 @pytest.mark.parametrize('model, message', [
     (rail('4 8'), 'the joint rail begins at 4 m, floor 0 is at 0 m; give it a <lower> of 0'),
-    (rail('0 3'), 'the highest floor is at 4 m, the joint rail ends at 3 m'),
+    (rail('0 3', parameters='<floor_height>4</floor_height>'),
+     'the highest floor is at 4 m, the joint rail ends at 3 m'),
     (rail(axis='0 0 -1'), 'elevator needs a prismatic joint along z, upwards'),
     (rail(axis='1 0 0', parameters='<joint>rail</joint>'),
      "the axis of joint 'rail' does not point up")])

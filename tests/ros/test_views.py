@@ -180,12 +180,12 @@ def test_rays_change_groups_while_a_sensor_fires(angen: Angen) -> None:
     with Inbox("/angen/markers", MarkerArray) as inbox:
         assert angen.call("/angen/spawn", Spawn, name="beam", xml="model://optical_switch",
                           pose=at(-20.0, -20.0, 5.0)).success
-        until(lambda: of_beams(inbox) == {"idle switch beams 1"}, "rays of a sensor at rest")
+        until(lambda: of_beams(inbox) == {"idle switch beams 0"}, "rays of a sensor at rest")
         assert angen.call("/angen/spawn", Spawn, name="wall", xml=wall,
                           pose=at(-19.75, -20.0, 5.0)).success
-        until(lambda: of_beams(inbox) == {"switch beams 1"}, "rays of a sensor that fires")
+        until(lambda: of_beams(inbox) == {"switch beams 0"}, "rays of a sensor that fires")
         assert angen.call("/angen/delete", Delete, name="wall").success
-        until(lambda: of_beams(inbox) == {"idle switch beams 1"}, "rays of a sensor at rest")
+        until(lambda: of_beams(inbox) == {"idle switch beams 0"}, "rays of a sensor at rest")
         assert angen.call("/angen/delete", Delete, name="beam").success
         until(lambda: not of_beams(inbox), "no rays")
 

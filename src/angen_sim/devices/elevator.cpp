@@ -21,6 +21,7 @@ constexpr double kMaxLag = 0.02;         // m
 constexpr double kStallSpeed = 0.005;    // m/s
 constexpr double kUnlimited = 1e9;       // m, of a joint's travel
 constexpr int kMaxFloors = 1000;
+constexpr int kFewestFloors = 2;
 constexpr Nanoseconds kDwell = kSecond;  // between the doors' opening and their shutting
 
 // Gains and limits are times the moving mass; the limits exclude the weight.
@@ -60,7 +61,6 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   servo.near_error = kNearError;
   servo.stall_speed = kStallSpeed;
   servo_ = Servo(servo);
-  read_floors(params);
   brake_force_ =
       params.number("brake_force", 30000.0, "N", "brake of the cabin at rest", kPositive);
   weighing_.configure(params);
@@ -69,6 +69,9 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   door_force_ =
       params.number("door_force_max", 100.0, "N", "greatest force of a door leaf", kPositive);
   doorway_ = Doorway(door_speed, door_force_);
+  lift_ = wiring.joint(lift_name_);
+  limits_ = wiring.limits(lift_);
+  read_floors(params, wiring);
   refresh_ = Refresh(params.number(
       "update_rate", 50.0, "Hz", "how often its state is published while it moves", kRefreshRate));
   params.choice("topicName", kTopic, {kTopic}, "where commands come from: one topic for all");
@@ -89,10 +92,14 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   weighing_.warn_of_effort(params, limits_.effort, lift_name_);
 }
 
-void Elevator::read_floors(Params& params) {
-  const double height =
-      params.number("floor_height", kStoreyHeight, "m", "from one floor to the next", kPositive);
-  const int count = params.integer("floors", 2, "", "number of floors", {1, kMaxFloors});
+void Elevator::read_floors(Params& params, const Wiring& wiring) {
+  const double height = params.number("floor_height", 0.0, "m",
+                                      "from one floor to the next; 0: by the storeys of the world, "
+                                      "or else evenly over the joint's travel",
+                                      kNotNegative);
+  const int given = params.integer(
+      "floors", 0, "", "number of floors; 0: the storeys within the joint's travel, or else 2",
+      {0, kMaxFloors});
   for (const std::vector<double>& stop :
        params.rows("stop", 1, "m",
                    "height of a floor over floor 0, one for each floor from below; "
@@ -107,12 +114,27 @@ void Elevator::read_floors(Params& params) {
     heights_.push_back(stop.front());
   }
   if (!heights_.empty()) return;
-  for (int floor = 0; floor < count; ++floor) heights_.push_back(floor * height);
+  const bool ends = limits_.lower < limits_.upper && limits_.upper < kUnlimited;
+  const int count = given > 0 ? given : kFewestFloors;
+  if (height == 0.0) {
+    for (const double floor : wiring.floors()) {
+      const bool reached = !ends || floor <= limits_.upper + kLevelWithin;
+      if (reached && (given == 0 || floors() < given)) heights_.push_back(floor);
+    }
+    if (floors() >= count) return;
+    heights_.clear();
+    if (!ends && count > 1) {
+      throw params.error("floor_height", "the world has no " + std::to_string(count) +
+                                             " storeys, and the joint " + lift_name_ +
+                                             " no end; give a <floor_height>, or a <stop> of each "
+                                             "floor");
+    }
+  }
+  const double apart = height > 0.0 || count == 1 ? height : limits_.upper / (count - 1);
+  for (int floor = 0; floor < count; ++floor) heights_.push_back(floor * apart);
 }
 
 void Elevator::wire(Params& params, Wiring& wiring) {
-  lift_ = wiring.joint(lift_name_);
-  limits_ = wiring.limits(lift_);
   const double highest = heights_.back();
   if (limits_.lower < limits_.upper && highest > limits_.upper + kLevelWithin) {
     throw params.error("floors", "the highest floor is at " + number_text(highest) +

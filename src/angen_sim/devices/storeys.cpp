@@ -1,7 +1,6 @@
 #include "devices/storeys.h"
 
 #include <cctype>
-#include <cmath>
 
 namespace angen::devices {
 
@@ -19,8 +18,7 @@ std::string full_room(const std::string& name) {
 
 int floor_of(const std::vector<Storey>& storeys, double z) {
   const Storey* storey = storey_at(storeys, z);
-  return storey != nullptr ? storey->number
-                           : static_cast<int>(std::floor((z + 0.5) / kStoreyHeight));
+  return storey != nullptr ? storey->number : 0;
 }
 
 std::string command_name(const std::string& model, const std::string& kind, int floor) {

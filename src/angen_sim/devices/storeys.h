@@ -7,10 +7,7 @@
 /// The names of a building's parts: after their room and storey.
 namespace angen::devices {
 
-/// Height between two floors in meters where the world describes none; floor 0 is at z = 0.
-constexpr double kStoreyHeight = 4.0;
-
-/// The number of the storey at z meters; floor((z + 0.5) / 4) where there are none.
+/// The number of the storey at z meters; 0 where there are none.
 int floor_of(const std::vector<Storey>& storeys, double z);
 
 /// The name that commands use: the model's without trailing digits and '_' and without the kind as

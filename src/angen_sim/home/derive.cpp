@@ -9,9 +9,8 @@ namespace angen {
 
 namespace {
 
-constexpr double kOneStorey = 1.0;  // m: floors that differ by more are on different storeys
-constexpr double kAbove = 0.1;      // m over its origin, a thing is in its room
-constexpr double kAhead = 0.3;      // m: a thing on a wall faces its room
+constexpr double kAbove = 0.1;  // m over its origin, a thing is in its room
+constexpr double kAhead = 0.3;  // m: a thing on a wall faces its room
 
 Polygon placed(const Polygon& polygon, const Pose& frame) {
   Polygon all;
@@ -25,31 +24,6 @@ double area_of(const Room& room) {
   double area = std::abs(signed_area(room.outline));
   for (const Polygon& hole : room.holes) area -= std::abs(signed_area(hole));
   return area;
-}
-
-void add_storeys(const desc::HomeParts& parts, const Pose& frame, std::vector<Storey>& storeys) {
-  for (const desc::Storey& given : parts.storeys) {
-    storeys.push_back({given.number, given.name, frame.position.z() + given.elevation,
-                       given.height.value_or(0.0)});
-  }
-}
-
-std::vector<Storey> storeys_of_floors(std::vector<double> floors) {
-  std::sort(floors.begin(), floors.end());
-  std::vector<Storey> storeys;
-  double last = 0.0;
-  for (const double floor : floors) {
-    if (storeys.empty() || floor - last > kOneStorey) {
-      storeys.push_back({static_cast<int>(storeys.size()), "", floor, 0.0});
-    }
-    last = floor;
-  }
-  return storeys;
-}
-
-void sort_by_height(std::vector<Storey>& storeys) {
-  std::stable_sort(storeys.begin(), storeys.end(),
-                   [](const Storey& a, const Storey& b) { return a.elevation < b.elevation; });
 }
 
 void add_heights(const std::vector<Room>& rooms, std::vector<Storey>& storeys) {
@@ -74,11 +48,6 @@ void add_rooms_and_storeys(const HomeSurvey& survey, Home& home) {
   home.storeys = survey.storeys;
   const bool guessed = home.rooms.empty();
   if (guessed) home.rooms = guess_rooms(survey);
-  if (home.storeys.empty()) {
-    std::vector<double> floors;
-    for (const Room& room : home.rooms) floors.push_back(room.floor);
-    home.storeys = storeys_of_floors(std::move(floors));
-  }
   add_heights(home.rooms, home.storeys);
   for (std::size_t i = 0; i < home.rooms.size(); ++i) {
     Room& room = home.rooms[i];
@@ -141,22 +110,6 @@ std::vector<Room> rooms_of(const desc::HomeParts& parts, const Pose& frame,
     rooms.push_back(std::move(room));
   }
   return rooms;
-}
-
-std::vector<Storey> described_storeys(
-    const std::vector<std::pair<const desc::HomeParts*, Pose>>& parts) {
-  std::vector<Storey> storeys;
-  std::vector<double> floors;
-  for (const auto& [each, frame] : parts) {
-    add_storeys(*each, frame, storeys);
-    for (const desc::Room& room : each->rooms) {
-      const Point2& corner = room.outline.front();
-      floors.push_back((frame * Vec3(corner.x(), corner.y(), room.floor)).z());
-    }
-  }
-  if (storeys.empty()) return storeys_of_floors(std::move(floors));
-  sort_by_height(storeys);
-  return storeys;
 }
 
 Home derive_home(const HomeSurvey& survey) {

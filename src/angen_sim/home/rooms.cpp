@@ -15,7 +15,6 @@ namespace {
 constexpr double kSquare = 0.05;        // m
 constexpr double kMaxSquares = 4e6;     // of a plan
 constexpr double kWallHeight = 1.0;     // m: lower shapes are furniture
-constexpr double kFloorsApart = 1.0;    // m: floors that differ by more are on different storeys
 constexpr double kSmallestRoom = 1.0;   // m^2
 constexpr double kPassage = 0.55;       // m, half the width of the widest gap between two rooms
 constexpr double kUsualCeiling = 2.5;   // m
@@ -23,7 +22,6 @@ constexpr double kTolerance = 0.08;     // m, of corners
 constexpr double kNarrow = 0.3;         // m, half the width of the narrowest room
 constexpr double kPillar = 0.25;        // m^2: smaller ones are left out
 constexpr double kLowestCeiling = 1.9;  // m
-constexpr double kPlane = 10.0;         // m^2 of a slab on a plane that is the floor instead of it
 constexpr double kAsMuch = 0.8;         // of the area found at a lower height is enough at a higher
 constexpr double kHeights[] = {2.3, 2.0, 1.5,
                                1.0};  // m over the floor: above lintels, if there are
@@ -56,45 +54,6 @@ std::vector<Solid> solids_of(const HomeSurvey& survey) {
     }
   }
   return solids;
-}
-
-bool is_wall(const Solid& solid) { return solid.bounds.sizes().z() >= kWallHeight; }
-
-// The floor below walls: the top of the widest slab or plane near their feet.
-std::vector<double> floors_of(const HomeSurvey& survey, const std::vector<Solid>& solids) {
-  std::vector<double> feet;
-  for (const Solid& solid : solids) {
-    if (is_wall(solid)) feet.push_back(solid.bounds.min().z());
-  }
-  std::sort(feet.begin(), feet.end());
-  std::vector<std::pair<double, double>> slabs;  // z of the top, area
-  for (const Solid& solid : solids) {
-    const Vec3 size = solid.bounds.sizes();
-    const double area = size.x() * size.y();
-    if (size.z() < kWallHeight / 2 && area > kSmallestRoom) {
-      slabs.emplace_back(solid.bounds.max().z(), area);
-    }
-  }
-  for (const HomeSurvey::Standing& standing : survey.models) {
-    for (const desc::Link& link : standing.model->links) {
-      for (const desc::Collision& collision : link.collisions) {
-        if (collision.shape.type != Shape::Type::kPlane) continue;
-        slabs.emplace_back((standing.pose * link.pose * collision.pose).position.z(), kPlane);
-      }
-    }
-  }
-  std::vector<double> floors;
-  for (const double foot : feet) {
-    double floor = foot;
-    double widest = 0.0;
-    for (const auto& [top, area] : slabs) {
-      if (top < foot - 0.1 || top >= foot + 0.3 || area <= widest) continue;
-      floor = std::max(foot, top);
-      widest = area;
-    }
-    if (floors.empty() || floor - floors.back() > kFloorsApart) floors.push_back(floor);
-  }
-  return floors;
 }
 
 // The walls of one storey at one height.
@@ -280,7 +239,8 @@ double covered(const std::vector<Room>& rooms) {
 std::vector<Room> guess_rooms(const HomeSurvey& survey) {
   const std::vector<Solid> solids = solids_of(survey);
   std::vector<Room> rooms;
-  for (const double floor : floors_of(survey, solids)) {
+  for (const Storey& storey : survey.storeys) {
+    const double floor = storey.elevation;
     std::vector<Room> best;
     for (const double height : kHeights) {
       std::vector<Room> found = Plan(solids, floor + height).rooms();

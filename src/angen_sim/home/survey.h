@@ -36,7 +36,7 @@ struct HomeSurvey {
   std::vector<Standing> models;
   std::vector<Leaf> leaves;
   std::vector<Lift> lifts;
-  std::vector<Storey> storeys;  // as described_storeys()
+  std::vector<Storey> storeys;  // as storeys_of()
 };
 
 /// Something of a description that is missing, so that it was derived, or that contradicts itself.
@@ -48,10 +48,11 @@ struct HomeFinding {
 /// The rooms of parts in a frame, whose names and storeys are not known yet.
 std::vector<Room> rooms_of(const desc::HomeParts& parts, const Pose& frame,
                            const std::string& model);
-/// The storeys that parts in these frames describe, or that follow from the floors of their rooms,
-/// by elevation; heights and names that are not given are left to derive_home().
-std::vector<Storey> described_storeys(
-    const std::vector<std::pair<const desc::HomeParts*, Pose>>& parts);
+/// The storeys by elevation, as the world and these models describe them; or else by the floors of
+/// the rooms that they describe; or else by floors on which walls or doors stand. None where there
+/// are neither. Heights and names that are not given are left to derive_home().
+std::vector<Storey> storeys_of(const desc::HomeParts& world,
+                               const std::vector<std::pair<const desc::Model*, Pose>>& models);
 Home derive_home(const HomeSurvey& survey);
 std::vector<HomeFinding> check_home(const HomeSurvey& survey, const Home& home);
 

@@ -15,6 +15,7 @@ class AnyWiring : public Wiring {
   std::string name() const override { return kind_; }
   std::string model() const override { return "model"; }
   std::vector<Room> rooms() const override { return std::vector<Room>(1); }
+  std::vector<double> floors() const override { return {0.0, 3.0}; }
   bool has_joint(const std::string&) const override { return true; }
   std::vector<std::string> joint_names() const override { return {"joint"}; }
   JointRef joint(const std::string&) override { return {0}; }

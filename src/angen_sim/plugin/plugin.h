@@ -134,7 +134,7 @@ struct ModelInfo {
   std::vector<std::string> links;
   std::vector<Joint> joints;
   std::vector<std::string> lights;
-  std::vector<Storey> storeys;  // that the world describes; none: they are 4 m high
+  std::vector<Storey> storeys;  // of the world, by elevation; none where it has no walls
 
   const Joint* joint(const std::string& joint_name) const;
 };

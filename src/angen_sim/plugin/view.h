@@ -159,6 +159,9 @@ class Wiring {
   virtual std::string model() const = 0;  // of the model it belongs to
   /// The rooms that its model describes, in the model's frame; names and storeys are not known yet.
   virtual std::vector<Room> rooms() const = 0;
+  /// m from the storey of its model up to this one and those above it; none in a world without
+  /// storeys.
+  virtual std::vector<double> floors() const = 0;
   virtual bool has_joint(const std::string& joint) const = 0;
   virtual std::vector<std::string> joint_names() const = 0;
   virtual JointRef joint(const std::string& joint) = 0;

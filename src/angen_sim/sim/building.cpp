@@ -251,7 +251,7 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
 
 void Building::add(desc::Model model, Nanoseconds now) {
   const std::size_t before = warnings_.size();
-  const bool has_storeys = describes_storeys(model);
+  const bool has_storeys = may_have_storeys(model);
   if (has_storeys) find_storeys({&model});
   try {
     build(std::move(model), nullptr, now);
@@ -314,7 +314,7 @@ void Building::erase(const std::string& name) {
     remove_names(**model);
     home_changed_ = home_changed_ || is_of_home(**model);
     const auto number = static_cast<std::size_t>(model - models_.begin());
-    const bool has_storeys = describes_storeys(*(*model)->desc);
+    const bool has_storeys = may_have_storeys(*(*model)->desc);
     models_.erase(model);
     if (has_storeys) find_storeys({});
     note_change(number);

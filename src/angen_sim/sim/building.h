@@ -196,7 +196,7 @@ class Building {
   std::shared_ptr<const Structure> structure_;  // the last one
   std::size_t renumbered_from_ = 0;
   bool home_changed_ = true;     // since the last structure()
-  std::vector<Storey> storeys_;  // that are described
+  std::vector<Storey> storeys_;  // as storeys_of()
   struct DevicesByField {
     std::vector<FoundDevice>
         fixed;  // by height: a storey's are found without going through a tower

@@ -226,7 +226,7 @@ class DeviceMaker {
       instance.name = read_device_name(params, mount.name);
       const std::string problem = name_problem(instance.name);
       if (!problem.empty()) throw params.error("device_name", problem);
-      ModelWiring wiring(model_, instance.name);
+      ModelWiring wiring(model_, live_.storeys, instance.name);
       instance.device->configure(params, wiring);
       if (model_.tolerant) {
         for (const Diagnostic& each : params.unread()) warn_ignored(each);

@@ -40,15 +40,17 @@ bool is_of_home(const LiveModel& live) {
          std::any_of(live.devices.begin(), live.devices.end(), is_passage);
 }
 
-bool describes_storeys(const desc::Model& model) {
-  return !model.home.rooms.empty() || !model.home.storeys.empty();
+bool may_have_storeys(const desc::Model& model) {
+  return !model.home.rooms.empty() || !model.home.storeys.empty() || may_be_wall(model) ||
+         std::any_of(model.joints.begin(), model.joints.end(),
+                     [](const desc::Joint& joint) { return joint.parent == "world"; });
 }
 
 void Building::find_storeys(const std::vector<const desc::Model*>& added) {
-  std::vector<std::pair<const desc::HomeParts*, Pose>> parts = {{&world_.home, Pose{}}};
-  for (const auto& live : models_) parts.emplace_back(&live->desc->home, pose_of(*live));
-  for (const desc::Model* model : added) parts.emplace_back(&model->home, model->pose);
-  storeys_ = described_storeys(parts);
+  std::vector<std::pair<const desc::Model*, Pose>> models;
+  for (const auto& live : models_) models.emplace_back(live->desc.get(), pose_of(*live));
+  for (const desc::Model* model : added) models.emplace_back(model, model->pose);
+  storeys_ = storeys_of(world_.home, models);
 }
 
 HomeSurvey Building::survey_home() const {

@@ -8,7 +8,7 @@ namespace angen::sim {
 /// door or elevator, or may be a wall.
 bool is_of_home(const LiveModel& live);
 
-/// Whether it gives storeys, or rooms from which they follow.
-bool describes_storeys(const desc::Model& model);
+/// Whether storeys follow from it: it describes them, or rooms, or has walls, a floor or doors.
+bool may_have_storeys(const desc::Model& model);
 
 }  // namespace angen::sim

@@ -199,7 +199,7 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
     if (!instance.plugin->kind().ray_color().empty()) {
       read_ray_color(params, instance.plugin->kind());
     }
-    ModelWiring wiring(*live.desc, name, live.desc->links[link].name);
+    ModelWiring wiring(*live.desc, live.storeys, name, live.desc->links[link].name);
     instance.sensor->configure(params, wiring);
     instance.plugin->link_of(params);
     if (only != nullptr) instance.pose = instance.pose * offset_in(params);

@@ -94,7 +94,7 @@ struct Structure {
   std::vector<std::shared_ptr<const Plugin>> device_plugins;  // of each kind there is or may be
   desc::Physics physics;                                      // as it is set now
   Vec3 gravity = Vec3::Zero();                                // m/s^2
-  std::vector<Storey> storeys;                                // that are described, by elevation
+  std::vector<Storey> storeys;                                // as storeys_of()
   std::shared_ptr<const DerivedHome> home;                    // of these models
 };
 

@@ -61,8 +61,21 @@ double inertia(const desc::Model& model, const desc::Joint& joint) {
 
 }  // namespace
 
-ModelWiring::ModelWiring(const desc::Model& model, std::string name, std::string sensor_link)
-    : model_(model), name_(std::move(name)), sensor_link_(std::move(sensor_link)) {}
+ModelWiring::ModelWiring(const desc::Model& model, const std::vector<Storey>& storeys,
+                         std::string name, std::string sensor_link)
+    : model_(model),
+      storeys_(storeys),
+      name_(std::move(name)),
+      sensor_link_(std::move(sensor_link)) {}
+
+std::vector<double> ModelWiring::floors() const {
+  std::vector<double> floors;
+  const Storey* own = storey_at(storeys_, model_.pose.position.z());
+  for (const Storey& storey : storeys_) {
+    if (storey.elevation >= own->elevation) floors.push_back(storey.elevation - own->elevation);
+  }
+  return floors;
+}
 
 bool ModelWiring::has_joint(const std::string& joint) const {
   return index_of(model_.joints, joint) >= 0;

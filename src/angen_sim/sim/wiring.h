@@ -13,11 +13,13 @@ namespace angen::sim {
 /// Answers a plug-in's names from the description of its model; refs are indices into it.
 class ModelWiring : public Wiring {
  public:
-  ModelWiring(const desc::Model& model, std::string name, std::string sensor_link = "");
+  ModelWiring(const desc::Model& model, const std::vector<Storey>& storeys, std::string name,
+              std::string sensor_link = "");
 
   std::string name() const override { return name_; }
   std::string model() const override { return model_.name; }
   std::vector<Room> rooms() const override { return rooms_of(model_.home, Pose{}, model_.name); }
+  std::vector<double> floors() const override;
   bool has_joint(const std::string& joint) const override;
   std::vector<std::string> joint_names() const override;
   JointRef joint(const std::string& joint) override;
@@ -41,6 +43,7 @@ class ModelWiring : public Wiring {
 
  private:
   const desc::Model& model_;
+  const std::vector<Storey>& storeys_;
   std::string name_;
   std::string sensor_link_;
   std::set<std::string> joints_;

@@ -48,10 +48,10 @@ def test_the_files_say_what_the_map_says(tmp_path: Path, capsys: pytest.CaptureF
                          solid('box', '1 -0.5 4.5 0 0 0', '0.5 2 1'),
                          solid('wall', '-2 0 4.5 0 0 0', '0.1 4 1')))
     stem = tmp_path / 'up.1'
-    assert cli.run(['map', '--world', str(world), '--floor', '1', '-o', str(stem)]) == 0
-    grid = make_map(load_world(str(world)), 1)
+    assert cli.run(['map', '--world', str(world), '--floor', '0', '-o', str(stem)]) == 0
+    grid = make_map(load_world(str(world)), 0)
     assert capsys.readouterr().out == (
-        f'wrote {stem}.pgm and {stem}.yaml: floor 1, '
+        f'wrote {stem}.pgm and {stem}.yaml: floor 0, '
         f'{grid.cells.shape[1]} x {grid.cells.shape[0]} cells of 0.05 m\n')
     read = read_as_map_server(tmp_path / 'up.1.yaml')
     assert (read.cells == grid.cells).all() and set(read.cells.flat) == {FREE, OCCUPIED, UNKNOWN}

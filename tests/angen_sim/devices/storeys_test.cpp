@@ -5,14 +5,16 @@
 namespace angen::devices {
 namespace {
 
-TEST(Floor, CountsStoreysOfFourMetres) {
-  EXPECT_EQ(floor_of({}, 0.0), 0);
-  EXPECT_EQ(floor_of({}, -0.4), 0);
-  EXPECT_EQ(floor_of({}, 3.4), 0);
-  EXPECT_EQ(floor_of({}, 3.5), 1);
-  EXPECT_EQ(floor_of({}, 4.0), 1);
-  EXPECT_EQ(floor_of({}, 8.0), 2);
-  EXPECT_EQ(floor_of({}, -1.0), -1);
+TEST(Floor, IsTheStoreyAtAHeight) {
+  const std::vector<Storey> storeys = {
+      {-1, "cellar", -2.6, 2.6}, {0, "ground", 0.0, 3.2}, {1, "attic", 3.2, 2.5}};
+  EXPECT_EQ(floor_of(storeys, -4.0), -1);
+  EXPECT_EQ(floor_of(storeys, -0.6), -1);
+  EXPECT_EQ(floor_of(storeys, -0.4), 0);
+  EXPECT_EQ(floor_of(storeys, 2.6), 0);
+  EXPECT_EQ(floor_of(storeys, 2.8), 1);
+  EXPECT_EQ(floor_of(storeys, 9.0), 1);
+  EXPECT_EQ(floor_of({}, 4.0), 0);
 }
 
 TEST(CommandName, DropsDigitsAndKindAndAddsTheFloor) {

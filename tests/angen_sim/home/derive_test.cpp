@@ -17,11 +17,9 @@ desc::Room room(const std::string& name, double x0, double y0, double x1, double
 void add(HomeSurvey& survey, desc::Model model) {
   const Pose pose = model.pose;
   survey.models.push_back({std::make_shared<const desc::Model>(std::move(model)), pose});
-  std::vector<std::pair<const desc::HomeParts*, Pose>> parts = {{&survey.parts, Pose{}}};
-  for (const auto& standing : survey.models) {
-    parts.emplace_back(&standing.model->home, standing.pose);
-  }
-  survey.storeys = described_storeys(parts);
+  std::vector<std::pair<const desc::Model*, Pose>> models;
+  for (const auto& each : survey.models) models.emplace_back(each.model.get(), each.pose);
+  survey.storeys = storeys_of(survey.parts, models);
 }
 
 desc::Link leaf_link(const std::string& name, const Vec3& middle, const Vec3& size) {
@@ -182,6 +180,7 @@ TEST(Derive, ARoomHasItsAreaWithoutItsHolesAndIsNotEnteredThere) {
   HomeSurvey survey;
   survey.parts.rooms = {room("round", 0, 0, 10, 10)};
   survey.parts.rooms[0].holes = {{{4, 4}, {6, 4}, {6, 6}, {4, 6}}};
+  survey.storeys = storeys_of(survey.parts, {});
   const Home home = derive_home(survey);
   EXPECT_DOUBLE_EQ(home.rooms[0].area, 96.0);
   EXPECT_EQ(home.room_name_at({5, 5, 1}), "");

@@ -107,12 +107,13 @@ def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH,
     ground that is not a floor, are UNKNOWN. Failure where the world has no such floor; it
     names those it has.
     """
+    all_floors = floors(world)
     height = Home.of_world(world).elevation(floor)
     _prepare(world, floor, doors, but)
     surveyor = _Surveyor(world, high)
     bounds = surveyor.bounds(height)
-    if bounds is None:
-        known = ', '.join(str(known) for known in floors(world))
+    if bounds is None or floor not in all_floors:
+        known = ', '.join(str(known) for known in all_floors)
         raise Failure(f'there is no floor {floor}; ' +
                       (f'known are {known}' if known else 'it has no floor'))
     west, south, columns, rows = bounds
@@ -129,17 +130,12 @@ def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH,
 
 
 def floors(world: Any) -> list[int]:
-    """The storeys of the world without those on which nothing is, such as a roof; where only one
-    was found, 0, 1, … that are not empty, up to the first that is."""
+    """The storeys of the world without those on which nothing is, such as a roof; 0 in a world
+    without walls, unless nothing is there."""
     home = Home.of_world(world)
     surveyor = _Surveyor(world)
-    if home.has_storeys:
-        return [storey.number for storey in home.storeys
-                if surveyor.bounds(storey.elevation) is not None]
-    found: list[int] = []
-    while surveyor.bounds(home.elevation(len(found))) is not None:
-        found.append(len(found))
-    return found
+    return [number for number in [storey.number for storey in home.storeys] or [0]
+            if surveyor.bounds(home.elevation(number)) is not None]
 
 
 def models_with(world: Any, joint: str) -> list[str]:

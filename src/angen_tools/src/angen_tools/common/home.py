@@ -10,7 +10,6 @@ from typing import Any, Mapping, Sequence
 from angen_tools.common.clock import time_of_day
 from angen_tools.common.geometry import yaw as yaw_of
 
-STOREY = 4.0  # m from a floor to the next where a world describes none
 ON_FLOOR = 0.5  # m below its floor that belong to a storey
 IN_WALL = 0.1  # m: a thing in a wall, floor or ceiling is in the room
 Point = tuple[float, float]
@@ -201,11 +200,6 @@ class Home:
         return any(not room.guessed for room in self.rooms)
 
     @property
-    def has_storeys(self) -> bool:
-        """Whether its storeys are described, or floors were found at several heights."""
-        return self.described or len(self.storeys) > 1
-
-    @property
     def time_of_day(self) -> float:
         """At simulated time 0, in s since midnight; 0 where the world does not say."""
         return time_of_day(self.start.partition('T')[2] or '0:00')
@@ -214,16 +208,14 @@ class Home:
         return next((storey for storey in self.storeys if storey.number == number), None)
 
     def storey_at(self, z: float) -> int:
-        """The number of the highest storey whose floor is not above z."""
-        if not self.has_storeys:
-            return math.floor((z + ON_FLOOR) / STOREY)
+        """The number of the highest storey whose floor is not above z, or else of the lowest."""
         below = [storey for storey in self.storeys if storey.elevation - ON_FLOOR <= z]
-        return below[-1].number if below else self.storeys[0].number
+        return next((storey.number for storey in below[-1:] or self.storeys), 0)
 
     def elevation(self, number: int) -> float:
-        """The height of a storey's floor."""
-        storey = self.storey(number) if self.has_storeys else None
-        return storey.elevation if storey else number * STOREY
+        """The height of a storey's floor; 0 in a home without storeys."""
+        storey = self.storey(number)
+        return storey.elevation if storey else 0.0
 
 
 def _edges(polygon: list[Point]) -> list[tuple[Point, Point]]:

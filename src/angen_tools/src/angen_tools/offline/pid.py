@@ -91,7 +91,8 @@ LEAF = '''<model name="test_door"><link name="base"/><link name="leaf"><inertial
 CABIN = '''<model name="elevator"><link name="body1"><inertial><mass>8</mass></inertial></link>
   <joint name="lift" type="prismatic"><parent>world</parent><child>body1</child>
   <axis><xyz>0 0 1</xyz></axis></joint>
-  <plugin name="ros_plugin" filename="libros_plugin.so">{parameters}</plugin></model>'''
+  <plugin name="ros_plugin" filename="libros_plugin.so"><floor_height>4</floor_height>{parameters}
+  </plugin></model>'''
 
 PLANTS = {
     'door': Plant('door', 'test0', 'test_door::hinge', 'Set -0.7', 'rad', -0.7,
