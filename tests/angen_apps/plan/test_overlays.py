@@ -57,3 +57,12 @@ def test_a_storey_shows_its_own_events_and_tracks(tmp_path: Path) -> None:
     assert np.array_equal(plain, picture(overlays.What()))
     changed = (plain != picture(overlays.What(events=tmp_path / 'events.csv'))).any(axis=2)
     assert 0.001 < changed.mean() < 0.1
+
+
+def test_an_hour_in_which_only_people_came_has_no_events_to_show(tmp_path: Path) -> None:
+    path = tmp_path / 'events.csv'
+    path.write_text('time,source,kind,event\n0,anna,world,spawned\n')
+    assert not overlays.read(overlays.What(events=path), []).counts
+    path.write_text('time,source,kind,event\n0,anna,pir,motion\n')
+    with pytest.raises(Failure, match='names no sensor'):
+        overlays.read(overlays.What(events=path), [])

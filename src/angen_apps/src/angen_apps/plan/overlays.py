@@ -51,8 +51,8 @@ def read(what: What, entities: Iterable[Any]) -> Data:
     names = {name for _, name, _, _ in entities}
     if what.events:
         for line, row in _rows(what.events, ('source',)):
-            source = row['source']
-            data.counts[source] += 1
+            if row.get('kind') != 'world':  # a model comes or goes
+                data.counts[row['source']] += 1
         if data.counts and not names & set(data.counts):
             raise Failure(f'{what.events}:2: names no sensor or device of this world')
     if what.track:
