@@ -1,6 +1,7 @@
 """Mistakes that people make, and the answer to each: a line, an exit code, no traceback."""
 from __future__ import annotations
 
+import os
 import shlex
 import socket
 from pathlib import Path
@@ -24,6 +25,7 @@ def alone(monkeypatch: pytest.MonkeyPatch) -> None:
     with socket.socket() as probe:
         probe.bind(('127.0.0.1', 0))
         monkeypatch.setenv('ROS_MASTER_URI', f'http://127.0.0.1:{probe.getsockname()[1]}')
+    monkeypatch.setenv('ANGEN_MODEL_PATH', os.environ.get('ANGEN_MODEL_PATH', ''))  # it is set
     monkeypatch.chdir(ROOT)
 
 
