@@ -16,6 +16,7 @@ namespace angen::devices {
 namespace {
 
 constexpr double kUsualStep = 1e-3;      // s
+constexpr double kUsualMass = 70.0;      // kg, of a body of 1.8 m^2
 constexpr double kMouth = 1.5;           // m above the floor, where its sound comes from
 constexpr double kCelsiusZero = 273.15;  // K
 constexpr double kMiddle = 0.9;          // m above its feet
@@ -76,7 +77,9 @@ void Person::configure(Params& params, Wiring& wiring) {
   if (params.has("path_time")) clock_ = from_seconds(on_path);
   paused_ = params.flag("stopped", false, "waits at the start, as after Stop");
   force_max_ = params.number("force_max", 150.0, "N", "greatest force of its legs", kPositive);
-  params.number("mass", 70.0, "kg", "its mass", kPositive);
+  const double mass = params.number("mass", kUsualMass, "kg", "its mass", kPositive);
+  // Meeh's law: the surface of bodies of one shape.
+  surface_ = std::pow(mass / kUsualMass, 2.0 / 3.0);
   step_sound_ =
       params.number("step_sound", 55.0, "dB",
                     "sound power level of its steps while it walks, over 1 pW", kSoundPower);
@@ -269,8 +272,8 @@ void Person::report(const View& view, Reading& state) const {
   state.set("position", std::vector<double>{0.0, 0.0, kMouth});
   const double air = air_ > 0.0 ? air_ : view.ambient_temperature();
   const Metabolism given = metabolism(activity(), air - kCelsiusZero, humidity_);
-  state.set("heat", given.heat);
-  state.set("vapor", given.vapor);
+  state.set("heat", surface_ * given.heat);
+  state.set("vapor", surface_ * given.vapor);
 }
 
 // W/m^2 of its body.

@@ -93,6 +93,7 @@ class Person : public Device {
   Nanoseconds felt_at_ = -1;  // that, as a multiple of a period
   std::vector<SurfaceRef> surfaces_;
   double force_max_ = 0.0;       // N
+  double surface_ = 1.0;         // of its body, as a share of a person's
   double step_sound_ = 0.0;      // dB over 1 pW
   double speech_sound_ = 0.0;    // dB over 1 pW
   Nanoseconds clock_ = 0;        // time on the path; below 0 while the start is delayed

@@ -6,6 +6,7 @@ import datetime
 from angen_apps.data.recorder import Event
 from angen_apps.data.run import Data
 from angen_apps.data.site import Sensor
+from angen_apps.residents.profiles import read
 from angen_apps.residents.truth import Interval
 from angen_tools.common.home import Home
 
@@ -30,9 +31,9 @@ def data(residents: int = 1) -> Data:
               Event(152.0, 'M001', 'OFF', 'anna', 'eat', 'motion'),
               Event(199.0, 'I001', 'ABSENT', 'anna', 'eat', 'seat'),
               Event(300.0, 'D001', 'OPEN', 'anna', 'leave', 'hand')]
-    who = [('anna', 'worker')]
+    who = [('anna', read('worker'))]
     if residents == 2:
-        who.append(('bert', 'retired'))
+        who.append(('bert', read('retired')))
         truth = sorted([*truth, doing(0, 86400, 'bert', 'read')], key=lambda i: i.start)
     return Data(datetime.datetime(2026, 3, 23), 1, 7, who, Home(), SENSORS, events, truth, [],
                 {'lamp/kitchen': [(0.0, 0.0), (10.5, 60.0), (20.0, 0.0)]}, [], [], [])

@@ -11,14 +11,16 @@ import subprocess
 import sys
 import threading
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Callable, Iterator
 
 import pytest
 
-from angen_apps.data.generate import MANIFEST, Job, generate
+from angen_apps.data.generate import MANIFEST, Job, generate, make
 from angen_apps.data.site import apartment
 from angen_apps.data.validate import homes, validate
+from angen_apps.residents.profiles import FOLDER
 from angen_tools.common.failure import Failure
 
 SCRIPT = Path(__file__).resolve().parents[3] / 'src/angen_tools/scripts/angen'
@@ -79,6 +81,20 @@ def test_each_home_is_valid(made):
         assert findings.checked['no speed above their own'] >= 100
 
 
+def test_a_profile_of_ones_own_lives_and_counts_by_its_contents(world, tmp_path):
+    own = tmp_path / 'painter.yaml'
+    own.write_text((FOLDER / 'carer.yaml').read_text())
+    wanted = replace(job(tmp_path / 'home', world), residents=(str(own),), formats=('csv',))
+    entry = make(wanted)
+    assert entry['residents'] == [['anna', 'painter']]
+    layout = json.loads((tmp_path / 'home/layout.json').read_text())
+    assert [(r['profile'], r['body']) for r in layout['residents']] == [('painter', 'person')]
+    assert make(wanted) == entry
+    own.write_text(own.read_text().replace('speed: ', 'speed: 0'))
+    with pytest.raises(Failure, match='made with other settings'):
+        make(wanted)
+
+
 def test_two_processes_of_which_one_dies_make_the_same_bytes(made, world, tmp_path):
     killer = kill_soon(tmp_path, lambda: [p.pid for p in multiprocessing.active_children()
                                           if p.pid is not None])
@@ -104,13 +120,14 @@ def test_a_torn_home_is_made_again_and_a_finished_one_is_not(made, world, tmp_pa
 @pytest.fixture
 def cluster(tmp_path) -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
     """A scheduler's address, and its two workers."""
-    pytest.importorskip('distributed')
     where = tmp_path / 'scheduler.json'
     log = (tmp_path / 'dask.log').open('wb')
+    elsewhere = tmp_path / 'elsewhere'
+    elsewhere.mkdir()
 
     def start(*args: str) -> subprocess.Popen[bytes]:
-        return subprocess.Popen(['python3', '-m', 'distributed.cli.' + args[0], *args[1:]],
-                                cwd=tmp_path, stdout=log, stderr=log)
+        return subprocess.Popen([sys.executable, '-m', 'distributed.cli.' + args[0], *args[1:]],
+                                cwd=elsewhere, stdout=log, stderr=log)
 
     running = [start('dask_scheduler', '--host', '127.0.0.1', '--port', '0', '--no-dashboard',
                      '--scheduler-file', str(where))]
@@ -129,9 +146,12 @@ def cluster(tmp_path) -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
         log.close()
 
 
-def test_a_cluster_of_which_a_worker_dies_makes_the_same_bytes(made, world, cluster, tmp_path):
+def test_a_cluster_of_which_a_worker_dies_makes_the_same_bytes(made, world, cluster, tmp_path,
+                                                               monkeypatch):
+    """Its workers are in another folder than the command."""
     address, workers = cluster
-    folder = tmp_path / 'out'
+    monkeypatch.chdir(tmp_path)
+    folder, world = Path('out'), Path(os.path.relpath(world))
     killer = kill_soon(folder, lambda: [workers[0].pid])
     generate(job(folder, world), HOMES, 1, address)
     killer.join()
@@ -140,6 +160,5 @@ def test_a_cluster_of_which_a_worker_dies_makes_the_same_bytes(made, world, clus
 
 
 def test_a_scheduler_that_is_not_there_is_told(world, tmp_path):
-    pytest.importorskip('distributed')
     with pytest.raises(Failure, match='no scheduler at tcp://127.0.0.1:9'):
         generate(job(tmp_path, world), 1, 1, 'tcp://127.0.0.1:9')

@@ -48,7 +48,7 @@ def morning(home: Path) -> Data:
     household.close()
     left = recorder.recording
     truth = [i for resident in household.residents for i in resident.diary.closed]
-    return Data(datetime.datetime(2026, 3, 23), 1, 3, [(n, p.name) for n, p in who], site.home,
+    return Data(datetime.datetime(2026, 3, 23), 1, 3, who, site.home,
                 site.sensors, sorted(left.events, key=lambda e: (e.time, e.sensor)), truth,
                 left.missed, left.power, left.track, left.faults, recorder.cabins.slides)
 

@@ -22,7 +22,7 @@ from angen_apps.data.formats.periods import zipped
 from angen_apps.data.formats.table import pyarrow
 from angen_apps.residents import truth
 from angen_apps.residents.chance import chance
-from angen_apps.residents.profiles import names, read
+from angen_apps.residents.profiles import is_file, names
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import check_folder, make_folder, write_csv, write_text
 from angen_tools.common.progress import Progress
@@ -56,9 +56,19 @@ class Job:
         del found['folder']
         for key in ('world', 'faults'):  # the files' contents count, not their paths
             if found[key]:
-                found[key] = hashlib.sha256(Path(found[key]).read_bytes()).hexdigest()
+                found[key] = sha256(Path(found[key]))
+        found['residents'] = [sha256(Path(word)) if is_file(word) else word
+                              for word in self.residents]
         return {key: list(value) if isinstance(value, tuple) else value
                 for key, value in found.items()}
+
+    def absolute(self) -> Job:
+        """The same, for a process in another folder."""
+        def full(path: str) -> str:
+            return str(Path(path).resolve()) if path else ''
+        return replace(self, folder=full(self.folder), world=full(self.world),
+                       faults=full(self.faults), residents=tuple(
+                           full(word) if is_file(word) else word for word in self.residents))
 
 
 def jobs(job: Job, homes: int) -> list[Job]:
@@ -111,7 +121,8 @@ def make(job: Job, progress: Callable[[float], None] = lambda _: None) -> dict[s
     paths += write_truth(part, data)
     entry = {
         'name': job.name, 'settings': job.settings,
-        'residents': [list(pair) for pair in data.residents], 'sensors': len(data.sensors),
+        'residents': [[name, profile.name] for name, profile in data.residents],
+        'sensors': len(data.sensors),
         'events': len(data.events), 'missed': len(data.missed), 'faults': len(data.faults),
         'files': {str(path.relative_to(part)): sha256(path) for path in sorted(paths)}}
     write_text(part / HOME, json.dumps(entry, indent=1, sort_keys=True) + '\n')
@@ -175,8 +186,8 @@ def write_truth(folder: Path, data: run.Data) -> list[Path]:
     home = data.home
     layout = {
         'start': data.start.isoformat(), 'days': data.days,
-        'residents': [{'name': name, 'profile': profile, 'speed': read(profile).speed}
-                      for name, profile in data.residents],
+        'residents': [{'name': name, 'profile': profile.name, 'body': profile.body,
+                       'speed': profile.speed} for name, profile in data.residents],
         'rooms': [{'name': r.name, 'use': r.use, 'storey': r.storey,
                    'polygon': r.polygon, 'holes': r.holes, 'area': r.area}
                   for r in home.rooms],
@@ -287,7 +298,7 @@ def _on_cluster(todo: list[Job], scheduler: str) -> Iterator[dict[str, Any]]:
     except (OSError, ValueError, TimeoutError) as error:
         raise Failure(f'no scheduler at {scheduler}: {error}') from None
     with client:
-        futures = [client.submit(make, job, key=f'angen-{job.name}-{job.seed}', pure=False,
-                                 retries=3) for job in todo]
+        futures = [client.submit(make, job.absolute(), key=f'angen-{job.name}-{job.seed}',
+                                 pure=False, retries=3) for job in todo]
         for _, entry in as_completed(futures, with_results=True):
             yield entry

@@ -30,7 +30,7 @@ class Data:
     start: datetime.datetime
     days: int
     seed: int
-    residents: list[tuple[str, str]]  # name and profile
+    residents: list[tuple[str, Profile]]
     home: Home
     sensors: list[Sensor]
     events: list[Event]
@@ -92,6 +92,5 @@ def live(world: Path, name: str, days: int, who: list[tuple[str, Profile]], seed
     events = sorted(recorder.recording.events, key=lambda e: (e.time, e.sensor))
     left = recorder.recording
     return Data(datetime.datetime.combine(first, datetime.time()), days, seed,
-                [(resident, profile.name) for resident, profile in who], site.home, site.sensors,
-                events, truth, left.missed, left.power, sorted(left.track),
-                sorted(left.faults), recorder.cabins.slides)
+                who, site.home, site.sensors, events, truth, left.missed, left.power,
+                sorted(left.track), sorted(left.faults), recorder.cabins.slides)

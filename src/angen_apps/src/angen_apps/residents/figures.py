@@ -28,6 +28,7 @@ CAT: tuple[Part, ...] = (
     ('head', 'sphere', (0.06,), (0.20, 0.0, 0.27), 0.0),
     ('legs', 'box', (0.26, 0.10, 0.12), (0.0, 0.0, 0.06), 0.0),
 )
+CAT_MASS, CAT_FORCE = 4.0, 15.0  # kg and N: more force would tip it over
 LEVEL = 1.571  # rad, of a capsule along x
 
 # What is seen of them, as of an actor: capsules have radius and length without their ends. `_s` is
@@ -60,11 +61,15 @@ def walker(name: str, speed: float, body: str) -> str:
     if body == 'person':
         return _sdf(f'<actor name="{name}">{plugin}</actor>')
     parts = ''.join(_visual(part[0], '0.45 0.35 0.25', CLOTHES, _shape(*part[1:])) for part in CAT)
-    return _sdf(f'<model name="{name}"><link name="body">{_inertial(4.0, 0.2)}'
-                '<collision name="trunk"><pose>0 0 0.15 0 0 0</pose><geometry><capsule>'
-                '<radius>0.12</radius><length>0.06</length></capsule></geometry><surface><friction>'
-                '<ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision>'
-                f'{parts}</link>{plugin}</model>')
+    soles = ''.join(_slides(f'sole_{number}', _shape('sphere', (0.06,), (x, y, 0.06), 0.0))
+                    for number, (x, y) in enumerate((x, y) for x in (-0.11, 0.11)
+                                                    for y in (-0.06, 0.06)))
+    plugin = plugin.replace('</plugin>', f'<mass>{CAT_MASS:g}</mass>'
+                            f'<force_max>{CAT_FORCE:g}</force_max></plugin>')
+    return _sdf(f'<model name="{name}"><link name="body"><inertial><pose>0 0 0.12 0 0 0</pose>'
+                f'<mass>{CAT_MASS:g}</mass><inertia><ixx>0.02</ixx><iyy>0.045</iyy><izz>0.045</izz>'
+                f'</inertia></inertial>{soles}{_slides("trunk", _shape(*CAT[0][1:]))}{parts}</link>'
+                f'{plugin}</model>')
 
 
 def figure(name: str, posture: str) -> str:
@@ -79,6 +84,12 @@ def figure(name: str, posture: str) -> str:
     middle = 0.28 if posture == 'sit' else 0.1
     return _sdf(f'<model name="{name}"><link name="body">{_inertial(MASS, middle)}{parts}</link>'
                 '</model>')
+
+
+def _slides(name: str, shape: str) -> str:
+    """A collision that the motor of its body moves, without friction."""
+    return (f'<collision name="{name}">{shape}<surface><friction><ode><mu>0</mu><mu2>0</mu2></ode>'
+            '</friction></surface></collision>')
 
 
 def _sdf(text: str) -> str:

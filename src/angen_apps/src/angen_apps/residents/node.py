@@ -9,7 +9,7 @@ from angen_apps.maps.gridmap import load_world
 from angen_apps.residents.ground import Ground
 from angen_apps.residents.household import Household
 from angen_apps.residents.live import Live
-from angen_apps.residents.profiles import Profile, read
+from angen_apps.residents.profiles import Profile, is_file, read
 from angen_apps.residents.resident import make
 from angen_apps.residents.truth import HEAD, Interval
 from angen_tools.common.yaml_file import YamlFile
@@ -26,7 +26,7 @@ def read_household(path: Path) -> tuple[list[tuple[str, Profile]], int, float]:
     for name, node in file.entries(entry['residents'], 'residents').items():
         text = file.text(node, name)
         beside = path.parent / text
-        who.append((name, read(str(beside) if beside.suffix in ('.yaml', '.yml') else text)))
+        who.append((name, read(str(beside) if is_file(text) else text)))
     seed = int(file.number(entry['seed'], 'seed', 0)) if 'seed' in entry else 1
     starts = 7.0
     if 'starts' in entry:

@@ -87,10 +87,15 @@ def names() -> list[str]:
     return sorted(file.stem for file in FOLDER.glob('*.yaml'))
 
 
+def is_file(name: str) -> bool:
+    """Whether a profile is that of a user's file, and not a shipped one."""
+    return Path(name).suffix in ('.yaml', '.yml')
+
+
 def read(name: str) -> Profile:
     """A shipped profile, or that of a file; Failure has file and line of an error."""
     path = Path(name)
-    if path.suffix not in ('.yaml', '.yml'):
+    if not is_file(name):
         path = FOLDER / f'{name}.yaml'
         if not path.is_file():
             raise Failure(f"there is no profile '{name}'; {did_you_mean(name, names())}")
