@@ -14,6 +14,7 @@ from angen_tools.live.client import CONNECT_LIMIT, Client
 
 ABOVE = 0.002  # m between the support and a placed figure
 LOOK = 0.02  # s of wall time between two looks at the clock
+START = 120.0  # s of wall time until the simulator has started, which is started beside this
 SILENCE = 10.0  # s of wall time without a clock: the simulator has ended
 TRUTH = '/angen/residents'
 
@@ -26,7 +27,7 @@ class Live:
         from angen_msgs.msg import Home as Message
         from rosgraph_msgs.msg import Clock
         from std_msgs.msg import String
-        self._client = Client()
+        self._client = _client()
         self._client.join()
         self._now, self._ticked = 0.0, time.monotonic()
         self._states: dict[str, Any] = {}
@@ -56,8 +57,9 @@ class Live:
                 raise Failure('the simulator has ended')
 
     def publish(self, row: dict[str, Any]) -> None:
-        """Publishes the true state of a resident."""
-        self._truth.publish(json.dumps(row))
+        """Publishes the true state of a resident; JSON has no NaN, so an unknown place is null."""
+        self._truth.publish(json.dumps({key: None if value != value else value
+                                        for key, value in row.items()}))
 
     def devices(self) -> list[tuple[str, str, str, tuple[float, ...]]]:
         def seven(pose: Any) -> tuple[float, ...]:
@@ -136,6 +138,18 @@ class Live:
             return self._client.call(service, kind, **fields)
         except Failure as failure:
             raise Refused(str(failure)) from None
+
+
+def _client() -> Client:
+    """The client of a simulator that may be starting."""
+    end = time.monotonic() + START
+    while True:
+        try:
+            return Client()
+        except Failure:
+            if time.monotonic() > end:
+                raise
+            time.sleep(LOOK)
 
 
 def _pose(x: float, y: float, z: float, yaw: float) -> Any:

@@ -2,8 +2,8 @@
 from __future__ import annotations
 
 import datetime
+import sys
 from pathlib import Path
-from typing import Any
 
 from angen_apps.maps.gridmap import load_world
 from angen_apps.residents.ground import Ground
@@ -12,6 +12,7 @@ from angen_apps.residents.live import Live
 from angen_apps.residents.profiles import Profile, is_file, read
 from angen_apps.residents.resident import make
 from angen_apps.residents.truth import HEAD, Interval
+from angen_tools.common.failure import Failure
 from angen_tools.common.yaml_file import YamlFile
 
 AHEAD = 60.0  # s of simulated time
@@ -41,17 +42,25 @@ def run(path: Path, world: str) -> None:
     ground = Ground(load_world(world), simulator.home)
     date = datetime.date.fromisoformat((simulator.home.start or '2026-03-23')[:10])
     household = Household(simulator, ground, seed, 'home', date, since - simulator.now)
-    residents = make(household, who)
-    shown: dict[str, Any] = {}
 
-    def tell() -> None:
-        for resident in residents:
-            now: Interval | None = resident.diary.now
-            if now is not None and shown.get(resident.name) != now:
-                shown[resident.name] = now
-                simulator.publish({key: getattr(now, key) for key in HEAD if key != 'end'})
-            resident.diary.closed.clear()
+    def tell(now: Interval) -> None:
+        simulator.publish({key: getattr(now, key) for key in HEAD if key != 'end'})
 
-    household.heard = tell
+    for resident in make(household, who):
+        resident.diary.changed = tell
     while True:
         household.run(household.now + AHEAD)
+        for resident in household.residents:
+            resident.diary.closed.clear()
+
+
+def main() -> None:
+    """FILE WORLD: the node residents, see docs/data.md."""
+    from rospy import myargv
+    words = myargv()[1:]
+    if len(words) != 2:
+        sys.exit('usage: residents FILE WORLD')
+    try:
+        run(Path(words[0]), words[1])
+    except Failure as failure:
+        sys.exit(f'angen: {failure}')

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Callable
 
 HEAD = ('start', 'end', 'resident', 'activity', 'cause', 'phase', 'room', 'thing', 'posture', 'x',
         'y', 'note')
@@ -37,11 +38,13 @@ class Diary:
     def __init__(self) -> None:
         self.closed: list[Interval] = []
         self.now: Interval | None = None
+        self.changed: Callable[[Interval], None] = lambda _: None  # with the newest
 
     def turn(self, interval: Interval) -> None:
         """Another phase begins."""
         self.end(interval.start)
         self.now = interval
+        self.changed(interval)
 
     def end(self, time: float) -> None:
         """The present phase ends."""
@@ -53,3 +56,4 @@ class Diary:
         """Records a failure of the plan, if there is one, in the present phase."""
         if self.now is not None and text:
             self.now = replace(self.now, note=f'{self.now.note}; {text}'.strip('; '))
+            self.changed(self.now)
