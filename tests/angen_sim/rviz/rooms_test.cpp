@@ -37,8 +37,10 @@ desc::Model house(double z) {
   return model;
 }
 
+/// Of a world with storeys at 0 and 4 m.
 sim::Structure structure_of(const std::vector<desc::Model>& models) {
   sim::Structure structure;
+  structure.storeys = {{0, "", 0.0, 4.0}, {1, "", 4.0, 4.0}};
   for (const desc::Model& model : models) {
     const auto index = static_cast<std::uint32_t>(structure.models.size());
     for (std::uint32_t i = 0; i < model.links.size(); ++i) {
