@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "core/text.h"
+#include "devices/elevator_floors.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
@@ -13,15 +14,11 @@ namespace angen::devices {
 namespace {
 
 constexpr char kTopic[] = "/gazebo/Elevator_controller";
-constexpr double kLevelWithin = 0.005;   // m
 constexpr double kArriveError = 0.0005;  // m
 constexpr double kNearError = 0.002;     // m
 constexpr double kArriveSpeed = 0.002;   // m/s
 constexpr double kMaxLag = 0.02;         // m
 constexpr double kStallSpeed = 0.005;    // m/s
-constexpr double kUnlimited = 1e9;       // m, of a joint's travel
-constexpr int kMaxFloors = 1000;
-constexpr int kFewestFloors = 2;
 constexpr Nanoseconds kDwell = kSecond;  // between the doors' opening and their shutting
 
 // Gains and limits are times the moving mass; the limits exclude the weight.
@@ -71,7 +68,7 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   doorway_ = Doorway(door_speed, door_force_);
   lift_ = wiring.joint(lift_name_);
   limits_ = wiring.limits(lift_);
-  read_floors(params, wiring);
+  heights_ = read_floors(params, wiring, limits_, lift_name_);
   refresh_ = Refresh(params.number(
       "update_rate", 50.0, "Hz", "how often its state is published while it moves", kRefreshRate));
   params.choice("topicName", kTopic, {kTopic}, "where commands come from: one topic for all");
@@ -90,48 +87,6 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   }
   wire(params, wiring);
   weighing_.warn_of_effort(params, limits_.effort, lift_name_);
-}
-
-void Elevator::read_floors(Params& params, const Wiring& wiring) {
-  const double height = params.number("floor_height", 0.0, "m",
-                                      "from one floor to the next; 0: by the storeys of the world, "
-                                      "or else evenly over the joint's travel",
-                                      kNotNegative);
-  const int given = params.integer(
-      "floors", 0, "", "number of floors; 0: the storeys within the joint's travel, or else 2",
-      {0, kMaxFloors});
-  for (const std::vector<double>& stop :
-       params.rows("stop", 1, "m",
-                   "height of a floor over floor 0, one for each floor from below; "
-                   "instead of floor_height and floors")) {
-    const bool fits = heights_.empty() ? stop.front() == 0.0 : stop.front() > heights_.back();
-    if (!fits || floors() >= kMaxFloors) {
-      throw params.error("stop", "the <stop> of floor " + std::to_string(heights_.size()) +
-                                     (heights_.empty() ? " must be 0"
-                                                       : " must be above the one before it; at "
-                                                         "most 1000 are served"));
-    }
-    heights_.push_back(stop.front());
-  }
-  if (!heights_.empty()) return;
-  const bool ends = limits_.lower < limits_.upper && limits_.upper < kUnlimited;
-  const int count = given > 0 ? given : kFewestFloors;
-  if (height == 0.0) {
-    for (const double floor : wiring.floors()) {
-      const bool reached = !ends || floor <= limits_.upper + kLevelWithin;
-      if (reached && (given == 0 || floors() < given)) heights_.push_back(floor);
-    }
-    if (floors() >= count) return;
-    heights_.clear();
-    if (!ends && count > 1) {
-      throw params.error("floor_height", "the world has no " + std::to_string(count) +
-                                             " storeys, and the joint " + lift_name_ +
-                                             " no end; give a <floor_height>, or a <stop> of each "
-                                             "floor");
-    }
-  }
-  const double apart = height > 0.0 || count == 1 ? height : limits_.upper / (count - 1);
-  for (int floor = 0; floor < count; ++floor) heights_.push_back(floor * apart);
 }
 
 void Elevator::wire(Params& params, Wiring& wiring) {

@@ -45,7 +45,6 @@ class Elevator : public Device {
   void move(const View& view, Outputs& outputs);
   double weigh(const JointView& lift, const View& view) const;
   std::string detail_of(Mode mode) const;
-  void read_floors(Params& params, const Wiring& wiring);
   int floors() const { return static_cast<int>(heights_.size()); }
   double height_of(int floor) const { return heights_[static_cast<std::size_t>(floor)]; }
   int nearest(double position) const;
