@@ -1,10 +1,14 @@
 """Residents who use the things of a home."""
 from __future__ import annotations
 
+import datetime
 from pathlib import Path
 
-from angen_apps.data.site import apartment
+from angen_apps.data.site import Site, apartment
 from angen_apps.residents.activities import Step
+from angen_apps.residents.household import Household
+from angen_apps.residents.profiles import read
+from angen_apps.residents.resident import make
 from tests.angen_apps.residents.test_mover import home_of
 
 
@@ -58,3 +62,14 @@ def test_the_truth_says_what_a_home_lacks(tmp_path):
     does = {(i.activity, i.thing): i.note for i in anna.diary.closed if i.phase == 'does'}
     assert does.pop(('toilet', '')) == 'no toilet in reach'
     assert set(does.values()) == {''} and len(does) == 2  # the sink, a chair
+
+
+def test_who_lives_there_is_at_home_when_a_run_begins_in_the_day(tmp_path):
+    """A cat would otherwise come in by the entrance, whose door it cannot open."""
+    apartment(tmp_path / 'home.world')
+    site = Site(tmp_path / 'home.world', 3, placed=False)
+    household = Household(site.simulator, site.ground, 3, 'home', datetime.date(2026, 3, 23),
+                          12 * 3600.0)
+    cat, = make(household, [('tom', read('cat'))])
+    household.run(1.0)
+    assert not cat.away and cat.room != 'landing0'

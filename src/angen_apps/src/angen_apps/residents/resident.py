@@ -79,7 +79,7 @@ class Resident(User):
         midnight = -household.since
         items = [Item(item.start - DAY, item.end - DAY, item.activity, item.cause)
                  for item in self.planner.plan(household.day(-1)) if item.end > DAY]
-        self._begin(items)
+        self._begin([*items, *self.planner.plan(household.day(0))])
         while True:
             for item in items:
                 self.item = Item(midnight + item.start, midnight + item.end, item.activity,
