@@ -1,9 +1,9 @@
 """The person of a search: a resident who walks from room to room, as the robot's cycles pass."""
 from __future__ import annotations
 
-import datetime
 import math
 
+from angen_apps.data.run import first_day
 from angen_apps.residents.ground import Ground
 from angen_apps.residents.household import Household
 from angen_apps.residents.places import Spot
@@ -17,7 +17,6 @@ from angen_tools.common.failure import Failure
 WALKER = Profile('wanderer', 0.8, {}, {}, (), {}, {}, closes_doors=0.6, lamps_on=0.8, lamps_off=1.0)
 DOOR_ROOM = 0.45  # m from where one stays to where a leaf swings
 LIFT_ROOM = 1.6  # m from there to the middle of the cabin
-DAY = datetime.date(2026, 3, 23)  # of a world that names none
 
 
 class _Beside(Simulated):
@@ -32,9 +31,8 @@ def add_person(world: object, ground: Ground, home: Home, route: Route, name: st
     """A household of one who walks about; its run() is called before each of the robot's cycles.
     Failure where the building has no place to walk to."""
     simulator = _Beside(world, home.described)
-    start = home.described.start
-    day = datetime.date.fromisoformat(start[:10]) if start else DAY
-    household = Household(simulator, ground, seed, 'seek', day, home.described.time_of_day)
+    household = Household(simulator, ground, seed, 'seek', first_day(home.described),
+                          home.described.time_of_day)
     spots = [spot for cell in range(len(home.at)) if (spot := _spot(home, cell, ground, route))]
     if not spots:
         raise Failure('the building has no free place for a person')
