@@ -302,13 +302,6 @@ void Field::finish(Unfinished& work) {
   solution.stamp = next_stamp();
 }
 
-Solution Field::solve(const Lamp& lamp) {
-  Unfinished work(lamp);
-  std::int64_t rays = INT64_MAX;
-  advance(work, rays);
-  return std::move(work.solution);
-}
-
 Solution Field::outline(const Lamp& lamp, std::int64_t& rays) const {
   Solution out;
   out.outlined = true;

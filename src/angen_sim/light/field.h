@@ -94,10 +94,9 @@ class Field {
   Rgb albedo(std::uint32_t shape) const;
   Rgb albedo_of(std::uint32_t patch) const;
 
-  Solution solve(const Lamp& lamp);
   /// Continues a solution for a cost of about `rays` rays, at least one step, and subtracts the
-  /// cost. Returns whether it is complete; it then equals that of solve(), however it was divided,
-  /// if nothing has changed meanwhile.
+  /// cost. Returns whether it is complete; it is then the same, however it was divided, if nothing
+  /// has changed meanwhile.
   bool advance(Unfinished& work, std::int64_t& rays);
   /// Finds the bounds of the directly lit surfaces, and subtracts the cost from `rays`.
   Solution outline(const Lamp& lamp, std::int64_t& rays) const;

@@ -133,28 +133,39 @@ bool Lighting::follow() const {
   return true;
 }
 
-/// Computes all light at once.
-void Lighting::complete() const {
+/// Computes all light at once, unless that costs more than about `rays` rays. Returns whether it is
+/// complete.
+bool Lighting::complete(std::int64_t rays) const {
   follow();
   if (field_->outdated() && !field_->updating()) field_->start_update();
-  while (field_->updating()) {
-    field_->update(INT64_MAX);
+  while (field_->updating() && rays > 0) {
+    rays -= field_->update(rays);
     if (!field_->updating() && field_->outdated()) field_->start_update();
   }
   work_.reset();
+  if (field_->updating()) return false;
+  bool all = true;
   lamps_.each([&](LampId, Entry& entry) {
     if (!(entry.level > 0.0) || (entry.solution && !entry.stale)) return;
-    entry.solution = std::make_shared<const Solution>(field_->solve(entry.lamp));
+    Unfinished work(entry.lamp);
+    all = all && rays > 0 && field_->advance(work, rays);
+    if (!all) return;
+    entry.solution = std::make_shared<const Solution>(std::move(work.solution));
     entry.stale = entry.due = false;
   });
-  changed_ = false;
+  if (all) changed_ = false;
+  return all;
 }
 
-void Lighting::pace() {
+void Lighting::pace(std::int64_t rays) {
   if (paced_) return;
-  complete();
   active_ = paced_ = true;
-  budget_ = SIZE_MAX;  // this tick is a part of loading
+  if (complete(rays)) {
+    budget_ = SIZE_MAX;  // this tick is a part of loading
+  } else {
+    std::int64_t left = INT64_MAX;
+    outline_new(left);
+  }
 }
 
 void Lighting::prepare() {

@@ -27,6 +27,9 @@ struct Unfinished;
 
 class Lighting {
  public:
+  // About 4 s of CPU time; all twelve lamps of the building cost 12 million.
+  static constexpr std::int64_t kRaysToLoad = 15'000'000;
+
   explicit Lighting(const rays::Scene& scene);
   ~Lighting();
 
@@ -62,9 +65,10 @@ class Lighting {
   /// Whether the place has been measured before.
   bool knows(const Probe& probe) const { return probe.lighting == id_; }
 
-  /// Computes all light between surfaces now. From then on only advance() does, and measure() where
-  /// it must. The scene must be committed.
-  void pace();
+  /// Computes light between surfaces now, for a cost of about `rays` rays; light beyond that is
+  /// found as that of new lamps. From then on only advance() does, and measure() where it must. The
+  /// scene must be committed.
+  void pace(std::int64_t rays = kRaysToLoad);
   /// Activates advance(), so that less is left for pace().
   void prepare();
   /// Prepares a later query of that probe likewise.
@@ -99,7 +103,7 @@ class Lighting {
   static constexpr std::size_t kMeasureRays = 12000;  // about 4 ms
 
   bool follow() const;
-  void complete() const;
+  bool complete(std::int64_t rays) const;
   bool may_wait(Nanoseconds now) const;
   void note(Nanoseconds now);
   bool due(Nanoseconds now) const;

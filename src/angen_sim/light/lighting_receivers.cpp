@@ -134,7 +134,7 @@ Sample Lighting::measure(Probe& probe, const Pose& pose, bool still) const {
   if (paced_) {
     follow();
   } else {
-    complete();
+    complete(INT64_MAX);
   }
   Receiver& place = receiver(probe, pose);
   place.note(scene_.revision(), still, probe.reach);

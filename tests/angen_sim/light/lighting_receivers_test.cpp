@@ -128,6 +128,24 @@ TEST(Lighting, ALampThatIsLitForTheFirstTimeIsSeenInTheNextTickAndWholeWhenItIsS
   EXPECT_LT(first, 0.98 * whole);
 }
 
+/// In a scene that is too large to be solved in one tick, lit lamps are solved as new ones are.
+TEST(Lighting, LightThatCostsTooMuchToLoadIsFoundInTheTicksAfter) {
+  Room room;
+  Probe probe;
+  probe.ahead = true;
+  room.lighting.pace(1000);
+  const double first = room.lighting.measure(probe, room.sensor).illuminance;
+  Ticks ticks;
+  ticks.advance(room.lighting);
+  ASSERT_TRUE(room.lighting.busy());
+  ticks.work_off(room.lighting);
+  room.lighting.begin_tick();
+  const Sample whole = room.lighting.measure(probe, room.sensor);
+  EXPECT_GT(first, 0.5 * whole.illuminance);
+  EXPECT_LT(first, 0.98 * whole.illuminance);
+  expect_same_bits(measure(Room().lighting, room.sensor), whole);
+}
+
 TEST(Lighting, OverTimeItTakesNoMoreThanItsShare) {
   TwoRooms rooms;
   rooms.lighting.pace();
