@@ -13,6 +13,7 @@ namespace angen::render {
 namespace {
 
 constexpr float kSeenFrom = 0.5F;  // opacity; glass and the like are invisible
+constexpr float kFlat = 1e-5F;     // m off the plane of a quad
 
 Eigen::AlignedBox3d bounds_of(const PlacedHeightmap& heightmap) {
   const Eigen::AlignedBox3d& own = heightmap.tree->bounds();
@@ -75,6 +76,45 @@ Patch::Patch(const std::vector<std::pair<const Body*, Pose>>& bodies)
   attach_triangles();
   attach_heightmaps();
   rtcCommitScene(scene_.get());
+  build_boxes();
+}
+
+void Patch::build_boxes() {
+  std::vector<Box> boxes;
+  boxes.reserve(triangles_.size() + heightmaps_.size());
+  for (const auto& triangle : triangles_) {
+    Box box(vertices_[triangle[0]]);
+    boxes.push_back(box.extend(vertices_[triangle[1]]).extend(vertices_[triangle[2]]));
+  }
+  for (const PlacedHeightmap& heightmap : heightmaps_) {
+    boxes.push_back(bounds_of(heightmap).cast<float>());
+  }
+  boxes_.build(std::move(boxes));
+}
+
+bool Patch::any_in(const Hull& hull) const {
+  return boxes_.any([&](const Box& box) { return hull.overlaps(box); },
+                    [](std::uint32_t) { return true; });
+}
+
+/// Whether a triangle a b c and the next one, a c d, are a quad; it may be concave.
+bool Patch::is_quad(std::size_t triangle) const {
+  if (triangle + 1 >= triangles_.size()) return false;
+  const auto& first = triangles_[triangle];
+  const auto& second = triangles_[triangle + 1];
+  const auto at = [&](std::uint32_t i) -> const Eigen::Vector3f& { return vertices_[i]; };
+  return at(first[0]) == at(second[0]) && at(first[2]) == at(second[1]) &&
+         std::abs(facets_[triangle].normal.dot(at(second[2]) - at(first[0]))) < kFlat;
+}
+
+Face Patch::face(std::uint32_t triangle) const {
+  const auto corner = [&](std::size_t t, std::size_t i) { return vertices_[triangles_[t][i]]; };
+  const auto quad = [&](std::size_t t) -> Face {
+    return {{corner(t, 0), corner(t, 1), corner(t, 2), corner(t + 1, 2)}, 4};
+  };
+  if (is_quad(triangle)) return quad(triangle);
+  if (triangle > 0 && is_quad(triangle - 1)) return quad(triangle - 1);
+  return {{corner(triangle, 0), corner(triangle, 1), corner(triangle, 2), corner(triangle, 0)}, 3};
 }
 
 void Patch::attach_triangles() {
@@ -200,6 +240,7 @@ void Instances::place(std::uint32_t number, const Pose& pose) {
   transform.leftCols<3>() = pose.rotation.normalized().toRotationMatrix().cast<float>();
   transform.col(3) = pose.position.cast<float>();
   placed.rotation = transform.leftCols<3>();
+  placed.position = transform.col(3);
   rtcSetGeometryTransform(placed.instance.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
                           transform.data());
   rtcCommitGeometry(placed.instance.get());
@@ -216,6 +257,45 @@ void Instances::clear() {
 void Instances::commit() {
   rtcCommitScene(seen_.get());
   rtcCommitScene(opaque_.get());
+  std::vector<Box> boxes;
+  boxed_.clear();
+  for (std::uint32_t i = 0; i < placed_.size(); ++i) {
+    const Placed& placed = placed_[i];
+    if (placed.shines_through || placed.patch->is_empty()) continue;
+    const Box& own = placed.patch->bounds();
+    const Eigen::Vector3f center = placed.rotation * own.center() + placed.position;
+    const Eigen::Vector3f half = placed.rotation.cwiseAbs() * own.sizes() / 2.0F;
+    boxes.emplace_back(center - half, center + half);
+    boxed_.push_back(i);
+  }
+  boxes_.build(std::move(boxes));
+}
+
+bool Instances::find_face(const Eigen::Vector3f& from, const Eigen::Vector3f& to,
+                          Face& face) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit ray{};
+  rays::aim(ray.ray, from.cast<double>(), (to - from).cast<double>(), 0.0, 1.0);
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(opaque_.get(), &context, &ray);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+  face.count = 0;
+  if (ray.hit.geomID != 0) return true;  // a heightmap
+  const Placed& placed = placed_[ray.hit.instID[0]];
+  face = placed.patch->face(ray.hit.primID);
+  for (Eigen::Vector3f& corner : face.corners) {
+    corner = placed.rotation * corner + placed.position;
+  }
+  return true;
+}
+
+bool Instances::any_in(const Hull& hull) const {
+  return boxes_.any([&](const Box& box) { return hull.overlaps(box); },
+                    [&](std::uint32_t i) {
+                      const Placed& placed = placed_[boxed_[i]];
+                      return placed.patch->any_in(hull.seen_from(placed.rotation, placed.position));
+                    });
 }
 
 }  // namespace angen::render

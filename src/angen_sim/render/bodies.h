@@ -7,6 +7,8 @@
 #include "core/texture.h"
 #include "rays/device.h"
 #include "rays/height_tree.h"
+#include "render/box_tree.h"
+#include "render/hull.h"
 #include "render/scene.h"
 
 namespace angen::render {
@@ -43,14 +45,22 @@ class Patch {
   const Finish& finish(const Facet& facet) const { return finishes_[facet.finish]; }
   /// The color at Embree's coordinates u v of a triangle.
   Eigen::Vector3f color(const Facet& facet, float u, float v) const;
+  /// A triangle, with the one beside it if both are a quad.
+  Face face(std::uint32_t triangle) const;
+  /// False only if nothing is in the hull.
+  bool any_in(const Hull& hull) const;
+  bool is_empty() const { return triangles_.empty() && heightmaps_.empty(); }
+  const Box& bounds() const { return boxes_.bounds(); }  // not of an empty one
   RTCScene scene() const { return scene_.get(); }
 
  private:
+  bool is_quad(std::size_t triangle) const;
   void append(const Surface& surface, const Pose& pose);
   void append_part(const Surface& surface, const TriangleMesh& mesh, std::size_t part);
   void append_heightmap(const Surface& surface, const Pose& at);
   void attach_triangles();
   void attach_heightmaps();
+  void build_boxes();
 
   std::vector<Eigen::Vector3f> vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
@@ -59,12 +69,14 @@ class Patch {
   std::vector<Finish> finishes_;
   std::vector<std::array<float, 6>> corners_;  // u v of the corners of triangles with textures
   rays::Embree<RTCScene> scene_;
+  BoxTree boxes_;  // of the triangles, then of the heightmaps
 };
 
 /// A patch with its place in the world.
 struct Placed {
   std::unique_ptr<Patch> patch;
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();
   bool shines_through = false;
   rays::Embree<RTCGeometry> instance;
 };
@@ -84,8 +96,15 @@ class Instances {
   RTCScene seen() const { return seen_.get(); }
   RTCScene opaque() const { return opaque_.get(); }
 
+  /// Finds the first opaque face on the way; one of 0 corners is not a polygon. False without one.
+  bool find_face(const Eigen::Vector3f& from, const Eigen::Vector3f& to, Face& face) const;
+  /// False only if nothing opaque is in the hull.
+  bool any_in(const Hull& hull) const;
+
  private:
   std::vector<Placed> placed_;
+  std::vector<std::uint32_t> boxed_;  // the opaque ones
+  BoxTree boxes_;                     // of these
   rays::Embree<RTCScene> seen_;
   rays::Embree<RTCScene> opaque_;
 };

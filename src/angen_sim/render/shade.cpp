@@ -11,7 +11,6 @@ namespace angen::render {
 namespace {
 
 constexpr float kMin = 0.1F;        // lx; less is not worth a shadow ray
-constexpr float kLift = 1e-3F;      // m off the surface that a shadow ray starts
 constexpr float kFarAway = 1e4F;    // m, the farthest shadow of a directional lamp
 constexpr float kSamePlace = 0.1F;  // m; reflected light is that of patches of 0.4 m
 constexpr float kSameWay = 0.98F;   // cosine between normals
@@ -117,10 +116,10 @@ void shine(const light::Lit& lit, RTCScene opaque, Tile& tile) {
     if (!(illuminance[i] > kMin)) continue;
     wanted[i] = -1;
     any = true;
-    set_segment(tile.point[i] + kLift * tile.normal[i], way, i, rays);
+    set_segment(lifted(tile, i), way, i, rays);
   }
   if (!any) return;
-  if (lit.lamp.cast_shadows) find_occluded(wanted, opaque, rays);
+  if (lit.lamp.cast_shadows && opaque != nullptr) find_occluded(wanted, opaque, rays);
   for (int i = 0; i < kLanes; ++i) {
     if (wanted[i] != 0 && rays.tfar[i] >= 0.0F) tile.light[i] += illuminance[i] * lit.lamp.color;
   }
@@ -143,6 +142,7 @@ const Reflections::Known* Reflections::find(const Some& all, int count,
 }
 
 void Reflections::shine(Tile& tile) {
+  Strip& strip = strips_[static_cast<std::size_t>(tile.row / kTile % kTilesAcross)];
   Some now;
   int count = 0;
   for (int i = 0; i < kLanes; ++i) {
@@ -151,14 +151,14 @@ void Reflections::shine(Tile& tile) {
     const Eigen::Vector3f& normal = tile.normal[i];
     const Known* known = find(now, count, point, normal);
     if (known == nullptr) {
-      const Known* before = find(last_, last_count_, point, normal);
+      const Known* before = find(strip.last, strip.count, point, normal);
       now[count] = before != nullptr ? *before : Known{point, normal, lookup_.at(point, normal)};
       known = &now[count++];
     }
     tile.light[i] += known->light;
   }
-  std::copy_n(now.begin(), count, last_.begin());
-  last_count_ = count;
+  std::copy_n(now.begin(), count, strip.last.begin());
+  strip.count = count;
 }
 
 std::uint8_t shown(float luminance) {

@@ -5,12 +5,11 @@
 
 #include "light/reflected_light.h"
 #include "render/bodies.h"
+#include "render/tracer.h"
 
 namespace angen::render {
 
-/// Sixteen pixels at once: a tile of 4 x 4.
-constexpr int kTile = 4;
-constexpr int kLanes = kTile * kTile;
+constexpr float kLift = 1e-3F;  // m off the surface that a shadow ray starts
 
 /// The hits of a tile's rays.
 struct alignas(64) Tile {
@@ -21,20 +20,28 @@ struct alignas(64) Tile {
   bool through[kLanes];            // lit from both sides
   const Finish* finish[kLanes];
   Eigen::Vector3f color[kLanes];  // albedo
+  bool in_image[kLanes];
+  int column, row;  // of its first pixel
+  Box seen;         // around the points; empty without hits
 };
 
-/// Adds the direct light of one lamp to each point.
+/// Where a shadow ray starts.
+inline Eigen::Vector3f lifted(const Tile& tile, int i) {
+  return tile.point[i] + kLift * tile.normal[i];
+}
+
+/// Adds the direct light of one lamp to each point; without a scene nothing is in its way.
 void shine(const light::Lit& lit, RTCScene opaque, Tile& tile);
 
 /// Reflected light on tiles. It varies over decimeters: near points that face the same way get the
 /// same, as the last tile's do. Tiles of a strip come from left to right, so that images do not
-/// depend on which thread has which strip.
+/// depend on which thread has which strips.
 class Reflections {
  public:
   Reflections(const light::ReflectedLight& light, RTCScene opaque);
 
-  /// Begins a strip of tiles.
-  void start() { last_count_ = 0; }
+  /// Begins a row of blocks.
+  void start() { strips_ = {}; }
   /// Adds reflected light to each point.
   void shine(Tile& tile);
 
@@ -48,8 +55,11 @@ class Reflections {
                            const Eigen::Vector3f& normal);
 
   light::ReflectedLookup lookup_;
-  Some last_;  // of the last tile
-  int last_count_ = 0;
+  struct Strip {
+    Some last;  // of the last tile
+    int count = 0;
+  };
+  std::array<Strip, kTilesAcross> strips_;  // of the row of blocks
 };
 
 /// sRGB byte of a luminance in cd/m^2.

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "render/shade.h"
+#include "render/sight.h"
+#include "render/tracer.h"
+
+namespace angen::render {
+
+/// Writes the depths of tiles.
+class DepthWriter : public Visitor {
+ public:
+  /// Of an image of that width.
+  DepthWriter(int width, float* depths) : width_(width), depths_(depths) {}
+  void add(const TracedTile& tile) override;
+
+ private:
+  int width_;
+  float* depths_;
+};
+
+/// The light of an image.
+struct Illumination {
+  const std::vector<light::Lit>& lamps;
+  const std::vector<Box>& reaches;  // of the lamps
+  const Ambience& ambience;
+};
+
+/// The points of a block, as seen from lamps.
+struct BlockView {
+  Box points;                           // lifted off their surfaces; empty without hits
+  std::array<Eigen::Vector3f, 4> ways;  // the surfaces' normals
+  std::size_t way_count = 0;
+  bool turned = false;  // toward more ways, or to all
+
+  void add_way(const Eigen::Vector3f& normal, bool through);
+  /// True only if the lamp shines on the back of all surfaces.
+  bool is_behind(const light::Lamp& lamp) const;
+};
+
+/// Writes the colors of tiles, and their depths.
+class ColorWriter : public Visitor {
+ public:
+  ColorWriter(const Instances& instances, const Illumination& by, int width, std::uint8_t* pixels,
+              float* depths);
+  void begin_row_of_blocks() override;
+  void add(const TracedTile& tile) override;
+  void end_block() override;
+
+ private:
+  void shine(std::size_t lamp, const BlockView& view);
+
+  const Instances& instances_;
+  const Illumination& by_;
+  int width_;
+  std::uint8_t* pixels_;
+  DepthWriter depths_;
+  Sights sights_;
+  std::optional<Reflections> reflected_;
+  std::array<Tile, kTilesAcross * kTilesAcross> tiles_;  // of the present block
+  std::size_t count_ = 0;
+};
+
+}  // namespace angen::render

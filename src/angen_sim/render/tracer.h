@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "render/bodies.h"
+#include "render/pinhole_camera.h"
+
+namespace angen::render {
+
+/// Sixteen pixels at once: a tile of 4 x 4.
+constexpr int kTile = 4;
+constexpr int kLanes = kTile * kTile;
+/// Tiles come in blocks of 4 x 4.
+constexpr int kTilesAcross = 4;
+constexpr int kBlock = kTilesAcross * kTile;  // pixels
+
+/// The rays of a tile, with their hits. The length of a direction makes a range the depth.
+struct TracedTile {
+  int column = 0, row = 0;     // of its first pixel
+  const int* valid = nullptr;  // not 0 in the image
+  const RTCRayHit16& rays;
+
+  bool has_hit(int i) const {
+    return valid[i] != 0 && rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+  }
+  Eigen::Vector3f direction(int i) const {
+    return {rays.ray.dir_x[i], rays.ray.dir_y[i], rays.ray.dir_z[i]};
+  }
+};
+
+/// Receives the tiles of an image: those of a row of blocks from left to right, block after block,
+/// and within each row after row.
+class Visitor {
+ public:
+  virtual ~Visitor() = default;
+  virtual void begin_row_of_blocks() {}
+  virtual void add(const TracedTile& tile) = 0;
+  virtual void end_block() {}
+};
+
+/// Traces all tiles on up to `threads` threads. Each makes its own visitor, which gets rows of
+/// blocks in any order.
+void trace(const PinholeCamera& camera, const Pose& pose, const Instances& instances, int threads,
+           const std::function<std::unique_ptr<Visitor>()>& make);
+
+}  // namespace angen::render

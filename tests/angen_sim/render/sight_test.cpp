@@ -1,0 +1,116 @@
+#include "render/sight.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "core/random.h"
+#include "rays/query.h"
+#include "render/shade.h"
+#include "scene_view.h"
+
+namespace angen::render {
+namespace {
+
+/// A room of walls, furniture that stands, and boxes and balls that move.
+class Room {
+ public:
+  Room() {
+    Rng rng(1, hash_bytes("room"), 0);
+    still_.push_back(body(box(8.0, 8.0, 0.2), at(0.0, 0.0, -0.1)));
+    still_.push_back(body(box(8.0, 8.0, 0.2), at(0.0, 0.0, 2.7)));
+    still_.push_back(body(box(0.1, 5.0, 2.6), at(0.5, -1.5, 1.3)));
+    still_.push_back(body(box(5.0, 0.1, 2.6), at(-1.5, 0.5, 1.3)));
+    for (int i = 0; i < 10; ++i) {
+      still_.push_back(body(box(0.6, 0.4, 0.8), {place(rng, 0.4), from_rpy(0, 0, i % 3)}));
+    }
+    std::vector<std::pair<const Body*, Pose>> placed;
+    for (const Body& each : still_) placed.emplace_back(&each, each.pose);
+    instances_.add(std::make_unique<Patch>(placed), Pose{}, true);
+    for (int i = 0; i < 12; ++i) {
+      const Shape shape = i % 2 == 0 ? box(0.3, 0.3, 0.9) : round(Shape::Type::kSphere, 0.2);
+      const Body mover = body(shape, Pose{});
+      auto patch = std::make_unique<Patch>(std::vector<std::pair<const Body*, Pose>>{{&mover, {}}});
+      instances_.add(std::move(patch), {place(rng, 0.5), from_rpy(0.1 * i, 0.0, i)}, i % 5 != 0);
+    }
+    instances_.commit();
+  }
+
+  static Vec3 place(Rng& rng, double z) {
+    return {7.0 * rng.uniform() - 3.5, 7.0 * rng.uniform() - 3.5, z};
+  }
+
+  bool sees(const Eigen::Vector3f& from, const Eigen::Vector3f& to) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray{};
+    rays::aim(ray, from.cast<double>(), (to - from).cast<double>(), 0.0, 1.0);
+    rtcOccluded1(instances_.opaque(), &context, &ray);
+    return ray.tfar >= 0.0F;
+  }
+
+  const Instances& instances() const { return instances_; }
+
+ private:
+  std::vector<Body> still_;
+  Instances instances_;
+};
+
+Box points_on_a_surface(Rng& rng) {
+  const Eigen::Vector3f low = Room::place(rng, 2.5 * rng.uniform()).cast<float>();
+  Eigen::Vector3f size = 0.4F * Vec3(rng.uniform(), rng.uniform(), rng.uniform()).cast<float>();
+  size[static_cast<Eigen::Index>(rng.next() % 3)] = 0.0F;
+  return {low, low + size};
+}
+
+// The rays to a lamp end where the surface that they start from is lifted to.
+TEST(Sights, AreThoseOfEachRay) {
+  const Room room;
+  Rng rng(1, hash_bytes("sights"), 0);
+  std::vector<light::Lit> lamps;
+  for (int i = 0; i < 6; ++i) lamps.push_back(lamp(Room::place(rng, 2.2), 800.0));
+  Sights sights(room.instances(), lamps);
+  std::array<int, 3> counts{};
+  for (int i = 0; i < 6000; ++i) {
+    const Box points = points_on_a_surface(rng);
+    const std::size_t number = rng.next() % lamps.size();
+    const Sight sight = sights.of(number, points);
+    ++counts[static_cast<std::size_t>(sight)];
+    for (int k = 0; k < 20 && sight != Sight::kSome; ++k) {
+      const Eigen::Vector3f share = Vec3(rng.uniform(), rng.uniform(), rng.uniform()).cast<float>();
+      const Eigen::Vector3f from = points.min() + share.cwiseProduct(points.sizes());
+      const Eigen::Vector3f beside = kLift * (2.0F * share.array() - 1.0F).matrix();
+      const Eigen::Vector3f to = lamps[number].lamp.pose.position.cast<float>() + beside;
+      ASSERT_EQ(room.sees(from, to), sight == Sight::kAll) << i;
+    }
+  }
+  for (const int count : counts) EXPECT_GT(count, 300);
+}
+
+TEST(Sights, DoNotDependOnEarlierBoxes) {
+  const Room room;
+  const std::vector<light::Lit> lamps{lamp({1.5, 1.5, 2.2}, 800.0)};
+  Sights used(room.instances(), lamps);
+  Rng rng(1, hash_bytes("earlier"), 0);
+  for (int i = 0; i < 1000; ++i) {
+    const Box points = points_on_a_surface(rng);
+    const Sight fresh = Sights(room.instances(), lamps).of(0, points);
+    const Sight sight = used.of(0, points);
+    // A remembered face may answer where the first one in sight does not, but never otherwise.
+    EXPECT_TRUE(sight == fresh || (fresh == Sight::kSome && sight == Sight::kNone)) << i;
+  }
+}
+
+TEST(Sights, KnowLampsWithoutShadowsAndSuns) {
+  const Room room;
+  std::vector<light::Lit> lamps{lamp({1.5, 1.5, 2.2}, 800.0), lamp({0.0, 0.0, 20.0}, 800.0)};
+  lamps[0].lamp.cast_shadows = false;
+  lamps[1].lamp.type = light::Lamp::Type::kDirectional;
+  Sights sights(room.instances(), lamps);
+  const Box below(Eigen::Vector3f(-1.0F, -1.0F, -3.0F), Eigen::Vector3f(-0.8F, -0.8F, -3.0F));
+  EXPECT_EQ(sights.of(0, below), Sight::kAll);
+  EXPECT_EQ(sights.of(1, below), Sight::kSome);
+}
+
+}  // namespace
+}  // namespace angen::render
