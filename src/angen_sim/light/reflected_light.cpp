@@ -193,11 +193,13 @@ Eigen::Vector3f ReflectedLookup::at(const Eigen::Vector3f& point, const Eigen::V
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   Heaviest same;
   for (const Piece& piece : alike(point, normal)) {
+    const Eigen::Vector3f way = point - piece.position;
+    const float direct = way.squaredNorm();
+    if (direct >= kNearPoint * kNearPoint) continue;  // most of them
     const float facing = normal.dot(piece.normal);
     if (facing <= 0.0F) continue;
-    const Eigen::Vector3f way = point - piece.position;
     const float off = way.dot(normal);
-    const float squared = way.squaredNorm() + (kOffPlane * kOffPlane - 1.0F) * off * off;
+    const float squared = direct + (kOffPlane * kOffPlane - 1.0F) * off * off;
     same.add(piece, facing * facing * falloff(squared, kNearPoint));
   }
   if (same.mean(from, visible_, mean)) return mean;
