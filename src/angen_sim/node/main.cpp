@@ -1,4 +1,3 @@
-#include <malloc.h>
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/master.h>
@@ -20,6 +19,7 @@
 
 #include "core/diagnostics.h"
 #include "core/text.h"
+#include "node/freed_memory.h"
 #include "node/node.h"
 #include "node/other_node.h"
 #include "node/rescue.h"
@@ -47,17 +47,10 @@ constexpr char kUsage[] =
 
 constexpr std::uint64_t kDefaultSeed = 1;
 constexpr double kLongestTime = 9e9;  // s, so that it fits into nanoseconds
-constexpr int kKept = 128 << 10;      // bytes, malloc's own limits at the start
 
 std::atomic<bool> stop{false};
 
 void on_signal(int) { stop = true; }
-
-/// malloc raises these limits with freed blocks, up to 64 MB that stay with the process.
-void give_back_memory() {
-  mallopt(M_MMAP_THRESHOLD, kKept);
-  mallopt(M_TRIM_THRESHOLD, kKept);
-}
 
 void end_on_signals() {
   struct sigaction action = {};
@@ -309,8 +302,8 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
 
 int main(int argc, char** argv) {
   std::setlocale(LC_NUMERIC, "C");
-  std::setlocale(LC_CTYPE, "C.UTF-8");  // log4cxx writes other letters as ? otherwise
-  give_back_memory();
+  std::setlocale(LC_CTYPE, "C.UTF-8");    // log4cxx writes other letters as ? otherwise
+  angen::node::keep_freed_memory(false);  // by itself malloc comes to keep 64 MB
   try {
     const std::vector<std::string> raw(argv + 1, argv + argc);
     if (!raw.empty() && (raw[0] == "--help" || raw[0] == "-h")) {

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "node/freed_memory.h"
 #include "ros/wire.h"
 
 namespace angen::node {
@@ -141,8 +142,17 @@ void Publishers::list_on_demand(const sim::Structure& structure) {
   for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) {
     const sim::SensorEntry& entry = structure.sensors[i];
     if (!entry.on_demand()) continue;
-    on_demand_.push_back({i, simulation_.requested(entry.kind, entry.name)});
+    on_demand_.push_back(
+        {i, simulation_.requested(entry.kind, entry.name), ros_kind(entry).is_camera});
   }
+  prepare_for_images();
+}
+
+void Publishers::prepare_for_images() {
+  const bool expected = std::any_of(on_demand_.begin(), on_demand_.end(), [](const OnDemand& each) {
+    return each.requested && each.is_camera;
+  });
+  if (std::exchange(expects_images_, expected) != expected) keep_freed_memory(expected);
 }
 
 // A sensor that samples on demand does so while its topic has subscribers.
@@ -155,6 +165,7 @@ void Publishers::request(const sim::Structure& structure) {
     sensor.requested = wanted;
     const sim::SensorEntry& entry = structure.sensors[sensor.sensor];
     simulation_.request(entry.kind, entry.name, wanted);
+    if (sensor.is_camera) prepare_for_images();
   }
 }
 

@@ -43,6 +43,7 @@ class Publishers {
   struct OnDemand {
     std::uint32_t sensor = 0;  // in Structure::sensors
     bool requested = false;
+    bool is_camera = false;
   };
 
   void attach(Source& source, const std::string& type, const Format::Open& open,
@@ -56,6 +57,7 @@ class Publishers {
   void shut_down_unused();
   void list_on_demand(const sim::Structure& structure);
   void request(const sim::Structure& structure);
+  void prepare_for_images();
   void publish_state(const sim::Snapshot& snapshot, std::uint32_t device);
   void repeat_odometry(const sim::Snapshot& snapshot);
   bool is_robot(std::uint32_t device) const {
@@ -71,6 +73,7 @@ class Publishers {
   std::vector<Source> sensors_;                    // as Structure::sensors
   std::vector<Source> devices_;                    // as Structure::devices
   std::vector<OnDemand> on_demand_;
+  bool expects_images_ = false;
   std::vector<std::uint32_t> robots_;  // their devices, ascending
   Nanoseconds odometry_slot_ = 0;
 };
