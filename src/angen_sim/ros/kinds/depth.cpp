@@ -14,11 +14,8 @@ namespace {
 
 constexpr std::uint32_t kColorAt = 16;  // bytes, as PCL has it
 
-std::uint32_t packed(const ByteImage& image, std::size_t pixel) {
-  const auto channel = [&](std::size_t c) {
-    return static_cast<std::uint32_t>((*image.values)[3 * pixel + c]);
-  };
-  return channel(0) << 16U | channel(1) << 8U | channel(2);
+std::uint32_t packed(const std::uint8_t* color) {
+  return std::uint32_t{color[0]} << 16U | std::uint32_t{color[1]} << 8U | color[2];
 }
 
 render::Distortion distortion_of(const Reading& reading) {
@@ -58,7 +55,7 @@ void fill_points(const Reading& reading, const Label&, sensor_msgs::PointCloud2&
       points.set(0, static_cast<float>(x) * z);
       points.set(4, static_cast<float>(y) * z);
       points.set(8, z);
-      if (colored) points.set(kColorAt, packed(colors, pixel));
+      if (colored) points.set(kColorAt, packed(colors.values->data() + 3 * pixel));
       points.next();
     }
   }

@@ -20,8 +20,7 @@ class PointWriter {
 
   /// Describes the fields of a message and makes room for its points.
   PointWriter(sensor_msgs::PointCloud2& message, std::initializer_list<Field> fields,
-              std::uint32_t bytes, std::uint32_t height, std::uint32_t width)
-      : message_(message) {
+              std::uint32_t bytes, std::uint32_t height, std::uint32_t width) {
     for (const Field& field : fields) {
       sensor_msgs::PointField made;
       made.name = field.name;
@@ -35,18 +34,20 @@ class PointWriter {
     message.point_step = bytes;
     message.row_step = bytes * width;
     message.data.resize(static_cast<std::size_t>(message.row_step) * height);
+    at_ = message.data.data();
+    step_ = bytes;
   }
 
-  /// Sets a field of the present point.
+  /// Sets a field of the present point, of which there is one.
   template <class T>
   void set(std::uint32_t offset, T value) {
-    std::memcpy(&message_.data.at(at_ + offset), &value, sizeof value);
+    std::memcpy(at_ + offset, &value, sizeof value);
   }
-  void next() { at_ += message_.point_step; }
+  void next() { at_ += step_; }
 
  private:
-  sensor_msgs::PointCloud2& message_;
-  std::size_t at_ = 0;
+  std::uint8_t* at_ = nullptr;
+  std::uint32_t step_ = 0;
 };
 
 }  // namespace angen::node
