@@ -110,9 +110,9 @@ def test_a_node_replays_with_listeners_at_another_rate(own_master: Master, recor
                                                        tmp_path: Path, rate: str) -> None:
     checks = [line for line in lines(recorded) if line.get("do") == "fingerprint"]
     log = tmp_path / "node"
-    listeners = [subprocess.Popen(["/usr/bin/rostopic", "echo", topic],
-                                  env=own_master.environment, stdout=subprocess.DEVNULL,
-                                  stderr=subprocess.DEVNULL) for topic in LISTENED]
+    listener = subprocess.Popen(["/usr/bin/rostopic", "hz", *LISTENED],
+                                env=own_master.environment, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.DEVNULL)
     with log.open("w") as out:
         node = subprocess.Popen(
             [str(node_binary()), f"_replay:={recorded}", "_record:=", "_until:=",
@@ -124,9 +124,8 @@ def test_a_node_replays_with_listeners_at_another_rate(own_master: Master, recor
         assert f"{len(checks)} fingerprints were equal" in log.read_text()
         assert "the fingerprint is" not in log.read_text()
     finally:
-        for listener in listeners:
-            listener.kill()
-            listener.wait()
+        listener.kill()
+        listener.wait()
         end(node)
 
 
