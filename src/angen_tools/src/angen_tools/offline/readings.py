@@ -4,9 +4,10 @@ from __future__ import annotations
 import csv
 import gzip
 import io
+import math
 from contextlib import contextmanager
 from pathlib import Path
-from typing import IO, Any, Iterator, Protocol
+from typing import IO, Any, Callable, Iterator, Protocol
 
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import later_signals, writing
@@ -32,15 +33,16 @@ class CsvWriter:
         self._tails: list[str] = []
 
     def write(self, world: Any) -> int:
-        rows, texts = world.take_readings(), {}
+        rows = world.take_readings()
         self._describe(world.reading_series)
         texts = {row: _line([text]) for row, text in rows['texts'].items()}
         heads, tails = self._heads, self._tails
         lines = [
-            f'{seconds(time)}{heads[one]}{value:.9g}{tails[one]}{texts.get(row, "")}\n'
+            f'{time}{heads[one]}{value}{tails[one]}{texts.get(row, "")}\n'
             for row, (time, one, value) in enumerate(zip(
-                rows['time'].tolist(), rows['series'].tolist(), rows['value'].tolist()))]
-        self._file.write(''.join(lines).replace(',nan,', ',,').encode())
+                _texts(rows['time'], seconds), rows['series'].tolist(),
+                _texts(rows['value'], _number)))]
+        self._file.write(''.join(lines).encode())
         return len(lines)
 
     def _describe(self, series: list[tuple[str, ...]]) -> None:
@@ -81,6 +83,18 @@ class ParquetWriter:
 
     def close(self) -> None:
         self._writer.close()
+
+
+def _texts(numbers: Any, text: Callable[[float], str]) -> list[str]:
+    """The text of each number. Times and readings repeat: equal ones become text once."""
+    import numpy
+    bits, places = numpy.unique(numbers.view('int64'), return_inverse=True)
+    texts = [text(number) for number in bits.view('float64').tolist()]
+    return [texts[place] for place in places.tolist()]
+
+
+def _number(value: float) -> str:
+    return '' if math.isnan(value) else f'{value:.9g}'
 
 
 def _line(words: list[str]) -> str:
