@@ -17,7 +17,8 @@ LONG = ('[docs/tutorial.md]', '[docs/robot.md]', '[docs/build_apartment.md]',
         'seek/test_command.py', 'py/test_replay.py', 'py/test_simulation.py',
         'worlds/test_world_geometry.py')
 PAGES = re.compile(r'docs/test_commands\.py::.*\[docs/('
-                   r'build_apartment|robot|run|spawn_and_delete|tutorial|devices/|sensors/)')
+                   r'build_apartment|robot|run|spawn_and_delete|tutorial|plugins|devices/|'
+                   r'sensors/)')
 
 # A shell ignores SIGINT in a process that it starts by &, and children inherit that.
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
@@ -25,9 +26,10 @@ if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
 
 
 def unit(name: str) -> str:
-    """The unit of a test: tests of a file share a master and a node; pages need not."""
+    """The unit of a test: tests of a file share a master and a node; pages need not, but two build
+    the same plug-in."""
     pages = PAGES.search(name)
-    return pages.group() if pages else name.partition('::')[0]
+    return pages.group().replace('plugins', 'tutorial') if pages else name.partition('::')[0]
 
 
 def place(name: str) -> int:

@@ -35,6 +35,8 @@ LEFT_OUT = re.compile('|'.join((
     r'\./angen shell -c "python3 (-m pytest|examples)',  # minutes, or they write into the checkout
     r'.*(\bNAME\b|\bKIND\b)',  # usage
 )))
+# What a page has the reader export in the shell that starts the simulator.
+SCRIPTS = re.compile(r'`export ANGEN_PLUGIN_PATH=\$PWD/(\S+)`')
 
 
 def steps(page: Path) -> list[tuple[str, str]]:
@@ -60,7 +62,7 @@ class Terminal:
             probe.bind(('127.0.0.1', 0))
             port = probe.getsockname()[1]
         self.folder = folder
-        home = folder / 'home'
+        self.home = home = folder / 'home'
         home.mkdir()
         for entry in ROOT.iterdir():
             if entry.name not in ('out', '.git'):
@@ -71,9 +73,8 @@ class Terminal:
             os.environ, HOME=str(home), ROS_HOME=str(home / '.ros'),
             ROS_MASTER_URI=uri, ROS_IP='127.0.0.1',
             ANGEN_MODEL_PATH=str(home / 'my_models'),
-            ANGEN_PLUGIN_PATH=f"{home / 'tape_measure/devel/lib'}:"
-                              f"{ROOT / 'tests/examples/rangefinder'}")
-        self.arguments: str | None = None
+            ANGEN_PLUGIN_PATH=str(home / 'tape_measure/devel/lib'))
+        self.started: tuple[str, str] | None = None  # arguments and paths of the simulator
         self.process: subprocess.Popen[str] | None = None
 
     def run(self, text: str, timeout: float = 300.0) -> str:
@@ -84,8 +85,10 @@ class Terminal:
         return done.stdout
 
     def simulate(self, arguments: str) -> None:
-        """A simulator with these arguments of ./angen run; that which runs, if it has them."""
-        if arguments == self.arguments:
+        """A simulator with these arguments of ./angen run; that which runs, if it has them and the
+        paths of plug-ins."""
+        wanted = (arguments, self.environment['ANGEN_PLUGIN_PATH'])
+        if wanted == self.started:
             return
         self.end()
         log = (self.folder / 'home/run.log').open('w')
@@ -97,7 +100,7 @@ class Terminal:
             assert time.monotonic() < end, (self.folder / 'home/run.log').read_text()
             time.sleep(0.1)
         self.first = {entity['name'] for entity in self.entities()}
-        self.arguments = arguments
+        self.started = wanted
 
     def is_ready(self) -> bool:
         """Whether the simulator serves."""
@@ -123,7 +126,7 @@ class Terminal:
         if self.process:
             self.process.send_signal(signal.SIGINT)
             self.process.wait(60)
-        self.process = self.arguments = None
+        self.process = self.started = None
 
 
 @pytest.fixture(scope='module')
@@ -144,6 +147,9 @@ def test_its_commands_work(page: Path, terminal: Terminal) -> None:
         where = terminal.folder / path.replace('~', terminal.environment['HOME'])
         where.parent.mkdir(parents=True, exist_ok=True)
         where.write_text(text)
+    terminal.environment['ANGEN_PLUGIN_PATH'] = ':'.join([
+        str(terminal.home / 'tape_measure/devel/lib'),
+        *(str(ROOT / folder) for folder in SCRIPTS.findall(page.read_text()))])
     for arguments, text in steps(page):
         if 'angen go ' in text:  # drives for minutes
             arguments = f'rate:=4 {arguments}'.strip()
