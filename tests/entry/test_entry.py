@@ -126,6 +126,12 @@ def test_nothing_waits_for_another_that_builds_nothing(tmp_path):
     assert (result.returncode, result.stderr) == (0, '')
 
 
+def test_no_message_is_generated_for_lisp():
+    """Each would take a process of its own in the first build."""
+    commands = (ROOT / 'build/build.ninja').read_text()
+    assert 'gen_cpp.py' in commands and 'gen_lisp.py' not in commands
+
+
 def test_the_catalog_has_no_plug_ins_of_the_tests():
     result = subprocess.run([ROOT / 'angen', 'plugins', '--json'], capture_output=True, text=True,
                             env=dict(os.environ, ANGEN_PLUGIN_PATH='', GAZEBO_PLUGIN_PATH=''))
