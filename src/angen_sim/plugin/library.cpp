@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <atomic>
 #include <class_loader/class_loader.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <mutex>
 #include <set>
 #include <utility>
@@ -49,12 +49,22 @@ fs::path own_library() {
   return fs::weakly_canonical(info.dli_fname, ignored);
 }
 
+// The bytes of a file, in one read: libraries have megabytes.
+std::string contents(const fs::path& file) {
+  std::error_code failed;
+  const std::uintmax_t size = fs::file_size(file, failed);
+  std::string bytes(failed ? 0 : size, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  return bytes;
+}
+
 // True when the file's type names show a plug-in registered for angen::Plugin. Read, not loaded:
 // loading runs code, and a directory of libraries may hold anything.
 bool registers_plugins(const fs::path& file) {
   if (file.filename() == own_library().filename()) return false;  // it holds the words searched for
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::string bytes = contents(file);
   return bytes.find("N12class_loader4impl10MetaObjectI") != std::string::npos &&
          bytes.find("N5angen6PluginE") != std::string::npos;
 }
@@ -63,9 +73,7 @@ bool is_script(const fs::path& file) { return file.extension() == ".py"; }
 
 // Whether a file of Python registers plug-ins, by its text.
 bool registers_scripts(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  return text.find("angen.register(") != std::string::npos;
+  return contents(file).find("angen.register(") != std::string::npos;
 }
 
 // A second name of a library, in the same folder; libX.so of libX.so.1 is none.

@@ -9,7 +9,7 @@ from typing import Any, Collection
 
 from lxml import etree
 
-from angen_tools.common.catalog import angen_module
+from angen_tools.common.catalog import angen_module, kinds
 from angen_tools.world import models
 
 MISSPELLED = re.compile(r' is not known; did you mean <\w+>\?$'
@@ -68,9 +68,9 @@ def _checked_model(angen: Any, path: str) -> Checked:
         world.delete(name)
     around = set(world.ignored)
     world.spawn(path)
-    kinds = sorted({plugin['kind'] for plugin in angen.plugins()})
-    devices = [f'{kind} {name}' for kind in kinds for name in world.devices(kind)]
-    sensors = [f'{kind} {name}' for kind in kinds for name in world.sensors(kind)]
+    known = sorted(kinds())
+    devices = [f'{kind} {name}' for kind in known for name in world.devices(kind)]
+    sensors = [f'{kind} {name}' for kind in known for name in world.sensors(kind)]
     found = ', '.join((f'model {world.models[0]} with {_counted(len(world.links), "link")}',
                        _counted(len(world.joints), 'joint'), _listed(devices, 'device'),
                        _listed(sensors, 'sensor')))
