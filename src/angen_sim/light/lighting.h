@@ -29,6 +29,7 @@ class Lighting {
  public:
   // About 4 s of CPU time; all twelve lamps of the building cost 12 million.
   static constexpr std::int64_t kRaysToLoad = 15'000'000;
+  static constexpr std::int64_t kRaysToJoin = 300'000;  // while a world runs
 
   explicit Lighting(const rays::Scene& scene);
   ~Lighting();

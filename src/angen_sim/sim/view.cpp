@@ -8,7 +8,8 @@ namespace angen::sim {
 
 namespace {
 
-constexpr double kBetweenRays = 0.05;  // m beside those that are watched
+constexpr Nanoseconds kLoading = 2 * kSecond;  // readings so early are part of loading
+constexpr double kBetweenRays = 0.05;          // m beside those that are watched
 
 template <class Ref>
 std::size_t at(Ref ref) {
@@ -93,7 +94,8 @@ light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) c
   if (engines_.light.dark() && engines_.light.knows(probe))
     return engines_.light.measure(probe, pose);
   engines_.rays.commit();
-  engines_.light.pace();
+  engines_.light.pace(clock_.time < kLoading ? light::Lighting::kRaysToLoad
+                                             : light::Lighting::kRaysToJoin);
   if (sensor_ == nullptr) return engines_.light.measure(probe, pose);
   std::unique_ptr<WatchedLight>& watched = sensor_->light;
   const bool still =
