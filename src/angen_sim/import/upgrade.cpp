@@ -101,12 +101,16 @@ void rename_twins(Element& parent, Session& session) {
   }
   for (Element& child : parent.children) {
     const Name name{names_shared_by(child), name_of(child)};
-    if (name.first.empty() || name.second.empty() || seen.insert(name).second) continue;
+    const bool is_world = child.name == "joint" && name.second == "world";
+    if (name.first.empty() || name.second.empty() || (seen.insert(name).second && !is_world)) {
+      continue;
+    }
     const std::string given = tag_of(child);
     set_attribute(child, "name", unused_name(child, used, tried));
-    session.warn_or_throw(Error(child.source, given + ": the name is given twice in " +
-                                                  tag_of(parent) + "; it is '" + name_of(child) +
-                                                  "' here"));
+    const std::string reason = is_world ? ": the name is that of the world"
+                                        : ": the name is given twice in " + tag_of(parent);
+    session.warn_or_throw(
+        Error(child.source, given + reason + "; it is '" + name_of(child) + "' here"));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "core/limits.h"
@@ -95,16 +96,21 @@ void collect_frames(const Element& model, const std::string& prefix, std::set<st
   }
 }
 
+bool is_known_end(const Element& end, const std::set<std::string>& known) {
+  return known.count(end.text) != 0 || end.text == "__model__" ||
+         (end.name == "parent" && end.text == "world");
+}
+
 void check_joint_end(const Element& joint, const std::string& end,
                      const std::set<std::string>& known) {
   const Element* element = joint.child(end);
   if (element == nullptr || element->text.empty()) {
     throw Error(joint.source, tag_of(joint) + " has no <" + end + ">; name a link");
   }
-  const std::string& name = element->text;
-  if ((end == "parent" && name == "world") || known.count(name) != 0 || name == "__model__") return;
-  throw Error(element->source, tag_of(joint) + " names an unknown link '" + printable(name) +
-                                   "'; known are " + join_names({known.begin(), known.end()}));
+  if (is_known_end(*element, known)) return;
+  throw Error(element->source, tag_of(joint) + " names an unknown link '" +
+                                   printable(element->text) + "'; known are " +
+                                   join_names({known.begin(), known.end()}));
 }
 
 bool zero_axis(const Element& axis) {
@@ -160,27 +166,39 @@ void check_joint(Element& joint, const std::set<std::string>& known, Session& se
   check_axes(joint, session);
 }
 
-// Where tolerant, a joint of a type that only Gazebo has is left out.
-void leave_out_joints(Element& model, Session& session) {
+/// Why Gazebo would leave a joint out, or a type that only Gazebo has; nothing otherwise.
+std::optional<Error> left_out(const Element& joint, const std::set<std::string>& known) {
+  const std::string* type = joint.attribute("type");
+  if (type != nullptr && kOthersJoints.count(*type) != 0) {
+    return Error(joint.source, "unknown joint type '" + *type + "'; known are " + listed(kJoints) +
+                                   "; " + tag_of(joint) + " is left out");
+  }
+  for (const char* end : {"parent", "child"}) {
+    const Element* element = joint.child(end);
+    if (element == nullptr || element->text.empty() || is_known_end(*element, known)) continue;
+    return Error(element->source, tag_of(joint) + " names an unknown link '" +
+                                      printable(element->text) + "'; it is left out");
+  }
+  return std::nullopt;
+}
+
+void leave_out_joints(Element& model, const std::set<std::string>& known, Session& session) {
   auto& all = model.children;
   const auto is_left_out = [&](const Element& joint) {
-    const std::string* type = joint.name == "joint" ? joint.attribute("type") : nullptr;
-    if (type == nullptr || kOthersJoints.count(*type) == 0) return false;
-    session.warn_or_throw(Error(joint.source, "unknown joint type '" + *type + "'; known are " +
-                                                  listed(kJoints) + "; " + tag_of(joint) +
-                                                  " is left out"));
-    return true;
+    const auto error = joint.name == "joint" ? left_out(joint, known) : std::nullopt;
+    if (error) session.warn_or_throw(*error);
+    return error.has_value();
   };
   if (!session.tolerant) return;
   all.erase(std::remove_if(all.begin(), all.end(), is_left_out), all.end());
 }
 
 void check_model_parts(Element& model, Session& session) {
-  leave_out_joints(model, session);
-  if (!has_link(model)) throw Error(model.source, tag_of(model) + " has no <link>; give it one");
-  check_children_names(model);
   std::set<std::string> known;
   collect_frames(model, "", known);
+  leave_out_joints(model, known, session);
+  if (!has_link(model)) throw Error(model.source, tag_of(model) + " has no <link>; give it one");
+  check_children_names(model);
   for (Element& child : model.children) {
     if (child.name == "link") check_link(child);
     if (child.name == "joint") check_joint(child, known, session);

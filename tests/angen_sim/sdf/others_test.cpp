@@ -98,6 +98,31 @@ TEST(Others, JointsThatWeLackAreLeftOutAndCounted) {
   EXPECT_NE(warnings_of(world).find("(and 5 more like it, up to line 7)"), std::string::npos);
 }
 
+TEST(Others, JointsOfUnknownLinksAreLeftOut) {
+  const std::string text = in_model(
+      two_links() +
+      "\n<joint name='j' type='fixed'><parent>a</parent><child>handle::link</child></joint>"
+      "\n<joint name='k' type='fixed'><parent>a</parent><child>b</child></joint>");
+  const desc::World world = read_loosely(text);
+  ASSERT_EQ(world.models[0].joints.size(), 1U);
+  EXPECT_EQ(world.models[0].joints[0].name, "k");
+  EXPECT_NE(
+      warnings_of(world).find(
+          "w.world:2: <joint name=\"j\"> names an unknown link 'handle::link'; it is left out"),
+      std::string::npos)
+      << warnings_of(world);
+}
+
+TEST(Others, AJointThatIsCalledWorldHasAnotherName) {
+  const desc::World world = read_loosely(
+      in_model(two_links() +
+               "<joint name='world' type='fixed'><parent>world</parent><child>a</child></joint>"));
+  ASSERT_EQ(world.models[0].joints.size(), 1U);
+  EXPECT_EQ(world.models[0].joints[0].name, "world_joint");
+  EXPECT_EQ(world.models[0].joints[0].parent, "world");
+  EXPECT_NE(warnings_of(world).find("it is 'world_joint' here"), std::string::npos);
+}
+
 std::string polyline(const std::string& points, const std::string& height = "2") {
   std::string text = "<polyline><height>" + height + "</height>";
   for (std::size_t at = 0; at < points.size();) {
