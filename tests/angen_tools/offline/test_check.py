@@ -51,6 +51,35 @@ def test_check_of_the_worlds_includes_under_the_names_of_the_source() -> None:
     assert '15 models, 15 devices, 1 sensor' in done.stdout
 
 
+def test_check_finds_the_models_beside_one_and_says_so(tmp_path: Path) -> None:
+    for name in ('part', 'whole'):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / 'model.config').write_text(
+            '<model><name>x</name><sdf version="1.6">model.sdf</sdf></model>')
+    (tmp_path / 'part/model.sdf').write_text(MODEL)
+    whole = tmp_path / 'whole/model.sdf'
+    whole.write_text('<sdf version="1.6"><model name="whole"><include><uri>model://part</uri>'
+                     '</include></model></sdf>')
+    plain = {**os.environ, 'GAZEBO_MODEL_PATH': ''}
+    for path in (whole, whole.parent):
+        done = angen('check', str(path), env=plain)
+        assert done.returncode == 0, done.stderr
+        assert f'add {tmp_path} to GAZEBO_MODEL_PATH' in done.stdout + done.stderr
+    done = angen('check', str(whole), env={**plain, 'GAZEBO_MODEL_PATH': str(tmp_path)})
+    assert (done.returncode, done.stderr) == (0, '')
+    assert 'GAZEBO_MODEL_PATH' not in done.stdout
+    (whole.parent / 'model.config').unlink()  # then it is a file somewhere
+    assert angen('check', str(whole), env=plain).returncode == 1
+
+
+def test_check_of_a_model_whose_declaration_follows_a_comment(tmp_path: Path) -> None:
+    file = tmp_path / 'late.sdf'
+    file.write_text(f'<!-- of the author -->\n<?xml version="1.0"?>\n{MODEL}')
+    done = angen('check', str(file))
+    assert (done.returncode, done.stderr) == (0, '')
+    assert 'model ground_plane with 1 link' in done.stdout
+
+
 def test_check_of_a_model_as_file_as_folder_and_by_its_address(tmp_path: Path) -> None:
     (tmp_path / 'model.sdf').write_text(MODEL)
     (tmp_path / 'model.config').write_text(

@@ -1,11 +1,13 @@
 """angen check: whether the file of a world, a model or a robot loads."""
 from __future__ import annotations
 
+import os
 import re
-from dataclasses import dataclass, field
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any, Collection
+from typing import Any, Collection, Iterator
 
 from lxml import etree
 
@@ -17,6 +19,7 @@ MISSPELLED = re.compile(r' is not known; did you mean <\w+>\?$'
 NOT_INCLUDED = re.compile(r'(.*: )an <include> has no <(\w+)>')
 OUR_OWN = re.compile(r': <angen:\w+> in <\w+>$')
 INCLUDE = ('uri', 'name', 'pose', 'static', 'plugin')
+MISSING = re.compile(r"'model://[^']*'.* is not found| has no <link>| an unknown link ")
 SHOWN = 8  # names of a model's devices and sensors
 
 
@@ -30,10 +33,48 @@ class Checked:
 
 
 def check(path: str) -> Checked:
-    """Loads a world; or a model (its SDF, URDF, folder or model:// address) into an empty world."""
-    angen = angen_module()
+    """Loads a world; or a model (its SDF, URDF, folder or model:// address) into an empty world.
+
+    What a model misses may be in the models beside it, as in a collection of models.
+    """
     if not path:
         return Checked(wrong=["'': not a path; give a file, a folder or model://NAME"])
+    alone = _checked(path)
+    collection = _collection_of(path)
+    if collection is None or not any(MISSING.search(line) for line in alone.wrong + alone.warnings):
+        return alone
+    with _searched(collection):
+        among_others = _checked(path)
+    if among_others == alone:
+        return alone
+    note = f'{path}: needs the models beside it; add {collection} to GAZEBO_MODEL_PATH to use it'
+    return replace(among_others, warnings=[note, *among_others.warnings])
+
+
+def _collection_of(path: str) -> Path | None:
+    """The folder of the model's folder, which may have other models."""
+    if path.startswith('model://'):
+        return None
+    folder = Path(path) if Path(path).is_dir() else Path(path).parent
+    return folder.resolve().parent if (folder / 'model.config').is_file() else None
+
+
+@contextmanager
+def _searched(folder: Path) -> Iterator[None]:
+    """The folder is the last one of Gazebo's model path."""
+    before = os.environ.get('GAZEBO_MODEL_PATH')
+    os.environ['GAZEBO_MODEL_PATH'] = f'{before}:{folder}' if before else str(folder)
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ['GAZEBO_MODEL_PATH']
+        else:
+            os.environ['GAZEBO_MODEL_PATH'] = before
+
+
+def _checked(path: str) -> Checked:
+    angen = angen_module()
     try:
         if holds_world(path):
             return _checked_world(angen.World(path), path)
@@ -49,8 +90,12 @@ def holds_world(path: str) -> bool:
     if not Path(path).is_file():
         return True
     try:
-        root = etree.parse(path, etree.XMLParser(resolve_entities=False)).getroot()
+        # Gazebo reads files with a comment before the declaration, or values without quotes.
+        parser = etree.XMLParser(resolve_entities=False, recover=True)
+        root = etree.parse(path, parser).getroot()
     except (OSError, etree.XMLSyntaxError):
+        return True
+    if root is None:
         return True
     return root.tag != 'robot' and all(part.tag not in ('model', 'actor') for part in root)
 
