@@ -75,9 +75,9 @@ def test_lines_of_a_namespaced_robot_are_those_of_its_text(gazebo: Gazebo) -> No
     xml = ('<sdf version="1.6">\n<model name="m">\n'
            '<plugin name="p" filename="libgazebo_ros_p3d.so"/>\n\n'
            '<link name="l"/>\n<joint name="j" type="fixed">\n<parent>l</parent>\n'
-           '<child>none</child></joint></model></sdf>')
+           '<child>l</child></joint></model></sdf>')
     answer = gazebo.ask("spawn_sdf_model", model_name="m", model_xml=xml, robot_namespace="/ns")
-    assert not answer.success and "(text):8: " in answer.status_message
+    assert not answer.success and "(text):6: " in answer.status_message
 
 
 def test_a_spawned_light_is_a_lamp(gazebo: Gazebo, angen: Angen) -> None:
