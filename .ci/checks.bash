@@ -18,16 +18,22 @@ run_suites() { # WORDS SUITE...
 }
 
 # pytest's tests wait for wall time: the other suites run in the time that they leave, one process at a time. Their
-# output comes after pytest's.
+# output comes after pytest's. ctest runs before, since it builds packages that pytest's tests use.
 run_beside_pytest() { # WORDS SUITE...
   local folder name others=() words=$1
   folder=$(mktemp -d)
-  for name in "${@:2}"; do [[ $name == pytest ]] || others+=("$name"); done
+  for name in "${@:2}"; do
+    case $name in
+      ctest) run_suites "$words" ctest ;;
+      pytest) ;;
+      *) others+=("$name") ;;
+    esac
+  done
   set -m # with a process group of its own, which Ctrl-C does not reach
   (
     set +m
     renice -n 5 "$BASHPID" >/dev/null
-    processors=1
+    processors=1 summary=()
     run_suites "$words" "${others[@]}"
     declare -p summary matched | sed 's/^declare/& -g/' >"$folder/results"
   ) >"$folder/output" 2>&1 &

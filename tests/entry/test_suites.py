@@ -17,6 +17,7 @@ until_there() { until [[ -e $root/$1 ]]; do sleep 0.01; done; }
 check_flake8() { until_there pytest; echo "beside: $(jobs)"; touch beside; }
 check_mypy() { echo "$BASHPID" >mypy; while true; do sleep 1; done; }
 check_tsc() { matched=1; [[ ! -e $root/fails ]]; }
+check_ctest() { [[ ! -e $root/pytest ]] && echo "ctest ran"; }
 check_pytest() { touch pytest; until_there "$waits_for"; echo "pytest ran"; }
 waits_for=$3
 run_test "${@:4}"'''
@@ -41,6 +42,14 @@ def test_the_others_run_while_pytest_does(tmp_path, fails):
     assert (done.returncode, trouble) == (int(fails), '')
     assert lines(said) == ['== pytest', 'pytest ran', '== flake8', 'beside: 1', '== tsc',
                            'flake8 ok', 'tsc FAILED' if fails else 'tsc ok', 'pytest ok']
+
+
+def test_ctest_runs_before_pytest_which_uses_what_it_builds(tmp_path):
+    done = start(tmp_path, 'beside', 'flake8', 'ctest', 'pytest')
+    said, trouble = done.communicate(timeout=60)
+    assert (done.returncode, trouble) == (0, '')
+    assert lines(said) == ['== ctest', 'ctest ran', '== pytest', 'pytest ran', '== flake8',
+                           'beside: 1', 'flake8 ok', 'ctest ok', 'pytest ok']
 
 
 def test_a_word_that_only_a_suite_beside_it_has_is_found(tmp_path):
