@@ -15,7 +15,8 @@ from angen_tools.common.catalog import angen_module, kinds
 from angen_tools.world import models
 
 MISSPELLED = re.compile(r' is not known; did you mean <\w+>\?$'
-                        r'|plug-in library .* is not found; did you mean \S+\?')
+                        r'|plug-in library .* is not found; did you mean \S+\?'
+                        r"|names an unknown link '.*'; it is left out$")
 NOT_INCLUDED = re.compile(r'(.*: )an <include> has no <(\w+)>')
 OUR_OWN = re.compile(r': <angen:\w+> in <\w+>$')
 INCLUDE = ('uri', 'name', 'pose', 'static', 'plugin')
@@ -136,7 +137,7 @@ def _right(path: str, found: str, world: Any, around: Collection[str] = ()) -> C
 
 
 def misspelled(warning: str) -> str:
-    """The correct spelling, if a warning of a tolerant world is about a misspelled element; else
+    """The mistake, if a warning of a tolerant world is about a misspelled element or link; else
     ''."""
     if MISSPELLED.search(warning):
         return warning
