@@ -222,6 +222,25 @@ class RawText(str):
         return self.raw
 
 
+def publishes_to_us(topic: str) -> bool:
+    """Whether a publisher of the topic knows this process as a subscriber: rospy counts connections
+    that are not made yet."""
+    import rosgraph
+    import rospy
+    us = rospy.get_name()
+    master = rosgraph.Master(us)
+
+    def knows_us(node: str) -> bool:
+        try:
+            publisher: Any = xmlrpc.client.ServerProxy(master.lookupNode(node))
+            connections = publisher.getBusInfo(us)[2]
+        except (OSError, rosgraph.MasterError):
+            return False  # it was killed, and is still registered
+        return any((to, way, name) == (us, "o", topic) for _, to, way, _, name, *_ in connections)
+
+    return any(knows_us(node) for node in dict(master.getSystemState()[0]).get(topic, []))
+
+
 class Inbox:
     """Collects the messages of a topic while it is open, from when a publisher of it knows."""
 
@@ -230,7 +249,8 @@ class Inbox:
         self.messages: list[Any] = []
         self._subscriber = rospy.Subscriber(topic, kind, self.messages.append)
         if topic in dict(rospy.get_published_topics()):
-            until(lambda: self._subscriber.get_num_connections() > 0, f"{topic} is connected")
+            until(lambda: self._subscriber.get_num_connections() > 0 and publishes_to_us(topic),
+                  f"{topic} is connected")
 
     def __enter__(self) -> Inbox:
         return self
