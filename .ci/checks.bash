@@ -12,46 +12,6 @@ suite() { # NAME COMMAND...
   summary+=("$(printf '%-14s  %-6s  %4d s' "$name" "$verdict" $((SECONDS - began)))")
 }
 
-run_suites() { # WORDS SUITE...
-  local name
-  for name in "${@:2}"; do suite "$name" "check_${name//-/_}" "$1"; done
-}
-
-# pytest's tests wait for wall time: the other suites run in the time that they leave, one process at a time. Their
-# output comes after pytest's. ctest runs before, since it builds packages that pytest's tests use.
-run_beside_pytest() { # WORDS SUITE...
-  local folder name others=() words=$1
-  folder=$(mktemp -d)
-  for name in "${@:2}"; do
-    case $name in
-      ctest) run_suites "$words" ctest ;;
-      pytest) ;;
-      *) others+=("$name") ;;
-    esac
-  done
-  set -m # with a process group of its own, which Ctrl-C does not reach
-  (
-    set +m
-    renice -n 5 "$BASHPID" >/dev/null
-    processors=1 summary=()
-    run_suites "$words" "${others[@]}"
-    declare -p summary matched | sed 's/^declare/& -g/' >"$folder/results"
-  ) >"$folder/output" 2>&1 &
-  local beside=$!
-  set +m
-  trap "kill -- -$beside 2>/dev/null; rm -rf ${folder@Q}" EXIT
-  trap 'exit 143' TERM
-  run_suites "$words" pytest
-  local tested=("${summary[@]}") found=$matched
-  wait "$beside" || true
-  trap - EXIT TERM
-  cat "$folder/output"
-  source "$folder/results"
-  rm -rf "$folder"
-  summary+=("${tested[@]}")
-  ((matched)) || matched=$found
-}
-
 report() { # fails where a suite has
   printf '%s\n' '' "${summary[@]}"
   [[ "${summary[*]}" != *FAILED* ]]
@@ -124,11 +84,9 @@ run_test() { # [-k WORDS] [--asan | --tsan | --bare] [SUITE...]
     if [[ $words ]]; then chosen=(ctest pytest); else read -ra chosen <<<"$suites"; fi
   fi
   if [[ " ${chosen[*]} " == *test* ]]; then prepare test; else install test; fi
-  if [[ " ${chosen[*]} " == *" pytest "* ]] && ((${#chosen[@]} > 1)); then
-    run_beside_pytest "$words" "${chosen[@]}"
-  else
-    run_suites "$words" "${chosen[@]}"
-  fi
+  for name in "${chosen[@]}"; do
+    suite "$name" "check_${name//-/_}" "$words"
+  done
   [[ ! $words ]] || ((matched)) || die "no test has \"$words\" in its name"
   report
 }
