@@ -5,6 +5,7 @@
 
 #include "core/random.h"
 #include "rays/layer.h"
+#include "rays/silhouette.h"
 #include "rays/solid.h"
 
 namespace angen::rays {
@@ -38,24 +39,14 @@ void ShaftHull::add_sides(int u, int v) {
   const auto part = [&](const Vec3& p) {
     return Eigen::Vector2d(p[u] - from_[u], p[v] - from_[v]);
   };
-  const Eigen::Vector2d low = part(corners_[0]), high = part(corners_[7]);
-  const std::array<Eigen::Vector2d, 4> ways = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
-  std::size_t found = 0;
-  for (const Eigen::Vector2d& way : ways) {
-    for (const double turn : {1.0, -1.0}) {
-      const Eigen::Vector2d outward = turn * Eigen::Vector2d(-way.y(), way.x());
-      const bool bounds = found < 4 && std::all_of(ways.begin(), ways.end(), [&](const auto& w) {
-                            return outward.dot(w) <= 0.0;
+  each_silhouette<double>(part(corners_[0]), part(corners_[7]),
+                          [&](const Eigen::Vector2d& outward) {
+                            Side& side = sides_[side_count_++];
+                            side.outward.setZero();
+                            side.outward[u] = outward.x();
+                            side.outward[v] = outward.y();
+                            side.offset = side.outward.dot(from_);
                           });
-      if (!bounds || outward.squaredNorm() == 0.0) continue;
-      Side& side = sides_[side_count_++];
-      side.outward.setZero();
-      side.outward[u] = outward.normalized().x();
-      side.outward[v] = outward.normalized().y();
-      side.offset = side.outward.dot(from_);
-      ++found;
-    }
-  }
 }
 
 bool ShaftHull::is_beside(const Eigen::AlignedBox3d& box) const {

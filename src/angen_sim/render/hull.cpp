@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "rays/silhouette.h"
+
 namespace angen::render {
 namespace {
 
@@ -38,26 +40,17 @@ float Hull::margin() const {
 // corners on one side of them; none if that middle is within `to`. They are moved out until `from`
 // is on that side as well.
 void Hull::add_sides(int u, int v) {
-  using Flat = Eigen::Vector2f;
-  const auto part = [&](const Eigen::Vector3f& p) { return Flat(p[u], p[v]); };
-  const Flat low = part(to_.min() - from_.center()), high = part(to_.max() - from_.center());
-  const std::array<Flat, 4> ways = {low, Flat(high.x(), low.y()), high, Flat(low.x(), high.y())};
-  std::size_t found = 0;
-  for (const Flat& way : ways) {
-    for (const float turn : {1.0F, -1.0F}) {
-      const Flat outward = turn * Flat(-way.y(), way.x());
-      const bool bounds = found < 4 && outward.squaredNorm() > 0.0F &&
-                          std::all_of(ways.begin(), ways.end(),
-                                      [&](const Flat& w) { return outward.dot(w) <= 0.0F; });
-      if (!bounds) continue;
-      Side& side = sides_[side_count_++];
-      side.outward.setZero();
-      side.outward[u] = outward.normalized().x();
-      side.outward[v] = outward.normalized().y();
-      side.offset = std::max(support(from_, side.outward), support(to_, side.outward));
-      ++found;
-    }
-  }
+  const auto part = [&](const Eigen::Vector3f& p) {
+    return Eigen::Vector2f(p[u] - from_.center()[u], p[v] - from_.center()[v]);
+  };
+  rays::each_silhouette<float>(
+      part(to_.min()), part(to_.max()), [&](const Eigen::Vector2f& outward) {
+        Side& side = sides_[side_count_++];
+        side.outward.setZero();
+        side.outward[u] = outward.x();
+        side.outward[v] = outward.y();
+        side.offset = std::max(support(from_, side.outward), support(to_, side.outward));
+      });
 }
 
 Hull Hull::seen_from(const Eigen::Matrix3f& rotation, const Eigen::Vector3f& position) const {
