@@ -125,7 +125,7 @@ def test_light_is_seen_in_its_sensors_plot(home: Angen, page: Page) -> None:
 def test_the_clock_pauses_and_goes_on(home: Angen, page: Page) -> None:
     with Inbox('/angen/stats', Stats) as stats:
         for paused in (True, False):
-            page.press('#play')
+            page.press('#play', '❚❚' if paused else '▶')
             stats.wait(lambda message: message.paused is paused, f'paused: {paused}', LIMIT)
             page.until('return angen.home.stats.paused === arguments[0]', paused)
             seen = page.text('#clock time')
