@@ -62,7 +62,7 @@ export class Player {
     this.last = performance.now();
     home.on('timeline', (entries) => this.take(entries));
     home.on('line', () => this.onLine());
-    home.on('scene', () => this.onScene());
+    home.on('scene', () => { if (home.status.replay) this.onScene(); });
   }
 
   onLine() {
