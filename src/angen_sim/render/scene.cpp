@@ -1,5 +1,6 @@
 #include "render/scene.h"
 
+#include <algorithm>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -29,11 +30,68 @@ bool equal(const PinholeCamera& a, const PinholeCamera& b) {
   return numbers(a) == numbers(b);
 }
 
-/// The hits of the last color image: depths of the same camera are usually requested next.
-struct LastPicture {
+bool equal(const Ambience& a, const Ambience& b) {
+  return a.ambient == b.ambient && a.background == b.background && a.reflected == b.reflected;
+}
+
+bool equal(const light::Lit& a, const light::Lit& b) {
+  const auto values = [](const light::Lit& lit) {
+    const light::Lamp& l = lit.lamp;
+    return std::tie(lit.level, l.type, l.pose, l.direction, l.luminous_flux, l.color, l.radius,
+                    l.width, l.height, l.length, l.half_angle, l.inner_angle, l.outer_angle,
+                    l.photometry, l.photometric_flux, l.cast_shadows);
+  };
+  return values(a) == values(b);
+}
+
+/// A color image with its depths, and all that it shows besides the bodies.
+struct Picture {
   PinholeCamera camera;
   Pose pose;
-  std::vector<float> depths;  // empty: none, or outdated
+  std::vector<light::Lit> lamps;
+  Ambience ambience;
+  std::vector<std::uint8_t> colors;
+  std::vector<float> depths;
+
+  bool is_from(const PinholeCamera& other, const Pose& from) const {
+    return equal(camera, other) && pose == from;
+  }
+  bool is_under(const std::vector<light::Lit>& others, const Ambience& other) const {
+    return equal(ambience, other) &&
+           std::equal(lamps.begin(), lamps.end(), others.begin(), others.end(),
+                      [](const light::Lit& a, const light::Lit& b) { return equal(a, b); });
+  }
+};
+
+/// The last picture of each of some cameras, until a body changes: the depths of a color image are
+/// usually requested next, and a camera at rest shows the same again.
+class Pictures {
+ public:
+  /// Null without one.
+  const Picture* find(const PinholeCamera& camera, const Pose& pose) const {
+    const auto found = std::find_if(all_.begin(), all_.end(), [&](const Picture& picture) {
+      return picture.is_from(camera, pose);
+    });
+    return found == all_.end() ? nullptr : &*found;
+  }
+  /// Replaces that of the same camera, or else the oldest one if there are many.
+  void add(Picture picture) {
+    const auto same = std::find_if(all_.begin(), all_.end(), [&](const Picture& other) {
+      return other.is_from(picture.camera, picture.pose);
+    });
+    if (same != all_.end()) {
+      all_.erase(same);
+    } else if (all_.size() == kMax) {
+      all_.erase(all_.begin());
+    }
+    all_.push_back(std::move(picture));
+  }
+  void clear() { all_.clear(); }
+
+ private:
+  static constexpr std::size_t kMax = 4;
+
+  std::vector<Picture> all_;  // in the order of their rendering
 };
 
 std::vector<float> no_depths(const PinholeCamera& camera) {
@@ -50,7 +108,7 @@ struct Scene::Impl {
   Reaches reaches;      // of lamps among the bodies that do not move
   bool new_set = true;  // bodies were added or removed
   bool moved = false;
-  LastPicture last;
+  Pictures last;
 
   void rebuild() {
     instances.clear();
@@ -71,7 +129,7 @@ struct Scene::Impl {
 
   void prepare() {
     if (!new_set && !moved) return;
-    last.depths.clear();
+    last.clear();
     if (new_set) {
       rebuild();
     } else {
@@ -111,23 +169,26 @@ std::vector<std::uint8_t> Scene::colors(const PinholeCamera& camera, const Pose&
                                         const std::vector<light::Lit>& lamps,
                                         const Ambience& ambience) const {
   impl_->prepare();
+  const Picture* last = impl_->last.find(camera, pose);
+  if (last != nullptr && last->is_under(lamps, ambience)) return last->colors;
   std::vector<std::uint8_t> pixels(3U * static_cast<std::size_t>(camera.width) * camera.height);
+  std::vector<float> depths = no_depths(camera);
   std::vector<Box> reaches;
   reaches.reserve(lamps.size());
   for (const light::Lit& lit : lamps) reaches.push_back(impl_->reaches.of(lit.lamp));
   const Illumination by{lamps, reaches, ambience};
-  impl_->last = {camera, pose, no_depths(camera)};
   trace(camera, pose, impl_->instances, impl_->threads, [&] {
     return std::make_unique<ColorWriter>(impl_->instances, by, camera.width, pixels.data(),
-                                         impl_->last.depths.data());
+                                         depths.data());
   });
+  impl_->last.add({camera, pose, lamps, ambience, pixels, std::move(depths)});
   return pixels;
 }
 
 std::vector<float> Scene::depths(const PinholeCamera& camera, const Pose& pose) const {
   impl_->prepare();
-  const LastPicture& last = impl_->last;
-  if (!last.depths.empty() && equal(last.camera, camera) && last.pose == pose) return last.depths;
+  const Picture* last = impl_->last.find(camera, pose);
+  if (last != nullptr) return last->depths;
   std::vector<float> values = no_depths(camera);
   trace(camera, pose, impl_->instances, impl_->threads,
         [&] { return std::make_unique<DepthWriter>(camera.width, values.data()); });

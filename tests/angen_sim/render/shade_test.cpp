@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -111,6 +112,68 @@ TEST(Picture, IsTheSameOnAnyNumberOfThreads) {
     EXPECT_TRUE(equal(now, colors)) << threads;
     EXPECT_TRUE(equal(alone, depths)) << threads;
     EXPECT_TRUE(equal(scene.depths(pinhole, camera), depths)) << threads;
+  }
+}
+
+// A camera at rest shows its last image again, unless anything that it shows has changed.
+TEST(Picture, IsThatOfTheSceneLampsAndLightNow) {
+  const auto build = [](Scene& scene) {
+    scene.add(body(box(6.0, 6.0, 1.0), at(0.0, 0.0, -0.5)));
+    Body ball = body(round(Shape::Type::kSphere, 0.3), at(1.0, 0.0, 0.3));
+    ball.moves = true;
+    return scene.add(ball);
+  };
+  PinholeCamera pinhole;
+  Pose camera{{-1.5, 0.0, 1.5}, from_rpy(0.0, 0.5, 0.1)};
+  std::vector<light::Lit> lamps{lamp({1.0, 1.0, 2.0}, 800.0)};
+  Ambience ambience = kDim;
+  Scene scene;
+  const BodyId ball = build(scene);
+  Pose place = at(1.0, 0.0, 0.3);
+  using Change = std::function<void()>;
+  light::Lamp& changed = lamps[0].lamp;
+  std::vector<std::uint8_t> before;
+  const std::vector<Change> changes{
+      [] {},
+      [&] { lamps[0].level = 0.5; },
+      [&] { changed.pose.position.x() = 0.5; },
+      [&] { changed.luminous_flux = 400.0; },
+      [&] {
+        changed.color = {1.0F, 0.5F, 0.2F};
+      },
+      [&] { changed.radius = 1.9; },
+      [&] { changed.cast_shadows = false; },
+      [&] {
+        changed.type = light::Lamp::Type::kRectangle;
+        changed.width = changed.height = 1.0;
+      },
+      [&] {
+        changed.direction = {0.0, 0.6, -0.8};
+      },
+      [&] {
+        lamps.push_back(lamp({0.0, -1.0, 1.0}, 300.0));
+      },
+      [&] {
+        ambience.ambient = {0.5F, 0.5F, 0.5F};
+      },
+      [&] {
+        ambience.background = {0.1F, 0.5F, 0.5F};
+      },
+      [&] { ambience.reflected = rising_light(); },
+      [&] { camera.position.z() = 1.4; },
+      [&] { pinhole.horizontal_angle = 1.3; },
+      [&] { place = at(1.0, 0.5, 0.3); },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    changes[i]();
+    scene.move(ball, place);
+    Scene fresh;
+    fresh.move(build(fresh), place);
+    const std::vector<std::uint8_t> now = scene.colors(pinhole, camera, lamps, ambience);
+    EXPECT_EQ(now, fresh.colors(pinhole, camera, lamps, ambience)) << i;
+    EXPECT_NE(now, before) << i;
+    EXPECT_EQ(now, scene.colors(pinhole, camera, lamps, ambience)) << i;
+    before = now;
   }
 }
 
