@@ -13,17 +13,16 @@ void each_silhouette(const Eigen::Matrix<Scalar, 2, 1>& low,
                      const Eigen::Matrix<Scalar, 2, 1>& high, const Visit& visit) {
   using Flat = Eigen::Matrix<Scalar, 2, 1>;
   const std::array<Flat, 4> ways = {low, Flat(high.x(), low.y()), high, Flat(low.x(), high.y())};
-  int found = 0;  // a flat rectangle has the same line twice
-  for (const Flat& way : ways) {
-    for (const Scalar turn : {Scalar{1}, Scalar{-1}}) {
-      const Flat outward = turn * Flat(-way.y(), way.x());
-      const bool bounds = found < 4 && outward.squaredNorm() > Scalar{0} &&
-                          std::all_of(ways.begin(), ways.end(),
-                                      [&](const Flat& w) { return outward.dot(w) <= Scalar{0}; });
-      if (!bounds) continue;
-      visit(Flat(outward.normalized()));
-      ++found;
+  for (const Scalar turn : {Scalar{1}, Scalar{-1}}) {
+    // Seen from outside, one corner is farthest to that side.
+    Flat outward = turn * Flat(-low.y(), low.x());
+    for (const Flat& way : ways) {
+      if (outward.dot(way) > Scalar{0}) outward = turn * Flat(-way.y(), way.x());
     }
+    const bool bounds = outward.squaredNorm() > Scalar{0} &&
+                        std::all_of(ways.begin(), ways.end(),
+                                    [&](const Flat& way) { return outward.dot(way) <= Scalar{0}; });
+    if (bounds) visit(Flat(outward.normalized()));
   }
 }
 

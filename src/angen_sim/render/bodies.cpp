@@ -65,6 +65,13 @@ void occlude(const RTCOccludedFunctionNArguments* args) {
   }
 }
 
+Face in_world(const Placed& placed, Face face) {
+  for (Eigen::Vector3f& corner : face.corners) {
+    corner = placed.rotation * corner + placed.position;
+  }
+  return face;
+}
+
 }  // namespace
 
 Patch::Patch(const std::vector<std::pair<const Body*, Pose>>& bodies)
@@ -81,10 +88,13 @@ Patch::Patch(const std::vector<std::pair<const Body*, Pose>>& bodies)
 
 void Patch::build_boxes() {
   std::vector<Box> boxes;
-  boxes.reserve(triangles_.size() + heightmaps_.size());
-  for (const auto& triangle : triangles_) {
-    Box box(vertices_[triangle[0]]);
-    boxes.push_back(box.extend(vertices_[triangle[1]]).extend(vertices_[triangle[2]]));
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    if (first_of_face(i) != i) continue;
+    const Face each = face(i);
+    Box box;
+    for (const Eigen::Vector3f& corner : each.corners) box.extend(corner);
+    boxes.push_back(box);
+    faces_.push_back(each);
   }
   for (const PlacedHeightmap& heightmap : heightmaps_) {
     boxes.push_back(bounds_of(heightmap).cast<float>());
@@ -92,9 +102,13 @@ void Patch::build_boxes() {
   boxes_.build(std::move(boxes));
 }
 
-bool Patch::any_in(const Hull& hull) const {
-  return boxes_.any([&](const Box& box) { return hull.overlaps(box); },
-                    [](std::uint32_t) { return true; });
+bool Patch::find_in(const Hull& hull, Faces& found) const {
+  return !boxes_.any([&](const Box& box) { return hull.overlaps(box); },
+                     [&](std::uint32_t i) {
+                       if (i >= faces_.size() || found.count == found.all.size()) return true;
+                       found.all[found.count++] = faces_[i];
+                       return false;
+                     });
 }
 
 /// Whether a triangle a b c and the next one, a c d, are a quad; it may be concave.
@@ -107,14 +121,17 @@ bool Patch::is_quad(std::size_t triangle) const {
          std::abs(facets_[triangle].normal.dot(at(second[2]) - at(first[0]))) < kFlat;
 }
 
+std::uint32_t Patch::first_of_face(std::uint32_t triangle) const {
+  return !is_quad(triangle) && triangle > 0 && is_quad(triangle - 1) ? triangle - 1 : triangle;
+}
+
 Face Patch::face(std::uint32_t triangle) const {
+  const std::uint32_t first = first_of_face(triangle);
   const auto corner = [&](std::size_t t, std::size_t i) { return vertices_[triangles_[t][i]]; };
-  const auto quad = [&](std::size_t t) -> Face {
-    return {{corner(t, 0), corner(t, 1), corner(t, 2), corner(t + 1, 2)}, 4};
-  };
-  if (is_quad(triangle)) return quad(triangle);
-  if (triangle > 0 && is_quad(triangle - 1)) return quad(triangle - 1);
-  return {{corner(triangle, 0), corner(triangle, 1), corner(triangle, 2), corner(triangle, 0)}, 3};
+  const bool quad = is_quad(first);
+  return {{corner(first, 0), corner(first, 1), corner(first, 2),
+           quad ? corner(first + 1, 2) : corner(first, 0)},
+          quad ? 4U : 3U};
 }
 
 void Patch::attach_triangles() {
@@ -283,19 +300,23 @@ bool Instances::find_face(const Eigen::Vector3f& from, const Eigen::Vector3f& to
   face.count = 0;
   if (ray.hit.geomID != 0) return true;  // a heightmap
   const Placed& placed = placed_[ray.hit.instID[0]];
-  face = placed.patch->face(ray.hit.primID);
-  for (Eigen::Vector3f& corner : face.corners) {
-    corner = placed.rotation * corner + placed.position;
-  }
+  face = in_world(placed, placed.patch->face(ray.hit.primID));
   return true;
 }
 
-bool Instances::any_in(const Hull& hull) const {
-  return boxes_.any([&](const Box& box) { return hull.overlaps(box); },
-                    [&](std::uint32_t i) {
-                      const Placed& placed = placed_[boxed_[i]];
-                      return placed.patch->any_in(hull.seen_from(placed.rotation, placed.position));
-                    });
+bool Instances::find_in(const Hull& hull, Faces& faces) const {
+  faces.count = 0;
+  return !boxes_.any([&](const Box& box) { return hull.overlaps(box); },
+                     [&](std::uint32_t i) {
+                       const Placed& placed = placed_[boxed_[i]];
+                       const std::size_t before = faces.count;
+                       const Hull from_there = hull.seen_from(placed.rotation, placed.position);
+                       if (!placed.patch->find_in(from_there, faces)) return true;
+                       for (std::size_t k = before; k < faces.count; ++k) {
+                         faces.all[k] = in_world(placed, faces.all[k]);
+                       }
+                       return false;
+                     });
 }
 
 }  // namespace angen::render

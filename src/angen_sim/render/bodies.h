@@ -34,6 +34,12 @@ struct PlacedHeightmap {
   std::uint32_t finish = 0;
 };
 
+/// Some faces that are in the way.
+struct Faces {
+  std::array<Face, 24> all;
+  std::size_t count = 0;
+};
+
 /// Triangles and heightmaps that move as one, with a hierarchy of their own.
 class Patch {
  public:
@@ -47,14 +53,16 @@ class Patch {
   Eigen::Vector3f color(const Facet& facet, float u, float v) const;
   /// A triangle, with the one beside it if both are a quad.
   Face face(std::uint32_t triangle) const;
-  /// False only if nothing is in the hull.
-  bool any_in(const Hull& hull) const;
+  /// Adds the faces in the hull, perhaps some beside it; false if they are too many, or include a
+  /// heightmap.
+  bool find_in(const Hull& hull, Faces& faces) const;
   bool is_empty() const { return triangles_.empty() && heightmaps_.empty(); }
   const Box& bounds() const { return boxes_.bounds(); }  // not of an empty one
   RTCScene scene() const { return scene_.get(); }
 
  private:
   bool is_quad(std::size_t triangle) const;
+  std::uint32_t first_of_face(std::uint32_t triangle) const;
   void append(const Surface& surface, const Pose& pose);
   void append_part(const Surface& surface, const TriangleMesh& mesh, std::size_t part);
   void append_heightmap(const Surface& surface, const Pose& at);
@@ -69,7 +77,8 @@ class Patch {
   std::vector<Finish> finishes_;
   std::vector<std::array<float, 6>> corners_;  // u v of the corners of triangles with textures
   rays::Embree<RTCScene> scene_;
-  BoxTree boxes_;  // of the triangles, then of the heightmaps
+  std::vector<Face> faces_;
+  BoxTree boxes_;  // of the faces, then of the heightmaps
 };
 
 /// A patch with its place in the world.
@@ -98,8 +107,9 @@ class Instances {
 
   /// Finds the first opaque face on the way; one of 0 corners is not a polygon. False without one.
   bool find_face(const Eigen::Vector3f& from, const Eigen::Vector3f& to, Face& face) const;
-  /// False only if nothing opaque is in the hull.
-  bool any_in(const Hull& hull) const;
+  /// Finds the opaque faces in the hull, perhaps some beside it; false if they are too many, or not
+  /// all are polygons.
+  bool find_in(const Hull& hull, Faces& faces) const;
 
  private:
   std::vector<Placed> placed_;

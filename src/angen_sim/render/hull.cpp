@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "rays/silhouette.h"
@@ -17,16 +18,12 @@ float support(const Box& box, const Eigen::Vector3f& outward) {
   return (outward.array() > 0.0F).select(box.max(), box.min()).dot(outward);
 }
 
-Eigen::Vector3f corner(const Box& box, int i) {
-  return box.corner(static_cast<Box::CornerType>(i));
-}
-
 }  // namespace
 
 Hull::Hull(const Box& from, const Box& to) : from_(from), to_(to), box_(from.merged(to)) {
   for (const auto& [u, v] : {std::pair{0, 1}, {1, 2}, {2, 0}}) add_sides(u, v);
   const float more = margin();
-  for (std::size_t i = 0; i < side_count_; ++i) sides_[i].offset += more;
+  offset_ += more;
   box_.min().array() -= more;
   box_.max().array() += more;
 }
@@ -43,27 +40,26 @@ void Hull::add_sides(int u, int v) {
   const auto part = [&](const Eigen::Vector3f& p) {
     return Eigen::Vector2f(p[u] - from_.center()[u], p[v] - from_.center()[v]);
   };
-  rays::each_silhouette<float>(
-      part(to_.min()), part(to_.max()), [&](const Eigen::Vector2f& outward) {
-        Side& side = sides_[side_count_++];
-        side.outward.setZero();
-        side.outward[u] = outward.x();
-        side.outward[v] = outward.y();
-        side.offset = std::max(support(from_, side.outward), support(to_, side.outward));
-      });
+  rays::each_silhouette<float>(part(to_.min()), part(to_.max()), [&](const Eigen::Vector2f& way) {
+    Eigen::Vector3f outward = Eigen::Vector3f::Zero();
+    outward[u] = way.x();
+    outward[v] = way.y();
+    for (int axis = 0; axis < 3; ++axis) outward_[axis][side_count_] = outward[axis];
+    offset_[side_count_++] = std::max(support(from_, outward), support(to_, outward));
+  });
 }
 
 Hull Hull::seen_from(const Eigen::Matrix3f& rotation, const Eigen::Vector3f& position) const {
   Hull made;
-  made.side_count_ = side_count_;
-  for (std::size_t i = 0; i < side_count_; ++i) {
-    const Side& side = sides_[i];
-    made.sides_[i] = {rotation.transpose() * side.outward,
-                      side.offset - side.outward.dot(position)};
+  made.offset_ = offset_;
+  for (int axis = 0; axis < 3; ++axis) {
+    made.offset_ -= outward_[axis] * position[axis];
+    for (int i = 0; i < 3; ++i) made.outward_[axis] += rotation(i, axis) * outward_[i];
   }
-  for (int i = 0; i < 8; ++i) {
-    made.box_.extend(rotation.transpose() * (corner(from_, i) - position));
-    made.box_.extend(rotation.transpose() * (corner(to_, i) - position));
+  for (const Box* box : {&from_, &to_}) {
+    const Eigen::Vector3f center = rotation.transpose() * (box->center() - position);
+    const Eigen::Vector3f half = rotation.transpose().cwiseAbs() * (0.5F * box->sizes());
+    made.box_.extend(Box(center - half, center + half));
   }
   const float more = margin();
   made.box_.min().array() -= more;
@@ -71,37 +67,47 @@ Hull Hull::seen_from(const Eigen::Matrix3f& rotation, const Eigen::Vector3f& pos
   return made;
 }
 
-bool Hull::overlaps(const Box& box) const {
-  if (!box.intersects(box_)) return false;
-  return std::all_of(sides_.begin(), sides_.begin() + side_count_,
-                     [&](const Side& side) { return -support(box, -side.outward) <= side.offset; });
+bool Hull::overlaps(const Face& face) const {
+  Box box;
+  Sides nearest = Sides::Constant(std::numeric_limits<float>::infinity());
+  for (std::size_t i = 0; i < face.count; ++i) {
+    const Eigen::Vector3f& p = face.corners[i];
+    box.extend(p);
+    const Sides beyond = outward_[0] * p.x() + outward_[1] * p.y() + outward_[2] * p.z() - offset_;
+    nearest = nearest.min(beyond);
+  }
+  return box.intersects(box_) && !(nearest.maxCoeff() > 0.0F);
 }
 
 // A segment from a to b passes an edge on the inner side by the sign of the volume that both span,
-// which is linear in a and in b: its extremes are at corners of the boxes.
+// which is linear in a and in b: it is that of the middles, give or take what the boxes' halves
+// add.
 bool Hull::is_cut_by(const Face& face) const {
   const auto at = [&](std::size_t i) -> Eigen::Vector3d {
     return face.corners[i % face.count].cast<double>();
   };
   const double least = margin();
   const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
-  const auto least_above = [&](const Box& box, double side) {
-    const Eigen::Vector3d half = box.sizes().cast<double>() / 2.0;
-    const Eigen::Vector3d middle = box.center().cast<double>() - at(0);
-    return side * normal.dot(middle) - normal.cwiseAbs().dot(half);
-  };
-  const double side = normal.dot(from_.center().cast<double>() - at(0)) > 0.0 ? 1.0 : -1.0;
-  if (!(least_above(from_, side) > least && least_above(to_, -side) > least)) return false;
+  const Eigen::Vector3d half_from = from_.sizes().cast<double>() / 2.0;
+  const Eigen::Vector3d half_to = to_.sizes().cast<double>() / 2.0;
+  const Eigen::Vector3d from = from_.center().cast<double>(), to = to_.center().cast<double>();
+  const double side = normal.dot(from - at(0)) > 0.0 ? 1.0 : -1.0;
+  const Eigen::Vector3d lean = normal.cwiseAbs();
+  if (!(side * normal.dot(from - at(0)) - lean.dot(half_from) > least &&
+        -side * normal.dot(to - at(0)) - lean.dot(half_to) > least)) {
+    return false;
+  }
   const double length = box_.sizes().cast<double>().norm();
-  const Eigen::Vector3d half = to_.sizes().cast<double>() / 2.0;
   for (std::size_t k = 0; k < face.count; ++k) {
-    const Eigen::Vector3d edge = at(k + 1) - at(k);
-    for (int i = 0; i < 8; ++i) {
-      const Eigen::Vector3d across = edge.cross(corner(from_, i).cast<double>() - at(k));
-      const double most =
-          -side * across.dot(to_.center().cast<double>() - at(k)) - across.cwiseAbs().dot(half);
-      if (!(most > least * edge.norm() * length)) return false;
-    }
+    const Eigen::Vector3d edge = at(k + 1) - at(k), reach = edge.cwiseAbs();
+    const Eigen::Vector3d across = edge.cross(from - at(k));
+    const Eigen::Vector3d spread(reach.y() * half_from.z() + reach.z() * half_from.y(),
+                                 reach.z() * half_from.x() + reach.x() * half_from.z(),
+                                 reach.x() * half_from.y() + reach.y() * half_from.x());
+    const Eigen::Vector3d way = to - at(k);
+    const double most = -side * across.dot(way) - across.cwiseAbs().dot(half_to) -
+                        spread.dot(way.cwiseAbs() + half_to);
+    if (!(most > least * edge.norm() * length)) return false;
   }
   return true;
 }

@@ -16,6 +16,7 @@ void gather(const Instances& instances, const TracedTile& from, const Eigen::Vec
   tile.column = from.column;
   tile.row = from.row;
   tile.seen.setEmpty();
+  tile.lifted.setEmpty();
   for (int i = 0; i < kLanes; ++i) {
     tile.in_image[i] = from.valid[i] != 0;
     tile.valid[i] = from.has_hit(i) ? -1 : 0;
@@ -32,6 +33,7 @@ void gather(const Instances& instances, const TracedTile& from, const Eigen::Vec
     tile.color[i] = placed.patch->color(facet, rays.hit.u[i], rays.hit.v[i]);
     tile.light[i] = ambient;
     tile.seen.extend(tile.point[i]);
+    tile.lifted.extend(lifted(tile, i));
   }
 }
 
@@ -40,10 +42,9 @@ BlockView view_of(const Tile* tiles, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) {
     const Tile& tile = tiles[k];
     for (int i = 0; i < kLanes; ++i) {
-      if (tile.valid[i] == 0) continue;
-      view.points.extend(lifted(tile, i));
-      view.add_way(tile.normal[i], tile.through[i]);
+      if (tile.valid[i] != 0) view.add_way(tile.normal[i], tile.through[i]);
     }
+    view.points.extend(tile.lifted);
   }
   return view;
 }
@@ -139,8 +140,11 @@ void ColorWriter::shine(std::size_t lamp, const BlockView& view) {
   const Sight sight = sights_.of(lamp, points);
   if (sight == Sight::kNone) return;
   for (std::size_t k = 0; k < count_; ++k) {
-    if (!reach.intersects(tiles_[k].seen)) continue;
-    render::shine(by_.lamps[lamp], sight == Sight::kAll ? nullptr : instances_.opaque(), tiles_[k]);
+    Tile& tile = tiles_[k];
+    if (!reach.intersects(tile.seen)) continue;
+    const Sight part = sight == Sight::kAll ? sight : sights_.of_part(lamp, tile.lifted);
+    if (part == Sight::kNone) continue;
+    render::shine(by_.lamps[lamp], part == Sight::kAll ? nullptr : instances_.opaque(), tile);
   }
 }
 

@@ -23,6 +23,7 @@ struct alignas(64) Tile {
   bool in_image[kLanes];
   int column, row;  // of its first pixel
   Box seen;         // around the points; empty without hits
+  Box lifted;       // around the starts of shadow rays
 };
 
 /// Where a shadow ray starts.

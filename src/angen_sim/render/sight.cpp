@@ -4,6 +4,12 @@
 
 namespace angen::render {
 
+// A lifted ray ends beside the lamp by as much.
+Hull Sights::hull_of(std::size_t lamp, const Box& points) const {
+  const Eigen::Vector3f position = lamps_[lamp].lamp.pose.position.cast<float>();
+  return {Box(position.array() - kLift, position.array() + kLift), points};
+}
+
 /// Whether the first face on the way from one point to the other hides the lamp.
 bool Sights::hides(std::size_t lamp, const Hull& rays, const Eigen::Vector3f& from,
                    const Eigen::Vector3f& to, bool& is_free) {
@@ -16,16 +22,29 @@ bool Sights::hides(std::size_t lamp, const Hull& rays, const Eigen::Vector3f& fr
 
 Sight Sights::of(std::size_t lamp, const Box& points) {
   const light::Lamp& at = lamps_[lamp].lamp;
+  has_all_ = false;
   if (at.type == light::Lamp::Type::kDirectional) return Sight::kSome;
   if (!at.cast_shadows) return Sight::kAll;
-  const Eigen::Vector3f position = at.pose.position.cast<float>();
-  // A lifted ray ends beside the lamp by as much.
-  const Hull rays(Box(position.array() - kLift, position.array() + kLift), points);
+  const Hull rays = hull_of(lamp, points);
   if (last_[lamp].count > 0 && rays.is_cut_by(last_[lamp])) return Sight::kNone;
+  const Eigen::Vector3f position = at.pose.position.cast<float>();
   bool is_free = false;
   if (hides(lamp, rays, points.center(), position, is_free)) return Sight::kNone;
-  if (is_free) return instances_.any_in(rays) ? Sight::kSome : Sight::kAll;
-  return hides(lamp, rays, position, points.center(), is_free) ? Sight::kNone : Sight::kSome;
+  if (!is_free && hides(lamp, rays, position, points.center(), is_free)) return Sight::kNone;
+  has_all_ = instances_.find_in(rays, faces_);
+  return has_all_ && faces_.count == 0 ? Sight::kAll : Sight::kSome;
+}
+
+Sight Sights::of_part(std::size_t lamp, const Box& points) {
+  if (!has_all_) return Sight::kSome;
+  const Hull rays = hull_of(lamp, points);
+  bool is_free = true;
+  for (std::size_t i = 0; i < faces_.count; ++i) {
+    if (!rays.overlaps(faces_.all[i])) continue;
+    if (rays.is_cut_by(faces_.all[i])) return Sight::kNone;
+    is_free = false;
+  }
+  return is_free ? Sight::kAll : Sight::kSome;
 }
 
 }  // namespace angen::render

@@ -19,14 +19,19 @@ class Sights {
 
   /// From points that are lifted off their surfaces.
   Sight of(std::size_t lamp, const Box& points);
+  /// The same for some of the points of the last box, if its answer was kSome.
+  Sight of_part(std::size_t lamp, const Box& points);
 
  private:
+  Hull hull_of(std::size_t lamp, const Box& points) const;
   bool hides(std::size_t lamp, const Hull& rays, const Eigen::Vector3f& from,
              const Eigen::Vector3f& to, bool& is_free);
 
   const Instances& instances_;
   const std::vector<light::Lit>& lamps_;
   std::vector<Face> last_;  // for each lamp: the face that hid it last
+  Faces faces_;             // between the last box and its lamp
+  bool has_all_ = false;    // faces_ are all of them
 };
 
 }  // namespace angen::render

@@ -82,6 +82,26 @@ bool crosses(const Face& face, const Eigen::Vector3f& a, const Eigen::Vector3f& 
   return false;
 }
 
+TEST(Hull, OverlapsEachFaceThatASegmentMeets) {
+  Rng rng(1, hash_bytes("face"), 0);
+  int met = 0, beside = 0;
+  for (int i = 0; i < 50000; ++i) {
+    const Box from = random_box(rng, 0.01), to = random_box(rng, 1.5);
+    Face face;
+    face.count = 3;
+    for (auto& corner : face.corners) corner = random_point(rng, 4.0);
+    const bool overlaps = Hull(from, to).overlaps(face);
+    beside += overlaps ? 0 : 1;
+    for (int k = 0; k < 20; ++k) {
+      if (!crosses(face, point_in(rng, from), point_in(rng, to))) continue;
+      ++met;
+      ASSERT_TRUE(overlaps);
+    }
+  }
+  EXPECT_GT(met, 500);
+  EXPECT_GT(beside, 20000);
+}
+
 TEST(Hull, IsCutOnlyByAFaceThatAllSegmentsCross) {
   Rng rng(1, hash_bytes("cut"), 0);
   int cut = 0;

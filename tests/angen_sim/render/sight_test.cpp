@@ -63,28 +63,51 @@ Box points_on_a_surface(Rng& rng) {
   return {low, low + size};
 }
 
-// The rays to a lamp end where the surface that they start from is lifted to.
+/// Expects that some rays from the points are as the answer says. They end where the surface that
+/// they start from is lifted to.
+void expect_seen(const Room& room, const light::Lit& lamp, const Box& points, Sight sight,
+                 Rng& rng) {
+  for (int k = 0; k < 20 && sight != Sight::kSome; ++k) {
+    const Eigen::Vector3f share = Vec3(rng.uniform(), rng.uniform(), rng.uniform()).cast<float>();
+    const Eigen::Vector3f from = points.min() + share.cwiseProduct(points.sizes());
+    const Eigen::Vector3f beside = kLift * (2.0F * share.array() - 1.0F).matrix();
+    const Eigen::Vector3f to = lamp.lamp.pose.position.cast<float>() + beside;
+    ASSERT_EQ(room.sees(from, to), sight == Sight::kAll);
+  }
+}
+
+Box part_of(const Box& points, Rng& rng) {
+  Box part;
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector3f share = Vec3(rng.uniform(), rng.uniform(), rng.uniform()).cast<float>();
+    part.extend(points.min() + share.cwiseProduct(points.sizes()));
+  }
+  return part;
+}
+
 TEST(Sights, AreThoseOfEachRay) {
   const Room room;
   Rng rng(1, hash_bytes("sights"), 0);
   std::vector<light::Lit> lamps;
   for (int i = 0; i < 6; ++i) lamps.push_back(lamp(Room::place(rng, 2.2), 800.0));
   Sights sights(room.instances(), lamps);
-  std::array<int, 3> counts{};
+  std::array<int, 3> counts{}, part_counts{};
   for (int i = 0; i < 6000; ++i) {
     const Box points = points_on_a_surface(rng);
     const std::size_t number = rng.next() % lamps.size();
     const Sight sight = sights.of(number, points);
     ++counts[static_cast<std::size_t>(sight)];
-    for (int k = 0; k < 20 && sight != Sight::kSome; ++k) {
-      const Eigen::Vector3f share = Vec3(rng.uniform(), rng.uniform(), rng.uniform()).cast<float>();
-      const Eigen::Vector3f from = points.min() + share.cwiseProduct(points.sizes());
-      const Eigen::Vector3f beside = kLift * (2.0F * share.array() - 1.0F).matrix();
-      const Eigen::Vector3f to = lamps[number].lamp.pose.position.cast<float>() + beside;
-      ASSERT_EQ(room.sees(from, to), sight == Sight::kAll) << i;
+    expect_seen(room, lamps[number], points, sight, rng);
+    for (int k = 0; k < 4 && sight == Sight::kSome; ++k) {
+      const Box part = part_of(points, rng);
+      const Sight of_part = sights.of_part(number, part);
+      ++part_counts[static_cast<std::size_t>(of_part)];
+      expect_seen(room, lamps[number], part, of_part, rng);
     }
+    ASSERT_FALSE(HasFatalFailure()) << i;
   }
   for (const int count : counts) EXPECT_GT(count, 300);
+  for (const int count : part_counts) EXPECT_GT(count, 300);
 }
 
 TEST(Sights, DoNotDependOnEarlierBoxes) {
@@ -110,6 +133,7 @@ TEST(Sights, KnowLampsWithoutShadowsAndSuns) {
   const Box below(Eigen::Vector3f(-1.0F, -1.0F, -3.0F), Eigen::Vector3f(-0.8F, -0.8F, -3.0F));
   EXPECT_EQ(sights.of(0, below), Sight::kAll);
   EXPECT_EQ(sights.of(1, below), Sight::kSome);
+  EXPECT_EQ(sights.of_part(1, below), Sight::kSome);
 }
 
 }  // namespace
