@@ -10,31 +10,59 @@ std::size_t index_of(int width, int column, int row, int lane) {
          static_cast<std::size_t>(column + lane % kTile);
 }
 
+void set_boxes(Tile& tile) {
+  tile.seen.setEmpty();
+  tile.starts.setEmpty();
+  for (int i = 0; i < kLanes; ++i) {
+    if (tile.valid[i] == 0) continue;
+    tile.seen.extend(tile.point[i]);
+    tile.starts.extend(tile.lifted[i]);
+  }
+}
+
+void set_points(const RTCRay16& rays, Tile& tile) {
+  using Map = Eigen::Map<const Lanes>;
+  tile.point.x = Map(rays.org_x) + Map(rays.tfar) * Map(rays.dir_x);
+  tile.point.y = Map(rays.org_y) + Map(rays.tfar) * Map(rays.dir_y);
+  tile.point.z = Map(rays.org_z) + Map(rays.tfar) * Map(rays.dir_z);
+  tile.lifted.x = tile.point.x + kLift * tile.normal.x;
+  tile.lifted.y = tile.point.y + kLift * tile.normal.y;
+  tile.lifted.z = tile.point.z + kLift * tile.normal.z;
+}
+
+bool is_same_facet(const RTCHit16& hits, int i, int k) {
+  return hits.primID[i] == hits.primID[k] && hits.geomID[i] == hits.geomID[k] &&
+         hits.instID[0][i] == hits.instID[0][k];
+}
+
 void gather(const Instances& instances, const TracedTile& from, const Eigen::Vector3f& ambient,
             Tile& tile) {
-  const RTCRayHit16& rays = from.rays;
+  const RTCHit16& hits = from.rays.hit;
   tile.column = from.column;
   tile.row = from.row;
-  tile.seen.setEmpty();
-  tile.lifted.setEmpty();
+  tile.light.set_all(ambient);
+  const Placed* placed = nullptr;
+  Facet facet;
+  Eigen::Vector3f normal;
+  int last = -1;  // the pixel before with a hit
   for (int i = 0; i < kLanes; ++i) {
     tile.in_image[i] = from.valid[i] != 0;
     tile.valid[i] = from.has_hit(i) ? -1 : 0;
+    tile.through[i] = false;
     if (tile.valid[i] == 0) continue;
-    const Placed& placed = instances[rays.hit.instID[0][i]];
-    const Facet facet = placed.patch->facet(rays.hit.geomID[i], rays.hit.primID[i]);
-    const Eigen::Vector3f direction = from.direction(i);
-    const Eigen::Vector3f origin(rays.ray.org_x[i], rays.ray.org_y[i], rays.ray.org_z[i]);
-    tile.point[i] = origin + rays.ray.tfar[i] * direction;
-    tile.normal[i] = placed.rotation * facet.normal;
-    if (tile.normal[i].dot(direction) > 0.0F) tile.normal[i] = -tile.normal[i];
-    tile.through[i] = placed.shines_through;
-    tile.finish[i] = &placed.patch->finish(facet);
-    tile.color[i] = placed.patch->color(facet, rays.hit.u[i], rays.hit.v[i]);
-    tile.light[i] = ambient;
-    tile.seen.extend(tile.point[i]);
-    tile.lifted.extend(lifted(tile, i));
+    if (last < 0 || !is_same_facet(hits, i, last)) {
+      placed = &instances[hits.instID[0][i]];
+      facet = placed->patch->facet(hits.geomID[i], hits.primID[i]);
+      normal = placed->rotation * facet.normal;
+    }
+    last = i;
+    tile.normal.set(i, normal.dot(from.direction(i)) > 0.0F ? Eigen::Vector3f(-normal) : normal);
+    tile.through[i] = placed->shines_through;
+    tile.finish[i] = &placed->patch->finish(facet);
+    tile.color.set(i, placed->patch->color(facet, hits.u[i], hits.v[i]));
   }
+  set_points(from.rays.ray, tile);
+  set_boxes(tile);
 }
 
 BlockView view_of(const Tile* tiles, std::size_t count) {
@@ -44,17 +72,19 @@ BlockView view_of(const Tile* tiles, std::size_t count) {
     for (int i = 0; i < kLanes; ++i) {
       if (tile.valid[i] != 0) view.add_way(tile.normal[i], tile.through[i]);
     }
-    view.points.extend(tile.lifted);
+    view.points.extend(tile.starts);
   }
   return view;
 }
 
-void show(const Tile& tile, int i, std::uint8_t* pixel) {
-  const Finish& finish = *tile.finish[i];
-  for (int c = 0; c < 3; ++c) {
-    const float reflected = tile.color[i][c] * tile.light[i][c] / static_cast<float>(M_PI);
-    pixel[c] = shown(reflected + kMiddleLuminance * finish.emissive[c]);
+/// The bytes of the valid pixels, in one channel.
+std::array<std::uint8_t, kLanes> bytes_of(const Tile& tile, const Lanes& color, const Lanes& light,
+                                          int channel) {
+  Lanes emissive = Lanes::Zero();
+  for (int i = 0; i < kLanes; ++i) {
+    if (tile.valid[i] != 0) emissive[i] = tile.finish[i]->emissive[channel];
   }
+  return shown(color * light / static_cast<float>(M_PI) + kMiddleLuminance * emissive);
 }
 
 }  // namespace
@@ -116,19 +146,26 @@ void ColorWriter::end_block() {
     const BlockView view = view_of(tiles_.data(), count_);
     for (std::size_t i = 0; i < by_.lamps.size() && !view.points.isEmpty(); ++i) shine(i, view);
   }
-  for (std::size_t k = 0; k < count_; ++k) {
-    const Tile& tile = tiles_[k];
-    for (int i = 0; i < kLanes; ++i) {
-      if (!tile.in_image[i]) continue;
-      std::uint8_t* pixel = pixels_ + 3 * index_of(width_, tile.column, tile.row, i);
-      if (tile.valid[i] != 0) {
-        show(tile, i, pixel);
-      } else {
-        for (int c = 0; c < 3; ++c) pixel[c] = shown_as_is(by_.ambience.background[c]);
-      }
+  for (std::size_t k = 0; k < count_; ++k) write(tiles_[k]);
+  count_ = 0;
+}
+
+void ColorWriter::write(const Tile& tile) {
+  const auto red = bytes_of(tile, tile.color.x, tile.light.x, 0);
+  const auto green = bytes_of(tile, tile.color.y, tile.light.y, 1);
+  const auto blue = bytes_of(tile, tile.color.z, tile.light.z, 2);
+  for (int i = 0; i < kLanes; ++i) {
+    if (!tile.in_image[i]) continue;
+    std::uint8_t* pixel = pixels_ + 3 * index_of(width_, tile.column, tile.row, i);
+    const auto at = static_cast<std::size_t>(i);
+    if (tile.valid[i] != 0) {
+      pixel[0] = red[at];
+      pixel[1] = green[at];
+      pixel[2] = blue[at];
+    } else {
+      for (int c = 0; c < 3; ++c) pixel[c] = shown_as_is(by_.ambience.background[c]);
     }
   }
-  count_ = 0;
 }
 
 /// Adds a lamp's light to the block. Of the rays to it, only those are cast that may differ.
@@ -142,7 +179,7 @@ void ColorWriter::shine(std::size_t lamp, const BlockView& view) {
   for (std::size_t k = 0; k < count_; ++k) {
     Tile& tile = tiles_[k];
     if (!reach.intersects(tile.seen)) continue;
-    const Sight part = sight == Sight::kAll ? sight : sights_.of_part(lamp, tile.lifted);
+    const Sight part = sight == Sight::kAll ? sight : sights_.of_part(lamp, tile.starts);
     if (part == Sight::kNone) continue;
     render::shine(by_.lamps[lamp], part == Sight::kAll ? nullptr : instances_.opaque(), tile);
   }

@@ -53,6 +53,7 @@ class ColorWriter : public Visitor {
 
  private:
   void shine(std::size_t lamp, const BlockView& view);
+  void write(const Tile& tile);
 
   const Instances& instances_;
   const Illumination& by_;

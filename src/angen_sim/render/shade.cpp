@@ -25,48 +25,53 @@ std::array<std::uint8_t, kCodes + 1> make_codes() {
   return codes;
 }
 
-/// lx of a lamp on a surface that faces it: a point lamp here, any other by `light`.
-struct Source {
-  explicit Source(const light::Lit& lit)
-      : lamp(lit.lamp), level(lit.level), position(lit.lamp.pose.position.cast<float>()) {
-    is_point = lamp.type == light::Lamp::Type::kPoint && !lamp.photometry;
-    candela = static_cast<float>(level * lamp.luminous_flux / (4.0 * M_PI));
-    nearest2 = static_cast<float>(lamp.radius * lamp.radius);
+/// lx of a lamp on surfaces that face it, at the valid points. `way` is set to the vectors from the
+/// points to the lamp, m.
+Lanes facing_illuminance(const light::Lit& lit, const Tile& tile, Columns& way) {
+  const light::Lamp& lamp = lit.lamp;
+  if (lamp.type == light::Lamp::Type::kPoint && !lamp.photometry) {
+    const Eigen::Vector3f position = lamp.pose.position.cast<float>();
+    const auto candela = static_cast<float>(lit.level * lamp.luminous_flux / (4.0 * M_PI));
+    const auto nearest2 = static_cast<float>(lamp.radius * lamp.radius);
+    way.x = position.x() - tile.point.x;
+    way.y = position.y() - tile.point.y;
+    way.z = position.z() - tile.point.z;
+    return candela / way.dot(way).max(nearest2);
   }
-
-  /// `way` is set to the vector from the point to the lamp, m.
-  float illuminance(const Eigen::Vector3f& point, Eigen::Vector3f& way) const {
-    if (is_point) {
-      way = position - point;
-      return candela / std::max(nearest2, way.squaredNorm());
-    }
-    const light::Beam beam = light::beam(lamp, point.cast<double>());
+  Lanes illuminance = Lanes::Zero();
+  for (int i = 0; i < kLanes; ++i) {
+    if (tile.valid[i] == 0) continue;
+    const light::Beam beam = light::beam(lamp, tile.point[i].cast<double>());
     const double length = std::min<double>(beam.distance, kFarAway);
-    way = (length * beam.towards).cast<float>();
-    return static_cast<float>(level * beam.illuminance);
+    way.set(i, (length * beam.towards).cast<float>());
+    illuminance[i] = static_cast<float>(lit.level * beam.illuminance);
   }
+  return illuminance;
+}
 
-  const light::Lamp& lamp;
-  double level;
-  Eigen::Vector3f position;
-  bool is_point;
-  float candela;
-  float nearest2;
-};
+/// Lengths without Eigen's approximate square root.
+Lanes lengths(const Columns& of) {
+  Lanes squares = of.dot(of);
+  for (int i = 0; i < kLanes; ++i) squares[i] = std::sqrt(squares[i]);
+  return squares;
+}
 
-void set_segment(const Eigen::Vector3f& from, const Eigen::Vector3f& way, int i, RTCRay16& rays) {
-  rays.org_x[i] = from.x();
-  rays.org_y[i] = from.y();
-  rays.org_z[i] = from.z();
-  rays.dir_x[i] = way.x();
-  rays.dir_y[i] = way.y();
-  rays.dir_z[i] = way.z();
-  rays.tnear[i] = 0.0F;
-  rays.tfar[i] = 1.0F;
-  rays.time[i] = 0.0F;
-  rays.mask[i] = UINT32_MAX;
-  rays.id[i] = 0;
-  rays.flags[i] = 0;
+void set_segments(const Columns& from, const Columns& way, RTCRay16& rays) {
+  using Map = Eigen::Map<Lanes>;
+  Map(rays.org_x) = from.x;
+  Map(rays.org_y) = from.y;
+  Map(rays.org_z) = from.z;
+  Map(rays.dir_x) = way.x;
+  Map(rays.dir_y) = way.y;
+  Map(rays.dir_z) = way.z;
+  Map(rays.tnear) = 0.0F;
+  Map(rays.tfar) = 1.0F;
+  Map(rays.time) = 0.0F;
+  for (int i = 0; i < kLanes; ++i) {
+    rays.mask[i] = UINT32_MAX;
+    rays.id[i] = 0;
+    rays.flags[i] = 0;
+  }
 }
 
 /// Sets tfar of rays with a hit below 0.
@@ -81,10 +86,13 @@ std::uint32_t seen_from(const Eigen::Vector3f& from, const Eigen::Vector3f* to, 
                         RTCScene opaque) {
   alignas(64) int wanted[kLanes] = {};
   alignas(64) RTCRay16 rays;
-  for (int i = 0; i < kLanes; ++i) {
-    wanted[i] = i < count ? -1 : 0;
-    set_segment(from, i < count ? Eigen::Vector3f(to[i] - from) : Eigen::Vector3f::Zero(), i, rays);
+  Columns all, way;
+  all.set_all(from);
+  for (int i = 0; i < count; ++i) {
+    wanted[i] = -1;
+    way.set(i, to[i] - from);
   }
+  set_segments(all, way, rays);
   find_occluded(wanted, opaque, rays);
   std::uint32_t seen = 0;
   for (int i = 0; i < count; ++i) {
@@ -98,31 +106,32 @@ std::uint32_t seen_from(const Eigen::Vector3f& from, const Eigen::Vector3f* to, 
 static_assert(light::ReflectedLookup::kMax == kLanes);
 
 void shine(const light::Lit& lit, RTCScene opaque, Tile& tile) {
-  const Source source(lit);
+  Columns way;
+  const Lanes facing = facing_illuminance(lit, tile, way);
+  Lanes cosine = tile.normal.dot(way) / lengths(way);
+  for (int i = 0; i < kLanes; ++i) {
+    if (tile.through[i]) cosine[i] = std::abs(cosine[i]);
+  }
+  Lanes illuminance = facing * cosine;
   alignas(64) int wanted[kLanes];
-  alignas(64) RTCRay16 rays;
-  float illuminance[kLanes];
   bool any = false;
   for (int i = 0; i < kLanes; ++i) {
-    wanted[i] = 0;
-    rays.tfar[i] = 0.0F;
-    if (tile.valid[i] == 0) continue;
-    Eigen::Vector3f way;
-    const float facing = source.illuminance(tile.point[i], way);
-    const float distance = way.norm();
-    float cosine = tile.normal[i].dot(way) / distance;
-    if (tile.through[i]) cosine = std::abs(cosine);
-    illuminance[i] = facing * cosine;
-    if (!(illuminance[i] > kMin)) continue;
-    wanted[i] = -1;
-    any = true;
-    set_segment(lifted(tile, i), way, i, rays);
+    wanted[i] = tile.valid[i] != 0 && illuminance[i] > kMin ? -1 : 0;
+    if (wanted[i] == 0) illuminance[i] = 0.0F;
+    any = any || wanted[i] != 0;
   }
   if (!any) return;
-  if (lit.lamp.cast_shadows && opaque != nullptr) find_occluded(wanted, opaque, rays);
-  for (int i = 0; i < kLanes; ++i) {
-    if (wanted[i] != 0 && rays.tfar[i] >= 0.0F) tile.light[i] += illuminance[i] * lit.lamp.color;
+  if (lit.lamp.cast_shadows && opaque != nullptr) {
+    alignas(64) RTCRay16 rays;
+    set_segments(tile.lifted, way, rays);
+    find_occluded(wanted, opaque, rays);
+    for (int i = 0; i < kLanes; ++i) {
+      if (!(rays.tfar[i] >= 0.0F)) illuminance[i] = 0.0F;
+    }
   }
+  tile.light.x += illuminance * lit.lamp.color.x();
+  tile.light.y += illuminance * lit.lamp.color.y();
+  tile.light.z += illuminance * lit.lamp.color.z();
 }
 
 Reflections::Reflections(const light::ReflectedLight& light, RTCScene opaque)
@@ -147,24 +156,29 @@ void Reflections::shine(Tile& tile) {
   int count = 0;
   for (int i = 0; i < kLanes; ++i) {
     if (tile.valid[i] == 0) continue;
-    const Eigen::Vector3f& point = tile.point[i];
-    const Eigen::Vector3f& normal = tile.normal[i];
+    const Eigen::Vector3f point = tile.point[i];
+    const Eigen::Vector3f normal = tile.normal[i];
     const Known* known = find(now, count, point, normal);
     if (known == nullptr) {
       const Known* before = find(strip.last, strip.count, point, normal);
       now[count] = before != nullptr ? *before : Known{point, normal, lookup_.at(point, normal)};
       known = &now[count++];
     }
-    tile.light[i] += known->light;
+    tile.light.set(i, tile.light[i] + known->light);
   }
   std::copy_n(now.begin(), count, strip.last.begin());
   strip.count = count;
 }
 
-std::uint8_t shown(float luminance) {
+std::array<std::uint8_t, kLanes> shown(const Lanes& luminances) {
   static const std::array<std::uint8_t, kCodes + 1> codes = make_codes();
-  const float value = std::max(0.0F, luminance) / (std::max(0.0F, luminance) + kMiddleLuminance);
-  return codes[static_cast<std::size_t>(value * kCodes + 0.5F)];
+  const Lanes least = (luminances > 0.0F).select(luminances, 0.0F);  // 0 for NaN, too
+  const Lanes places = least / (least + kMiddleLuminance) * static_cast<float>(kCodes) + 0.5F;
+  std::array<std::uint8_t, kLanes> bytes;
+  for (int i = 0; i < kLanes; ++i) {
+    bytes[static_cast<std::size_t>(i)] = codes[static_cast<std::size_t>(places[i])];
+  }
+  return bytes;
 }
 
 std::uint8_t shown_as_is(float value) {

@@ -11,25 +11,42 @@ namespace angen::render {
 
 constexpr float kLift = 1e-3F;  // m off the surface that a shadow ray starts
 
+/// A number for each pixel of a tile.
+using Lanes = Eigen::Array<float, kLanes, 1>;
+
+/// A vector for each pixel, in columns. Sums of three products are a + (b + c), as Eigen's are.
+struct Columns {
+  Lanes x = Lanes::Zero(), y = Lanes::Zero(), z = Lanes::Zero();
+
+  Eigen::Vector3f operator[](int i) const { return {x[i], y[i], z[i]}; }
+  void set(int i, const Eigen::Vector3f& to) {
+    x[i] = to.x();
+    y[i] = to.y();
+    z[i] = to.z();
+  }
+  void set_all(const Eigen::Vector3f& to) {
+    x = to.x();
+    y = to.y();
+    z = to.z();
+  }
+  Lanes dot(const Columns& other) const { return x * other.x + (y * other.y + z * other.z); }
+};
+
 /// The hits of a tile's rays.
 struct alignas(64) Tile {
   int valid[kLanes];  // -1 for a hit, as Embree requires
-  Eigen::Vector3f point[kLanes];
-  Eigen::Vector3f normal[kLanes];  // unit, towards the camera
-  Eigen::Vector3f light[kLanes];   // lx, r g b
-  bool through[kLanes];            // lit from both sides
+  Columns point;
+  Columns normal;        // unit, towards the camera
+  Columns lifted;        // where shadow rays start
+  Columns light;         // lx, r g b
+  bool through[kLanes];  // lit from both sides
   const Finish* finish[kLanes];
-  Eigen::Vector3f color[kLanes];  // albedo
+  Columns color;  // albedo
   bool in_image[kLanes];
   int column, row;  // of its first pixel
   Box seen;         // around the points; empty without hits
-  Box lifted;       // around the starts of shadow rays
+  Box starts;       // around the lifted points
 };
-
-/// Where a shadow ray starts.
-inline Eigen::Vector3f lifted(const Tile& tile, int i) {
-  return tile.point[i] + kLift * tile.normal[i];
-}
 
 /// Adds the direct light of one lamp to each point; without a scene nothing is in its way.
 void shine(const light::Lit& lit, RTCScene opaque, Tile& tile);
@@ -63,8 +80,8 @@ class Reflections {
   std::array<Strip, kTilesAcross> strips_;  // of the row of blocks
 };
 
-/// sRGB byte of a luminance in cd/m^2.
-std::uint8_t shown(float luminance);
+/// sRGB bytes of luminances in cd/m^2.
+std::array<std::uint8_t, kLanes> shown(const Lanes& luminances);
 
 /// Byte of a color of 0..1 that is displayed unchanged.
 std::uint8_t shown_as_is(float value);
