@@ -40,9 +40,9 @@ int axis_of(const Eigen::Vector3f& normal) {
 }
 
 /// 1 at the middle, 0 from `radius` on, smooth between.
-float falloff(float squared_distance, float radius) {
-  const float left = std::max(0.0F, 1.0F - squared_distance / (radius * radius));
-  return left * left;
+template <class Squares>
+auto falloff(const Squares& squared_distances, float radius) {
+  return (1.0F - squared_distances / (radius * radius)).max(0.0F).square();
 }
 
 /// An order that does not depend on which piece was found first.
@@ -57,11 +57,11 @@ bool is_before(const Piece& a, const Piece& b) {
 /// The pieces of the largest weights, in descending order.
 class Heaviest {
  public:
-  void add(const Piece& piece, float weight) {
-    if (!(weight > kMinWeight) || (full() && weight <= all_[kMax - 1].second)) return;
-    int at = full() ? count_ - 1 : count_++;
-    for (; at > 0 && all_[at - 1].second < weight; --at) all_[at] = all_[at - 1];
-    all_[at] = {&piece, weight};
+  void add(const std::vector<Piece>& pieces, const Eigen::ArrayXf& weights) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const float weight = weights[static_cast<Eigen::Index>(i)];
+      if (weight > least_) add(pieces[i], weight);  // few of them
+    }
   }
 
   /// The mean light of the visible ones; false if there are none.
@@ -86,10 +86,17 @@ class Heaviest {
 
  private:
   static constexpr int kMax = ReflectedLookup::kMax;
-  bool full() const { return count_ == kMax; }
+
+  void add(const Piece& piece, float weight) {
+    int at = count_ == kMax ? count_ - 1 : count_++;
+    for (; at > 0 && all_[at - 1].second < weight; --at) all_[at] = all_[at - 1];
+    all_[at] = {&piece, weight};
+    if (count_ == kMax) least_ = all_[kMax - 1].second;
+  }
 
   std::array<std::pair<const Piece*, float>, kMax> all_{};
   int count_ = 0;
+  float least_ = kMinWeight;  // others do not count
 };
 
 }  // namespace
@@ -160,54 +167,81 @@ void ReflectedLight::Lattice::near(const Eigen::AlignedBox3f& box, Visit&& visit
 ReflectedLight::ReflectedLight(const std::vector<Piece>& pieces)
     : fine_(pieces, kNearPoint), coarse_(Lattice(pieces, kMerged).merged(), kFar) {}
 
+ReflectedLookup::Pieces::Pieces(std::vector<Piece> from)
+    : all(std::move(from)), positions(all.size(), 3), normals(all.size(), 3) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    positions.row(static_cast<Eigen::Index>(i)) = all[i].position.transpose().array();
+    normals.row(static_cast<Eigen::Index>(i)) = all[i].normal.transpose().array();
+  }
+}
+
+/// For pieces that face the same way.
+void ReflectedLookup::Pieces::weigh_alike(const Eigen::Vector3f& point,
+                                          const Eigen::Vector3f& normal,
+                                          Eigen::ArrayXf& weights) const {
+  const auto x = point.x() - positions.col(0), y = point.y() - positions.col(1),
+             z = point.z() - positions.col(2);
+  const auto facing =
+      normal.x() * normals.col(0) + (normal.y() * normals.col(1) + normal.z() * normals.col(2));
+  const auto off = x * normal.x() + (y * normal.y() + z * normal.z());
+  const auto direct = x.square() + (y.square() + z.square());
+  weights = off;
+  weights = direct + (kOffPlane * kOffPlane - 1.0F) * weights * weights;
+  weights = facing.max(0.0F).square() * falloff(weights, kNearPoint);
+}
+
+/// For pieces that face the point.
+void ReflectedLookup::Pieces::weigh_facing(const Eigen::Vector3f& from,
+                                           Eigen::ArrayXf& weights) const {
+  const auto x = from.x() - positions.col(0), y = from.y() - positions.col(1),
+             z = from.z() - positions.col(2);
+  const auto facing = x * normals.col(0) + (y * normals.col(1) + z * normals.col(2));
+  weights = x.square() + (y.square() + z.square());
+  weights = (facing > 0.0F).select(falloff(weights, kFar), 0.0F);
+}
+
 /// Pieces near the point's cell that may face the same way.
-const std::vector<Piece>& ReflectedLookup::alike(const Eigen::Vector3f& point,
-                                                 const Eigen::Vector3f& normal) {
+const ReflectedLookup::Pieces& ReflectedLookup::alike(const Eigen::Vector3f& point,
+                                                      const Eigen::Vector3f& normal) {
   const int nearest = axis_of(normal);
   Eigen::Vector3f axis = Eigen::Vector3f::Zero();
   axis[nearest / 2] = nearest % 2 == 0 ? 1.0F : -1.0F;
   const bool along = axis.dot(normal) > kAlong;
   const Eigen::Vector3i cell = cell_of(point, kNearPoint);
-  const auto entry = alike_[along ? nearest : kSlanted].try_emplace(key_of(cell));
-  Pieces& found = entry.first->second;
-  if (!entry.second) return found;
+  PiecesByCell& known = alike_[along ? nearest : kSlanted];
+  const std::uint64_t key = key_of(cell);
+  const auto entry = known.find(key);
+  if (entry != known.end()) return entry->second;
+  std::vector<Piece> found;
   light_.fine_.near(box_of(cell, kNearPoint, kNearPoint), [&](const Piece& piece) {
     if (!along || axis.dot(piece.normal) > 0.0F) found.push_back(piece);
   });
-  return found;
+  return known.emplace(key, std::move(found)).first->second;
 }
 
-const std::vector<Piece>& ReflectedLookup::around(const Eigen::Vector3f& point) {
+const ReflectedLookup::Pieces& ReflectedLookup::around(const Eigen::Vector3f& point) {
   const Eigen::Vector3i cell = cell_of(point, kMerged);
-  const auto entry = around_.try_emplace(key_of(cell));
-  Pieces& found = entry.first->second;
-  if (entry.second) {
-    light_.coarse_.near(box_of(cell, kMerged, kFar),
-                        [&](const Piece& piece) { found.push_back(piece); });
-  }
-  return found;
+  const std::uint64_t key = key_of(cell);
+  const auto entry = around_.find(key);
+  if (entry != around_.end()) return entry->second;
+  std::vector<Piece> found;
+  light_.coarse_.near(box_of(cell, kMerged, kFar),
+                      [&](const Piece& piece) { found.push_back(piece); });
+  return around_.emplace(key, std::move(found)).first->second;
 }
 
 Eigen::Vector3f ReflectedLookup::at(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
   const Eigen::Vector3f from = point + kLift * normal;
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   Heaviest same;
-  for (const Piece& piece : alike(point, normal)) {
-    const Eigen::Vector3f way = point - piece.position;
-    const float direct = way.squaredNorm();
-    if (direct >= kNearPoint * kNearPoint) continue;  // most of them
-    const float facing = normal.dot(piece.normal);
-    if (facing <= 0.0F) continue;
-    const float off = way.dot(normal);
-    const float squared = direct + (kOffPlane * kOffPlane - 1.0F) * off * off;
-    same.add(piece, facing * facing * falloff(squared, kNearPoint));
-  }
+  const Pieces& near = alike(point, normal);
+  near.weigh_alike(point, normal, weights_);
+  same.add(near.all, weights_);
   if (same.mean(from, visible_, mean)) return mean;
   Heaviest any;
-  for (const Piece& piece : around(point)) {
-    const Eigen::Vector3f way = from - piece.position;
-    if (way.dot(piece.normal) > 0.0F) any.add(piece, falloff(way.squaredNorm(), kFar));
-  }
+  const Pieces& facing = around(point);
+  facing.weigh_facing(from, weights_);
+  any.add(facing.all, weights_);
   any.mean(from, visible_, mean);
   return mean;
 }

@@ -63,15 +63,26 @@ class ReflectedLookup {
 
  private:
   using Piece = ReflectedLight::Piece;
-  using Pieces = std::vector<Piece>;
+  /// Pieces, with the columns of their positions and normals.
+  struct Pieces {
+    explicit Pieces(std::vector<Piece> from);
+    void weigh_alike(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
+                     Eigen::ArrayXf& weights) const;
+    void weigh_facing(const Eigen::Vector3f& from, Eigen::ArrayXf& weights) const;
+
+    std::vector<Piece> all;
+    Eigen::ArrayX3f positions, normals;
+  };
+  using PiecesByCell = std::unordered_map<std::uint64_t, Pieces>;
 
   const Pieces& alike(const Eigen::Vector3f& point, const Eigen::Vector3f& normal);
   const Pieces& around(const Eigen::Vector3f& point);
 
   const ReflectedLight& light_;
   Visible visible_;
-  std::array<std::unordered_map<std::uint64_t, Pieces>, 7> alike_;  // by axis, and cell
-  std::unordered_map<std::uint64_t, Pieces> around_;                // by cell
+  std::array<PiecesByCell, 7> alike_;  // by axis
+  PiecesByCell around_;
+  Eigen::ArrayXf weights_;  // of the pieces at one place
 };
 
 }  // namespace angen::light
