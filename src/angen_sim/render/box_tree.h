@@ -20,7 +20,7 @@ class BoxTree {
   /// Whether visit(i) is true for one of the boxes for which overlaps(box) is.
   template <class Overlaps, class Visit>
   bool any(const Overlaps& overlaps, const Visit& visit) const {
-    std::array<std::uint32_t, 64> waiting;  // half of the boxes each: depth of at most 32
+    std::array<std::uint32_t, 192> waiting;  // at least 1/8 of the boxes each: 166 levels
     std::size_t count = 0;
     if (!nodes_.empty()) waiting[count++] = 0;
     while (count > 0) {
