@@ -3,6 +3,7 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -173,6 +174,24 @@ std::size_t after_tag(const std::string& text, std::size_t at, std::size_t& attr
   return at;
 }
 
+// A tag up to its '>', with each value in quotes.
+void append_quoted(const std::string& tag, std::string& out) {
+  for (std::size_t at = 0; at < tag.size();) {
+    const char c = tag[at];
+    out += c;
+    ++at;
+    if (c == '"' || c == '\'') {
+      const std::size_t end = std::min(tag.find(c, at), tag.size() - 1) + 1;
+      out.append(tag, at, end - at);
+      at = std::max(at, end);
+    } else if (c == '=' && at < tag.size() && std::isalnum(static_cast<unsigned char>(tag[at]))) {
+      const std::size_t end = std::min(tag.find_first_of(" \t\r\n/", at), tag.size());
+      out += '"' + tag.substr(at, end - at) + '"';
+      at = end;
+    }
+  }
+}
+
 // Only a file can be longer than kMaxTextBytes: its elements are bounded with its bytes.
 constexpr std::size_t kMaxElementsOfLong = 4 * kMaxElements;
 
@@ -210,6 +229,21 @@ void check_counts(const std::string& text, const std::string& file) {
 
 }  // namespace
 
+std::string with_quotes(const std::string& text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t tag = text.find('<', at);
+    const std::size_t after = tag == std::string::npos ? text.size() : after_aside(text, tag);
+    out.append(text, at, (after > tag ? after : tag) - at);
+    at = after;
+    if (tag == std::string::npos || after > tag) continue;
+    std::size_t attributes = 0;
+    at = after_tag(text, tag + 1, attributes);
+    append_quoted(text.substr(tag, at - tag), out);
+  }
+  return out;
+}
+
 std::string without_late_declaration(const std::string& text) {
   std::string out = text;
   bool first = true;
@@ -242,6 +276,10 @@ Element parse_xml(const std::string& text, const std::string& file) {
   tinyxml2::XMLDocument document;
   const std::string given = without_late_declaration(text);
   document.Parse(given.data(), given.size());
+  if (document.ErrorID() == tinyxml2::XML_ERROR_PARSING_ATTRIBUTE) {
+    const std::string quoted = with_quotes(given);
+    if (quoted != given) document.Parse(quoted.data(), quoted.size());
+  }
   if (document.Error()) throw syntax_error(text, file, document);
   const tinyxml2::XMLElement* root = document.RootElement();
   if (root == nullptr) throw Error({file, 1}, "no element in it; it needs an <sdf> element");

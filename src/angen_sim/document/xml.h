@@ -33,6 +33,9 @@ std::string print_xml_in_place(const Element& element);
 /// comment is blanked.
 std::string without_late_declaration(const std::string& text);
 
+/// TinyXML takes values without quotes, such as name=blade: each is put into quotes.
+std::string with_quotes(const std::string& text);
+
 std::size_t count_elements(const Element& element);
 
 Element* find_child(Element& element, const std::string& name);

@@ -112,5 +112,21 @@ TEST(Xml, ADeclarationAfterAComment) {
   EXPECT_EQ(without_late_declaration(usual), usual);
 }
 
+TEST(Xml, AValueWithoutQuotes) {
+  const Element read =
+      parse_xml("<a>\n<!-- x=y --><b name=blade1_v kind='c=d'/><b n=2>k=l</b></a>", "f");
+  ASSERT_EQ(read.children.size(), 2U);
+  EXPECT_EQ(*read.children[0].attribute("name"), "blade1_v");
+  EXPECT_EQ(*read.children[0].attribute("kind"), "c=d");
+  EXPECT_EQ(read.children[0].source.line, 2);
+  EXPECT_EQ(*read.children[1].attribute("n"), "2");
+  EXPECT_EQ(read.children[1].text, "k=l");
+  const std::string usual = "<a b='c=d' e = \"f\"><!-- g=h --><![CDATA[<i j=k>]]></a>";
+  EXPECT_EQ(with_quotes(usual), usual);
+  for (const std::string cut : {"<a b=", "<a b='", "<a b=c", "<a b=c b=d/>", "<a =c/>"}) {
+    EXPECT_THROW(parse_xml(cut, "f"), Error) << cut;
+  }
+}
+
 }  // namespace
 }  // namespace angen::load
