@@ -122,6 +122,20 @@ bool zero_axis(const Element& axis) {
   return true;
 }
 
+// Of ODE's joints before anything sets them, which Gazebo then takes.
+const char* default_axis(const std::string& name) { return name == "axis" ? "1 0 0" : "0 1 0"; }
+
+Error axis_is_missing(const Element& joint, const std::string& name) {
+  return Error(joint.source, tag_of(joint) + " is " + *joint.attribute("type") + " and has no <" +
+                                 name + ">, which is " + default_axis(name) +
+                                 " in Gazebo; write <" + name + "><xyz>0 0 1</xyz></" + name + ">");
+}
+
+void add_default_axis(Element& joint, const std::string& name) {
+  Element direction{"xyz", default_axis(name), {}, {}, joint.source};
+  joint.children.push_back({name, "", {}, {std::move(direction)}, joint.source});
+}
+
 void check_axes(Element& joint, Session& session) {
   const std::string type = *joint.attribute("type");
   const bool turns = type == "revolute" || type == "continuous";
@@ -131,8 +145,9 @@ void check_axes(Element& joint, Session& session) {
                             ? turns || type == "prismatic" || type == "universal" || type == "screw"
                             : type == "universal";
     if (axis == nullptr && needed) {
-      throw Error(joint.source, tag_of(joint) + " is " + type + " and has no <" + name +
-                                    ">; write <" + name + "><xyz>0 0 1</xyz></" + name + ">");
+      session.warn_or_throw(axis_is_missing(joint, name));
+      add_default_axis(joint, name);
+      continue;
     }
     if (axis == nullptr || !zero_axis(*axis)) continue;
     if (turns) {

@@ -98,6 +98,26 @@ TEST(Others, JointsThatWeLackAreLeftOutAndCounted) {
   EXPECT_NE(warnings_of(world).find("(and 5 more like it, up to line 7)"), std::string::npos);
 }
 
+// A joint of ODE has them until somebody sets others; gazebo_models' demo_joint_types has such a
+// universal joint.
+TEST(Others, AJointWithoutAnAxisHasThoseOfOde) {
+  const auto joint = [](const std::string& type) {
+    return in_model(two_links() + "\n<joint name='j' type='" + type +
+                    "'><parent>a</parent><child>b</child></joint>");
+  };
+  const desc::World world = read_loosely(joint("universal"));
+  ASSERT_EQ(world.models[0].joints[0].axes.size(), 2U);
+  EXPECT_EQ(world.models[0].joints[0].axes[0].xyz, Vec3::UnitX());
+  EXPECT_EQ(world.models[0].joints[0].axes[1].xyz, Vec3::UnitY());
+  EXPECT_NE(warnings_of(world).find("w.world:2: <joint name=\"j\"> is universal and has no <axis>"),
+            std::string::npos)
+      << warnings_of(world);
+  const desc::World hinge = read_loosely(joint("revolute"));
+  ASSERT_EQ(hinge.models[0].joints[0].axes.size(), 1U);
+  EXPECT_EQ(hinge.models[0].joints[0].axes[0].xyz, Vec3::UnitX());
+  EXPECT_THROW(read(joint("universal")), Error);
+}
+
 TEST(Others, JointsOfUnknownLinksAreLeftOut) {
   const std::string text = in_model(
       two_links() +
