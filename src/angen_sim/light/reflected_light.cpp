@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <tuple>
 #include <utility>
 
@@ -17,9 +18,10 @@ constexpr float kMerged = 1.2F;  // m, side of cells whose pieces are merged for
 // Factor of distances off the plane of a surface: a piece there is part of another surface.
 constexpr float kOffPlane = 3.0F;
 constexpr float kMinWeight = 1e-3F;
-constexpr float kLift = 0.02F;   // m off the surfaces that pieces are looked for
-constexpr float kAlong = 0.99F;  // cosine to an axis that counts as along it
-constexpr int kSlanted = 6;
+constexpr float kLift = 0.02F;            // m off the surfaces that pieces are looked for
+constexpr float kAlong = 0.99F;           // cosine to an axis that counts as along it
+constexpr int kSlanted = 6, kAround = 7;  // further than the six axes
+constexpr std::size_t kMaxCells = 1024;   // of some 5 kB; a camera that moves leaves old ones
 
 Eigen::Vector3i cell_of(const Eigen::Vector3f& point, float step) {
   return (point / step).array().floor().cast<int>();
@@ -167,7 +169,7 @@ void ReflectedLight::Lattice::near(const Eigen::AlignedBox3f& box, Visit&& visit
 ReflectedLight::ReflectedLight(const std::vector<Piece>& pieces)
     : fine_(pieces, kNearPoint), coarse_(Lattice(pieces, kMerged).merged(), kFar) {}
 
-ReflectedLookup::Pieces::Pieces(std::vector<Piece> from)
+ReflectedLight::Pieces::Pieces(std::vector<Piece> from)
     : all(std::move(from)), positions(all.size(), 3), normals(all.size(), 3) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     positions.row(static_cast<Eigen::Index>(i)) = all[i].position.transpose().array();
@@ -176,9 +178,9 @@ ReflectedLookup::Pieces::Pieces(std::vector<Piece> from)
 }
 
 /// For pieces that face the same way.
-void ReflectedLookup::Pieces::weigh_alike(const Eigen::Vector3f& point,
-                                          const Eigen::Vector3f& normal,
-                                          Eigen::ArrayXf& weights) const {
+void ReflectedLight::Pieces::weigh_alike(const Eigen::Vector3f& point,
+                                         const Eigen::Vector3f& normal,
+                                         Eigen::ArrayXf& weights) const {
   const auto x = point.x() - positions.col(0), y = point.y() - positions.col(1),
              z = point.z() - positions.col(2);
   const auto facing =
@@ -191,13 +193,36 @@ void ReflectedLookup::Pieces::weigh_alike(const Eigen::Vector3f& point,
 }
 
 /// For pieces that face the point.
-void ReflectedLookup::Pieces::weigh_facing(const Eigen::Vector3f& from,
-                                           Eigen::ArrayXf& weights) const {
+void ReflectedLight::Pieces::weigh_facing(const Eigen::Vector3f& from,
+                                          Eigen::ArrayXf& weights) const {
   const auto x = from.x() - positions.col(0), y = from.y() - positions.col(1),
              z = from.z() - positions.col(2);
   const auto facing = x * normals.col(0) + (y * normals.col(1) + z * normals.col(2));
   weights = x.square() + (y.square() + z.square());
   weights = (facing > 0.0F).select(falloff(weights, kFar), 0.0F);
+}
+
+template <class Find>
+std::shared_ptr<const ReflectedLight::Pieces> ReflectedLight::NearCells::at(std::uint64_t cell,
+                                                                            const Find& find) {
+  {
+    const std::shared_lock<std::shared_mutex> lock(mutex_);
+    const auto entry = known_.find(cell);
+    if (entry != known_.end()) return entry->second;
+  }
+  auto found = std::make_shared<const Pieces>(find());  // another thread may find the same
+  const std::unique_lock<std::shared_mutex> lock(mutex_);
+  if (known_.size() >= kMaxCells) known_.clear();
+  return known_.emplace(cell, std::move(found)).first->second;
+}
+
+/// The same as the last ones where the cell is.
+template <class Find>
+const ReflectedLookup::Pieces& ReflectedLookup::near(std::size_t which, std::uint64_t cell,
+                                                     const Find& find) {
+  Near& last = last_[which];
+  if (!last.pieces || last.cell != cell) last = {cell, light_.near_[which].at(cell, find)};
+  return *last.pieces;
 }
 
 /// Pieces near the point's cell that may face the same way.
@@ -208,26 +233,23 @@ const ReflectedLookup::Pieces& ReflectedLookup::alike(const Eigen::Vector3f& poi
   axis[nearest / 2] = nearest % 2 == 0 ? 1.0F : -1.0F;
   const bool along = axis.dot(normal) > kAlong;
   const Eigen::Vector3i cell = cell_of(point, kNearPoint);
-  PiecesByCell& known = alike_[along ? nearest : kSlanted];
-  const std::uint64_t key = key_of(cell);
-  const auto entry = known.find(key);
-  if (entry != known.end()) return entry->second;
-  std::vector<Piece> found;
-  light_.fine_.near(box_of(cell, kNearPoint, kNearPoint), [&](const Piece& piece) {
-    if (!along || axis.dot(piece.normal) > 0.0F) found.push_back(piece);
+  return near(static_cast<std::size_t>(along ? nearest : kSlanted), key_of(cell), [&] {
+    std::vector<Piece> found;
+    light_.fine_.near(box_of(cell, kNearPoint, kNearPoint), [&](const Piece& piece) {
+      if (!along || axis.dot(piece.normal) > 0.0F) found.push_back(piece);
+    });
+    return found;
   });
-  return known.emplace(key, std::move(found)).first->second;
 }
 
 const ReflectedLookup::Pieces& ReflectedLookup::around(const Eigen::Vector3f& point) {
   const Eigen::Vector3i cell = cell_of(point, kMerged);
-  const std::uint64_t key = key_of(cell);
-  const auto entry = around_.find(key);
-  if (entry != around_.end()) return entry->second;
-  std::vector<Piece> found;
-  light_.coarse_.near(box_of(cell, kMerged, kFar),
-                      [&](const Piece& piece) { found.push_back(piece); });
-  return around_.emplace(key, std::move(found)).first->second;
+  return near(kAround, key_of(cell), [&] {
+    std::vector<Piece> found;
+    light_.coarse_.near(box_of(cell, kMerged, kFar),
+                        [&](const Piece& piece) { found.push_back(piece); });
+    return found;
+  });
 }
 
 Eigen::Vector3f ReflectedLookup::at(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {

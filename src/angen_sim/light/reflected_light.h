@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <shared_mutex>
 #include <unordered_map>
 #include <vector>
 
@@ -23,6 +25,26 @@ class ReflectedLight {
  private:
   friend class ReflectedLookup;
 
+  /// Some pieces, with the columns of their positions and normals.
+  struct Pieces {
+    explicit Pieces(std::vector<Piece> from);
+    void weigh_alike(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
+                     Eigen::ArrayXf& weights) const;
+    void weigh_facing(const Eigen::Vector3f& from, Eigen::ArrayXf& weights) const;
+
+    std::vector<Piece> all;
+    Eigen::ArrayX3f positions, normals;
+  };
+  /// Pieces near cells, found at the first request and kept for later images. Any thread.
+  class NearCells {
+   public:
+    template <class Find>
+    std::shared_ptr<const Pieces> at(std::uint64_t cell, const Find& find);
+
+   private:
+    std::shared_mutex mutex_;
+    std::unordered_map<std::uint64_t, std::shared_ptr<const Pieces>> known_;
+  };
   struct Cell {
     std::uint64_t key = 0;
     std::uint32_t first = 0;  // index of its first piece
@@ -43,9 +65,10 @@ class ReflectedLight {
 
   Lattice fine_;
   Lattice coarse_;
+  mutable std::array<NearCells, 8> near_;  // pieces of the same axis, 6 of any, 7 that may face it
 };
 
-/// Estimates reflected light at any place. Caches nearby pieces; make one for each image.
+/// Estimates reflected light at any place. Make one for each thread.
 class ReflectedLookup {
  public:
   static constexpr int kMax = 16;  // pieces that count at one place
@@ -63,26 +86,21 @@ class ReflectedLookup {
 
  private:
   using Piece = ReflectedLight::Piece;
-  /// Pieces, with the columns of their positions and normals.
-  struct Pieces {
-    explicit Pieces(std::vector<Piece> from);
-    void weigh_alike(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
-                     Eigen::ArrayXf& weights) const;
-    void weigh_facing(const Eigen::Vector3f& from, Eigen::ArrayXf& weights) const;
-
-    std::vector<Piece> all;
-    Eigen::ArrayX3f positions, normals;
+  using Pieces = ReflectedLight::Pieces;
+  struct Near {
+    std::uint64_t cell = 0;
+    std::shared_ptr<const Pieces> pieces{};
   };
-  using PiecesByCell = std::unordered_map<std::uint64_t, Pieces>;
 
+  template <class Find>
+  const Pieces& near(std::size_t which, std::uint64_t cell, const Find& find);
   const Pieces& alike(const Eigen::Vector3f& point, const Eigen::Vector3f& normal);
   const Pieces& around(const Eigen::Vector3f& point);
 
   const ReflectedLight& light_;
   Visible visible_;
-  std::array<PiecesByCell, 7> alike_;  // by axis
-  PiecesByCell around_;
-  Eigen::ArrayXf weights_;  // of the pieces at one place
+  std::array<Near, 8> last_;  // of ReflectedLight::near_
+  Eigen::ArrayXf weights_;    // of the pieces at one place
 };
 
 }  // namespace angen::light
