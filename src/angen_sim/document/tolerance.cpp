@@ -47,8 +47,9 @@ bool marked_guessed(const Element& element) {
 }
 
 bool made_for_gazebo(const std::string& library) {
-  constexpr const char* kPrefixes[] = {"libgazebo_ros_", "libhector_gazebo_", "libroboticsgroup_",
-                                       "libridgeback_ros_", "librobotnik_"};
+  constexpr const char* kPrefixes[] = {"libgazebo_ros_",    "libhector_gazebo_",
+                                       "libroboticsgroup_", "libridgeback_ros_",
+                                       "librobotnik_",      "libnexus_ros_"};
   return std::any_of(std::begin(kPrefixes), std::end(kPrefixes),
                      [&](const char* prefix) { return library.rfind(prefix, 0) == 0; });
 }

@@ -1,6 +1,8 @@
 // libgazebo_ros_planar_move.so libhector_gazebo_ros_force_based_move.so
 // libgazebo_ros_force_based_move.so libridgeback_ros_force_based_move.so
-// librobotnik_force_based_move.so
+// librobotnik_force_based_move.so libnexus_ros_force_based_move.so
+#include <algorithm>
+
 #include "plugin/register.h"
 #include "robots/base.h"
 
@@ -12,6 +14,7 @@ constexpr double kForcePerMass = 200.0;  // N/kg: it has its speed within some m
 
 struct Planar {
   double timeout;  // s; negative = never
+  Vec3 most;       // m/s, m/s, rad/s; 0 = unlimited
 };
 
 Planar read_planar(Params& params) {
@@ -23,7 +26,16 @@ Planar read_planar(Params& params) {
   }
   const double timeout =
       params.number("cmdTimeout", -1.0, "s", "it stops this long after a command; -1: never");
-  return {params.number("cmdVelTimeOut", timeout, "s", "the same, as force_based_move calls it")};
+  const char* const most = "commands are limited to it; 0: unlimited";
+  const double ahead = params.number("max_x_velocity", 0.0, "m/s", most, kNotNegative);
+  const double left = params.number("max_y_velocity", 0.0, "m/s", most, kNotNegative);
+  const double turn = params.number("max_yaw_velocity", 0.0, "rad/s", most, kNotNegative);
+  return {params.number("cmdVelTimeOut", timeout, "s", "the same, as force_based_move calls it"),
+          {ahead, left, turn}};
+}
+
+double limited(double speed, double most) {
+  return most > 0.0 ? std::clamp(speed, -most, most) : speed;
 }
 
 }  // namespace
@@ -34,6 +46,7 @@ class PlanarMove : public Device {
   void configure(Params& params, Wiring& wiring) override {
     const Planar planar = read_planar(params);
     timeout_ = planar.timeout < 0.0 ? kForever : from_seconds(planar.timeout);
+    most_ = planar.most;
     link_ = wiring.link("");
     force_ = kForcePerMass * wiring.mass(link_);
   }
@@ -42,8 +55,8 @@ class PlanarMove : public Device {
     std::vector<double> values = command.values;
     if (command.verb == "Stop") values = {0.0, 0.0, 0.0};
     return Verdict::accept([this, values, now = view.time()] {
-      velocity_ = {values[0], values[1], 0.0};
-      turn_ = values[2];
+      velocity_ = {limited(values[0], most_.x()), limited(values[1], most_.y()), 0.0};
+      turn_ = limited(values[2], most_.z());
       commanded_at_ = now;
       released_ = false;
     });
@@ -72,7 +85,8 @@ class PlanarMove : public Device {
   bool is_stopped() const { return velocity_.isZero(0.0) && turn_ == 0.0; }
 
   LinkRef link_;
-  double force_ = 0.0;  // N
+  double force_ = 0.0;        // N
+  Vec3 most_ = Vec3::Zero();  // m/s, m/s, rad/s; 0 = unlimited
   Nanoseconds timeout_ = kForever;
   Nanoseconds commanded_at_ = 0;
   Vec3 velocity_ = Vec3::Zero();  // m/s, in its own frame
