@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,7 @@ class Energy {
     const std::vector<LinkId>& links = world_.links(id);
     for (std::size_t i = 0; i < links.size(); ++i) {
       if (world_.mass(links[i]) > 0.0) inertials_[links[i]] = model.links[i].inertial;
+      if (model.links[i].gravity) heavy_.insert(links[i]);
     }
     const std::vector<JointId>& joints = world_.joints(id);
     for (std::size_t i = 0; i < joints.size(); ++i) {
@@ -38,7 +40,10 @@ class Energy {
     }
   }
   void forget(ModelId id) {
-    for (const LinkId link : world_.links(id)) inertials_.erase(link);
+    for (const LinkId link : world_.links(id)) {
+      inertials_.erase(link);
+      heavy_.erase(link);
+    }
   }
 
   /// After each step; J.
@@ -57,7 +62,7 @@ class Energy {
           (state.pose.rotation * inertial.pose.rotation).conjugate() * state.angular_velocity;
       energy +=
           0.5 * inertial.mass * velocity.squaredNorm() + 0.5 * spin.dot(inertial.moment * spin);
-      fallen_ -= inertial.mass * 9.81 * velocity.z() * kStep;
+      if (heavy_.count(link) != 0) fallen_ -= inertial.mass * 9.81 * velocity.z() * kStep;
     }
     for (const auto& [joint, axis] : springs_) {
       const double strain = world_.joint(joint).position - axis.spring_reference;
@@ -69,6 +74,7 @@ class Energy {
  private:
   const TestWorld& world_;
   std::map<LinkId, desc::Inertial> inertials_;
+  std::set<LinkId> heavy_;  // that gravity acts on: not an oven's door, which is balanced
   std::vector<std::pair<JointId, desc::JointAxis>> springs_;
   std::vector<LinkId> awake_;
   double fallen_ = 0.0;  // J, work of gravity
@@ -101,7 +107,7 @@ std::vector<std::string> loose_models() {
 }
 
 // With --gtest_repeat=8 it does 1,040 spawns, as each repetition takes the next seed. In
-// 2,000 spawns the balance rises by at most 1.23 J; with a push that gives speed by 28 kJ.
+// 2,080 spawns the balance rises by at most 0.92 J; with a push that gives speed by 28 kJ.
 TEST(PartingEnergy, ASpawnInTheFlatGainsNone) {
   static std::uint64_t seed = 0;
   Rng rng(++seed, 2, 3);
@@ -141,7 +147,7 @@ TEST(PartingEnergy, ASpawnInTheFlatGainsNone) {
   }
   printf("%d spawns, seed %d: at most %.3f J gained (%s)\n", kSpawns, static_cast<int>(seed), most,
          worst.c_str());
-  EXPECT_LT(most, 2.0) << worst;
+  EXPECT_LT(most, 1.0) << worst;
 }
 
 }  // namespace
