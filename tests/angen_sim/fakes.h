@@ -59,7 +59,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   Nanoseconds now = 0;
   Nanoseconds dt = 1'000'000;
   const rays::Scene* scene = nullptr;  // none: rays hit nothing
-  mutable int shafts = 0;              // that a sensor asked for
+  mutable int shafts = 0;              // that a sensor requested
   Pose at;
   std::string instance = "it";
   std::string model_name = "model";

@@ -17,7 +17,7 @@ struct cereal::traits::detail::get_output_from_input<angen::load::BoundedInput> 
 
 namespace angen::load {
 
-/// Reads what cereal::BinaryOutputArchive has written. Sizes are compared with the bytes that are
+/// Reads the output of cereal::BinaryOutputArchive. Sizes are compared with the bytes that are
 /// left before memory is taken for them: damaged bytes throw cereal::Exception and cost little.
 class BoundedInput : public cereal::InputArchive<BoundedInput, cereal::AllowEmptyClassElision> {
  public:

@@ -7,7 +7,7 @@
 /// the rest, so a torn or damaged file is never read.
 namespace angen::load {
 
-/// The file for what `key` says, empty where there is no cache: ANGEN_NO_CACHE is set, or there is
+/// The file of a `key`, empty where there is no cache: ANGEN_NO_CACHE is set, or there is
 /// no home.
 std::string cache_file(const std::string& key, const std::string& extension);
 

@@ -17,7 +17,7 @@ constexpr std::size_t kMaxNodes = 100'000;  // with all instances
 constexpr int kMaxDepth = 500;
 
 [[noreturn]] void reject(const XMLElement& at, const std::string& problem) {
-  throw Refused("cannot be read: line " + std::to_string(at.GetLineNum()) + " of it: " + problem);
+  throw Rejected("cannot be read: line " + std::to_string(at.GetLineNum()) + " of it: " + problem);
 }
 
 std::string value(const XMLElement& element, const char* attribute) {
@@ -143,12 +143,12 @@ void check_collada(const std::string& text) {
   tinyxml2::XMLDocument document;
   document.Parse(text.data(), text.size());
   if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
-    throw Refused("cannot be read: line " + std::to_string(document.ErrorLineNum()) +
-                  " of it: elements are nested more than 100 deep");
+    throw Rejected("cannot be read: line " + std::to_string(document.ErrorLineNum()) +
+                   " of it: elements are nested more than 100 deep");
   }
   if (document.Error() || document.RootElement() == nullptr) {
-    throw Refused("cannot be read: line " + std::to_string(document.ErrorLineNum()) +
-                  " of it is not well-formed XML");
+    throw Rejected("cannot be read: line " + std::to_string(document.ErrorLineNum()) +
+                   " of it is not well-formed XML");
   }
   Nodes nodes(text.size());
   nodes.collect(*document.RootElement());

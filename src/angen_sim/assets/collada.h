@@ -6,11 +6,11 @@
 namespace angen::load {
 
 /// Why a mesh is not converted, to be read after "mesh FILE".
-struct Refused : std::runtime_error {
+struct Rejected : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws Refused for a COLLADA text whose instances end nowhere or make too many nodes, or with a
+/// Throws Rejected for a COLLADA text whose instances end nowhere or make too many nodes, or with a
 /// wrong count of elements: assimp would expand them until memory ends.
 void check_collada(const std::string& text);
 

@@ -163,7 +163,8 @@ std::string answer_of(const std::string& program, const std::vector<std::string>
   std::string answer = exchange(socket, bytes, from.number());
   const int status = child.wait();
   if (WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS) return answer;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kMeshRefused) throw Error(printable(answer, 300));
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kMeshRejected)
+    throw Error(printable(answer, 300));
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
     throw Error("cannot be read: " + program + " does not start; build it, or reinstall Angen");
   }
@@ -171,10 +172,12 @@ std::string answer_of(const std::string& program, const std::vector<std::string>
     throw Error("takes more than " + std::to_string(kMeshCpuSeconds) +
                 " s of CPU time to read; simplify it");
   }
-  throw Error("is damaged: reading it has crashed " + program);
+  throw Error("is damaged: reading it crashed " + program);
 }
 
-[[noreturn]] void not_whole() { throw Error("cannot be read: angen_mesh gives no whole answer"); }
+[[noreturn]] void not_whole() {
+  throw Error("cannot be read: the answer of angen_mesh is incomplete");
+}
 
 template <class T>
 T decoded(const std::string& answer) {
@@ -221,14 +224,14 @@ Mesh decode_mesh(const std::string& answer) {
   if (made.triangles.size() > kMaxTriangles || !is_whole(mesh.look, made.triangles.size())) {
     not_whole();
   }
-  if (made.triangles.empty()) throw Error("holds no triangle");
+  if (made.triangles.empty()) throw Error("has no triangles");
   for (const Eigen::Vector3f& vertex : made.vertices) {
     if (!vertex.allFinite()) throw Error("has a vertex that is not finite");
   }
   for (const auto& triangle : made.triangles) {
     for (const std::uint32_t corner : triangle) {
       if (corner >= made.vertices.size()) {
-        throw Error("has a triangle with a corner that is not there");
+        throw Error("has a triangle with an unknown vertex");
       }
     }
   }

@@ -6,9 +6,9 @@
 #include "assets/png.h"
 #include "assets/serialize.h"
 
-/// The program angen_mesh, which alone runs assimp and reads pictures: how it is called and what it
+/// The program angen_mesh, which alone runs assimp and reads pictures: its arguments and what it
 /// answers. Its input is a MeshRequest, or a picture's bytes; its answer a Mesh, a Texture or a
-/// GrayImage, as assets/serialize.h writes them, or with the exit code kMeshRefused the problem.
+/// GrayImage, as assets/serialize.h writes them, or with the exit code kMeshRejected the problem.
 namespace angen::load {
 
 constexpr std::size_t kMaxTriangles = 5'000'000;
@@ -18,7 +18,7 @@ constexpr int kMeshWallSeconds = 300;  // on a machine that is busy with other t
 
 constexpr std::uint32_t kMaxTextureSide = 512;
 constexpr std::size_t kMaxTextureName = 1000;  // bytes
-constexpr int kMeshRefused = 3;
+constexpr int kMeshRejected = 3;
 
 constexpr char kTooManyTriangles[] = "has more than 5,000,000 triangles; simplify it";
 constexpr char kTooMuchMemory[] =
@@ -35,7 +35,7 @@ struct MeshRequest {
   bool center = false;
   std::string bytes{};
   std::string materials_name{};  // of an OBJ, "" for none
-  std::string materials{};       // what that file holds
+  std::string materials{};       // the contents of that file
 };
 
 struct Mesh {

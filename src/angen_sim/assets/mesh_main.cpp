@@ -35,7 +35,7 @@ using angen::load::kMaxTextureName;
 using angen::load::kTooMuchMemory;
 using angen::load::Mesh;
 using angen::load::MeshRequest;
-using angen::load::Refused;
+using angen::load::Rejected;
 
 constexpr const char* kUnnamed = "$ColladaAutoName$";  // assimp's, followed by a number
 
@@ -175,7 +175,7 @@ class Expander {
   std::set<std::string> names_;
 };
 
-// Faces and vertices with all instances: what add_node would make.
+// Faces and vertices with all instances, as add_node would make them.
 std::size_t expanded_size(const aiScene& scene, const aiNode& node) {
   std::size_t size = 0;
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
@@ -214,7 +214,7 @@ const aiScene& scene_of(Assimp::Importer& importer, const MeshRequest& request, 
       request.extension.c_str());
   if (scene == nullptr || scene->mRootNode == nullptr) {
     const std::string why = importer.GetErrorString();
-    throw Refused(why == "std::bad_alloc" ? kTooMuchMemory : "cannot be read: " + why);
+    throw Rejected(why == "std::bad_alloc" ? kTooMuchMemory : "cannot be read: " + why);
   }
   return *scene;
 }
@@ -243,11 +243,11 @@ void center(std::vector<Eigen::Vector3f>& vertices) {
 [[noreturn]] void no_submesh(const std::string& name, const std::set<std::string>& names) {
   std::string known;
   for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
-  throw Refused("has no submesh '" + name + "'; it has " + known);
+  throw Rejected("has no submesh '" + name + "'; it has " + known);
 }
 
 Mesh mesh_of(MeshRequest request) {
-  if (request.bytes.empty()) throw Refused("cannot be read: the file is empty");
+  if (request.bytes.empty()) throw Rejected("cannot be read: the file is empty");
   if (request.extension == "dae") {
     angen::load::check_collada(request.bytes);
     angen::load::trim_colors(request.bytes);
@@ -257,7 +257,7 @@ Mesh mesh_of(MeshRequest request) {
   prepare(importer, request, 0);
   const aiScene& scene = scene_of(importer, request, aiProcess_JoinIdenticalVertices);
   if (expanded_size(scene, *scene.mRootNode) > angen::load::kMaxTriangles) {
-    throw Refused(angen::load::kTooManyTriangles);
+    throw Rejected(angen::load::kTooManyTriangles);
   }
   const aiScene* unjoined = nullptr;
   if (is_textured(scene)) {
@@ -320,5 +320,5 @@ int main(int argc, char** argv) {
     problem = error.what();
   }
   std::cout << problem << std::flush;
-  return angen::load::kMeshRefused;
+  return angen::load::kMeshRejected;
 }

@@ -20,9 +20,9 @@ constexpr std::uint32_t kMaxSide = 16'384;  // of a file; larger ones are reject
 
 void check_size(std::uint64_t width, std::uint64_t height, unsigned least, unsigned most) {
   if (std::min(width, height) < least || std::max(width, height) > most) {
-    throw Refused("is " + std::to_string(width) + " by " + std::to_string(height) +
-                  " pixels; give " + std::to_string(least) + " to " + std::to_string(most) +
-                  " a side");
+    throw Rejected("is " + std::to_string(width) + " by " + std::to_string(height) +
+                   " pixels; give " + std::to_string(least) + " to " + std::to_string(most) +
+                   " a side");
   }
 }
 
@@ -30,13 +30,13 @@ Texture png_picture(const std::string& bytes) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) {
-    throw Refused("is damaged: " + std::string(image.message));
+    throw Rejected("is damaged: " + std::string(image.message));
   }
   check_size(image.width, image.height, 1, kMaxSide);
   image.format = PNG_FORMAT_RGBA;
   std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
   if (png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) == 0) {
-    throw Refused("is damaged: " + std::string(image.message));
+    throw Rejected("is damaged: " + std::string(image.message));
   }
   Texture made{image.width, image.height, {}};
   made.bytes.reserve(pixels.size() / 4 * 3);
@@ -51,7 +51,7 @@ Texture png_picture(const std::string& bytes) {
 [[noreturn]] void fail(j_common_ptr jpeg) {
   std::array<char, JMSG_LENGTH_MAX> message{};
   jpeg->err->format_message(jpeg, message.data());
-  throw Refused("is damaged: " + std::string(message.data()));
+  throw Rejected("is damaged: " + std::string(message.data()));
 }
 
 struct Jpeg : jpeg_decompress_struct {
@@ -72,7 +72,7 @@ Texture jpeg_picture(const std::string& bytes) {
   jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
   jpeg_read_header(&jpeg, TRUE);
   check_size(jpeg.image_width, jpeg.image_height, 1, kMaxSide);
-  if (jpeg.num_components > 3) throw Refused("is a JPEG of four colors; save it as RGB");
+  if (jpeg.num_components > 3) throw Rejected("is a JPEG of four colors; save it as RGB");
   jpeg.out_color_space = JCS_RGB;
   jpeg_start_decompress(&jpeg);
   Texture made{jpeg.output_width, jpeg.output_height, {}};
@@ -141,7 +141,8 @@ struct PngReader {
   bool read_header() {
     if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) return false;
     png_set_read_fn(png, this, &PngReader::read);
-    // Texts and profiles change no sample, and libpng takes what memory their length claims.
+    // Texts and profiles change no sample, and libpng allocates as much memory as their length
+    // claims.
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_read_info(png, info);
     png_set_expand(png);
@@ -163,7 +164,7 @@ struct PngReader {
 GrayImage gray_picture_of(const std::string& bytes, unsigned least) {
   PngReader reader(bytes);
   if (!reader.read_header()) {
-    throw Refused("cannot be read: " + reader.problem + "; give a grayscale PNG of 8 or 16 bits");
+    throw Rejected("cannot be read: " + reader.problem + "; give a grayscale PNG of 8 or 16 bits");
   }
   GrayImage image;
   image.width = png_get_image_width(reader.png, reader.info);
@@ -174,7 +175,7 @@ GrayImage gray_picture_of(const std::string& bytes, unsigned least) {
   std::vector<png_bytep> rows;
   for (unsigned row = 0; row < image.height; ++row) rows.push_back(&pixels[row * stride]);
   if (!reader.read_rows(rows.data())) {
-    throw Refused("is damaged: " + reader.problem);
+    throw Rejected("is damaged: " + reader.problem);
   }
   // One sample a pixel, or three of a color image: then their mean.
   const std::size_t samples = png_get_channels(reader.png, reader.info);
@@ -195,7 +196,7 @@ GrayImage gray_picture_of(const std::string& bytes, unsigned least) {
 Texture picture_of(const std::string& bytes) {
   const bool png = bytes.compare(0, 4, "\x89PNG") == 0;
   if (!png && bytes.compare(0, 2, "\xFF\xD8") != 0) {
-    throw Refused("is of an unknown kind; known are PNG and JPEG");
+    throw Rejected("is of an unknown kind; known are PNG and JPEG");
   }
   Texture made = png ? png_picture(bytes) : jpeg_picture(bytes);
   const std::uint32_t width = std::min(made.width, kMaxTextureSide);

@@ -27,7 +27,7 @@ function(angen_add_plugin name)
   add_custom_command(TARGET ${name} POST_BUILD COMMAND ${ANGEN_DESCRIBE} $<TARGET_FILE:${name}>)
 endfunction()
 
-# angen_add_ros_kinds(NAME sources...): libNAME_ros.so, which holds what ROS must know of the kinds in libNAME.so:
+# angen_add_ros_kinds(NAME sources...): libNAME_ros.so, the ROS interface of the kinds in libNAME.so:
 # their messages, how these are filled, how rviz shows them, and controllers of joints. Angen's node loads it by its name.
 function(angen_add_ros_kinds name)
   angen_add_library(${name}_ros ${ARGN})

@@ -1,4 +1,4 @@
-# Compiling costs what headers cost; two ways to pay for them less often take two thirds off a build. With
+# Headers take most of the compile time; two ways to read them less often take two thirds off a build. With
 # -DCMAKE_UNITY_BUILD=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON each source is compiled by itself, which finds a
 # missing #include (`./angen tidy` does so).
 # One: the sources of a target are compiled eight at a time, so a name in an unnamed namespace is unique in its target.
@@ -14,7 +14,7 @@ set(ANGEN_PRECOMPILED_HEADERS
 # OWNER, a target with the same compiler flags; without OWNER, TARGET precompiles them itself, with HEADERS.
 function(angen_compile_options target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PRECOMPILE")
-  # Of a class with a member of an unnamed namespace: right where each source is compiled by itself.
+  # GCC warns of classes with members of unnamed namespaces: harmless where each source is compiled by itself.
   target_compile_options(${target} PRIVATE ${ANGEN_WARNINGS} -Wno-subobject-linkage)
   set_target_properties(${target} PROPERTIES DEFINE_SYMBOL "")  # it would be a flag of its own
   if(arg_UNPARSED_ARGUMENTS)

@@ -49,7 +49,7 @@ struct FloorPose {
 /// The position of a person who stands, sits or lies to use a thing.
 struct Place {
   std::string posture;  // stand, sit or lie
-  FloorPose pose;       // of the feet, the seat, or the middle of the one who lies, head ahead
+  FloorPose pose;       // of the feet, the seat, or the middle of a person who lies, head ahead
 };
 
 struct Thing {

@@ -32,7 +32,7 @@ std::string label_problem(const std::string& label) {
     return named + "has " + std::to_string(label.size()) + " bytes; give one of at most " +
            std::to_string(kMaxNameBytes);
   }
-  if (holds_control_character(label)) return named + "holds a control character; leave it out";
+  if (holds_control_character(label)) return named + "contains a control character; leave it out";
   return "";
 }
 
@@ -41,10 +41,10 @@ std::string name_problem(const std::string& name) {
   const std::string named = "the name '" + printable(name) + "' ";
   if (std::string problem = label_problem(name); !problem.empty()) return problem;
   if (name.find("::") != std::string::npos) {
-    return named + "holds '::', which joins the names of nested models; leave it out";
+    return named + "contains '::', which joins the names of nested models; leave it out";
   }
   if (name.find('/') != std::string::npos) {
-    return named + "holds '/', which separates the parts of a topic; leave it out";
+    return named + "contains '/', which separates the parts of a topic; leave it out";
   }
   if (name.front() == ' ' || name.back() == ' ') {
     return named + "begins or ends with a blank; leave it out";

@@ -12,7 +12,7 @@ namespace angen {
 /// "world" and "__…__" are reserved. Blanks inside are allowed.
 constexpr std::size_t kMaxNameBytes = 255;
 
-/// The error in a name, as "the name 'a/b' holds '/'; leave it out"; empty for a valid name.
+/// The error in a name, as "the name 'a/b' contains '/'; leave it out"; empty for a valid name.
 std::string name_problem(const std::string& name);
 
 /// The rule for labels, which nothing is found by and no topic is made of (the names of worlds and

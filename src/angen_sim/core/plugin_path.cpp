@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The folder of this library, which holds all libraries of Angen.
+// The folder of this library, which contains all libraries of Angen.
 fs::path own_folder() {
   static const char here = 0;
   Dl_info info;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-/// Files that a program writes without being asked for them.
+/// Files that a program writes without a request of the user.
 namespace angen {
 
 /// $XDG_STATE_HOME/angen, or ~/.local/state/angen (XDG base directory specification).

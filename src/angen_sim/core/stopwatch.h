@@ -7,7 +7,7 @@ namespace angen {
 /// CPU time of the thread that uses it, in laps. A lap costs one reading of the monotonic clock,
 /// some 25 ns; only one so long that the thread may have been away in it is compared with the
 /// thread's CPU clock, which costs a system call. For measuring costs: nothing that it
-/// says may find its way into the world.
+/// measures may affect the world.
 class Stopwatch {
  public:
   struct Clocks {

@@ -21,12 +21,12 @@ std::optional<TypographicChar> find_typographic(const std::string& text, std::si
 /// The text with ASCII's characters in their place.
 std::string without_typography(const std::string& text);
 
-/// A text without blanks at its ends and quotes around it, of whatever kind: “Open, bathroom1” is
+/// A text without blanks at its ends and quotes around it, of any kind: “Open, bathroom1” is
 /// Open, bathroom1.
 std::string unquoted(const std::string& text);
 
-/// The numbers of a text that holds nothing else, with ASCII's characters: "−1.2 0" is "-1.2 0".
-/// Nothing where the text holds no typographic character, or something besides numbers.
+/// The numbers of a text of numbers only, with ASCII's characters: "−1.2 0" is "-1.2 0".
+/// Empty where the text has no typographic character, or something besides numbers.
 std::optional<std::string> plain_numbers(const std::string& text);
 
 }  // namespace angen

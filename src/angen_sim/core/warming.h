@@ -6,7 +6,7 @@
 
 namespace angen {
 
-/// A temperature that goes to its limit exponentially, by Newton's law of cooling.
+/// A temperature that approaches its limit exponentially, by Newton's law of cooling.
 struct Warming {
   static constexpr double kArrived = 1e-3;  // K from its limit: from then on it is there
 

@@ -22,7 +22,7 @@ constexpr double kUnheated = kCelsius.min;
 
 /// The air in the rooms of a model. A device that reports a `power` heats its room, by its `heat`
 /// where that is another; one that reports `vapor`, such as a person, by its `heat` and vapor;
-/// whatever reports a `gap` lets air through between the rooms on its two sides.
+/// any device that reports a `gap` lets air through between the rooms on its two sides.
 class Climate : public Device {
  public:
   void configure(Params& params, Wiring& wiring) override {

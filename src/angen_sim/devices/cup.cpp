@@ -84,7 +84,7 @@ double Cup::heat_capacity() const { return cup_heat_ + kHeat * content_; }
 
 Verdict Cup::fill(double volume, const View& view) {
   if (content_ + volume > capacity()) {
-    return Verdict::reject("it holds " + volume_text(capacity()) + " and has " +
+    return Verdict::reject("it takes " + volume_text(capacity()) + " and has " +
                            volume_text(content_) + " in it");
   }
   return Verdict::accept([this, volume, now = view.time(), around = air(view)] {

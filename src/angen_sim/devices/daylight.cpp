@@ -11,8 +11,8 @@ namespace angen::devices {
 
 constexpr double kBrightest = 100'000.0;  // lx outdoors, a clear summer noon; level 1 of its light
 
-/// Daylight through a window: the model's light is a pane that scatters evenly into the room what
-/// falls on it from an overcast sky.
+/// Daylight through a window: the model's light is a pane that scatters evenly into the room the
+/// light that falls on it from an overcast sky.
 class Daylight : public Device {
  public:
   void configure(Params& params, Wiring& wiring) override {

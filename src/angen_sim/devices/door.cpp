@@ -99,9 +99,9 @@ void Door::warn_of_effort(Params& params) const {
     if (!params.has(key)) continue;
     const double torque = std::abs(params.number(key, 0.0, "N m", ""));
     if (torque <= limits_.effort) continue;
-    params.warn(key, std::string("<") + key + "> asks for " + number_text(torque) +
+    params.warn(key, std::string("<") + key + "> requests " + number_text(torque) +
                          " N m, but the <effort> of joint '" + joint_ + "' allows " +
-                         number_text(limits_.effort) + " N m, which holds");
+                         number_text(limits_.effort) + " N m, which applies");
   }
 }
 
@@ -125,7 +125,7 @@ void Door::wire(Params& params, Wiring& wiring) {
   read_target(params);
 }
 
-// One number is for each leaf of the model, a joint's name before it makes it that leaf's.
+// One number is for each leaf of the model; after a joint's name it is for that leaf.
 void Door::read_target(Params& params) {
   for (const std::string& text : params.texts("target", "rad",
                                               "target at the start; with several leaves "
@@ -223,7 +223,8 @@ Nanoseconds Door::idle_until(const View& view) const {
   return view.time() < handle_until_ ? std::min(next, handle_until_) : next;
 }
 
-// Something may move it: the latch catches it where it is shut, and lets go where it has broken.
+// Something may move it: the latch catches it where it is shut, and releases it where it has
+// broken.
 void Door::stay(const View& view, bool renew, Outputs& outputs) {
   const JointView hinge = view.joint(hinge_);
   const Mode mode = mode_at_rest(hinge.position);

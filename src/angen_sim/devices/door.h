@@ -76,7 +76,7 @@ class Door : public Device {
 
   bool started_ = false;
   bool resting_ = true;
-  bool leaving_ = false;  // a command came: the brake is to be let go
+  bool leaving_ = false;  // a command came: the brake is to be released
   bool opening_ = false;
   bool by_hand_ = false;  // a hand moves it, not its drive
   bool latched_ = false;

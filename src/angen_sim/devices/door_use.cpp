@@ -26,7 +26,7 @@ constexpr Nanoseconds kStarts = kSecond / 5;      // until the door's state show
 constexpr Nanoseconds kRests = 30 * kSecond;      // after a door that did not open, then twice that
 constexpr int kRestDoublings = 7;
 
-// deg from the shut leaf to where it stands to pull it, the best first
+// deg from the shut leaf to the person's place to pull it, the best first
 constexpr double kSpots[] = {45.0, 35.0, 55.0, 25.0, 65.0, 15.0};
 constexpr double kDoubleSpots[] = {60.0, 70.0, 80.0};  // of a double door
 

@@ -34,7 +34,7 @@ std::vector<DoorSeen> doors_seen(const View& view, double z);
 std::optional<DoorSeen> door_on_way(const std::vector<DoorSeen>& doors,
                                     const Surroundings::Vec2& at, const Surroundings::Vec2& to);
 
-/// Takes a person through shut doors: it goes to the handle, opens the door by hand, out of the
+/// Takes a person through shut doors: it walks to the handle, opens the door by hand, out of the
 /// leaf's way, walks through, and may close it. Of a double door it opens both leaves where one
 /// leaves too little room.
 class DoorUse {
@@ -67,7 +67,7 @@ class DoorUse {
   Advice pass(const Vec2& at, Nanoseconds now, Outputs& outputs);
   bool moves() const { return door_.mode == "OPENING" || door_.partner_mode == "OPENING"; }
   Vec2 handle() const { return door_.hinge + (door_.width - 0.07) * door_.along; }
-  /// Where it stands to open the door.
+  /// The person's place to open the door.
   Vec2 free_spot(const View& view, const Vec3& feet) const;
   /// The places from which it can pull, the best first.
   std::vector<Vec2> spots() const;

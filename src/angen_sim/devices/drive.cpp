@@ -80,9 +80,9 @@ void Drive::update(const View& view, Outputs& outputs) {
   if (moving_) {
     if (!powered_ || view.time() - commanded_at_ >= timeout_) v_ = w_ = 0.0;
     const double step = acceleration_ * to_seconds(view.step());
-    const bool stands = lead(left_, v_ - w_ * separation_ / 2.0, step, outputs) &
-                        lead(right_, v_ + w_ * separation_ / 2.0, step, outputs);
-    if (stands) {
+    const bool at_rest = lead(left_, v_ - w_ * separation_ / 2.0, step, outputs) &
+                         lead(right_, v_ + w_ * separation_ / 2.0, step, outputs);
+    if (at_rest) {
       moving_ = false;
       outputs.event("stopped", "");
     }

@@ -234,12 +234,12 @@ double Elevator::weigh(const JointView& lift, const View& view) const {
 Nanoseconds Elevator::idle_until(const View& view) const {
   if (phase_ != Phase::kStanding || !stops_.empty() || doorway_.moving()) return 0;
   const JointView lift = view.joint(lift_);
-  const bool told = lift.position == shown_.lift.position &&
-                    lift.velocity == shown_.lift.velocity &&
-                    doorway_.position(view) == shown_.door_position && mode() == shown_mode_ &&
-                    doorway_.mode() == shown_door_ && weigh(lift, view) == weighing_.mass() &&
-                    weighing_.is_heavy() == weighing_.overloaded();
-  return told ? kForever : refresh_.next(view.time());
+  const bool unchanged = lift.position == shown_.lift.position &&
+                         lift.velocity == shown_.lift.velocity &&
+                         doorway_.position(view) == shown_.door_position && mode() == shown_mode_ &&
+                         doorway_.mode() == shown_door_ && weigh(lift, view) == weighing_.mass() &&
+                         weighing_.is_heavy() == weighing_.overloaded();
+  return unchanged ? kForever : refresh_.next(view.time());
 }
 
 int Elevator::nearest(double position) const {
@@ -336,7 +336,7 @@ std::string ElevatorPlugin::needs() const {
          "it, or one that <joint> names";
 }
 
-// `lift`, or whatever slides up the building.
+// `lift`, or the joint that slides up the building.
 std::vector<Mount> ElevatorPlugin::mounts(const ModelInfo& model, Params& params) const {
   const std::string named = params.text("joint", "", kJointDoc);
   const ModelInfo::Joint* lift = model.joint(named.empty() ? "lift" : named);

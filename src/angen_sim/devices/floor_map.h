@@ -22,7 +22,7 @@ class FloorMap {
   enum class Extent { kStorey, kStraight };
 
   /// Around both places, for a person whose feet are at `feet` (world, m): all of the storey, or
-  /// only what is_clear() between them needs.
+  /// only the part that is_clear() between them needs.
   FloorMap(const View& view, const Vec3& feet, const Vec2& to, Extent extent = Extent::kStorey);
 
   /// Whether a map of the storey around other places would be the same, without additions.

@@ -47,7 +47,7 @@ Path::Place Path::at(Nanoseconds time) const {
   const double dx = to.x - from.x;
   const double dy = to.y - from.y;
   Place place{from.x + share * dx, from.y + share * dy, dx / seconds, dy / seconds, 0.0};
-  if (stands(from, to)) {
+  if (is_pause(from, to)) {
     place.vx = place.vy = 0.0;
     place.yaw = from.yaw + share * std::remainder(to.yaw - from.yaw, 2.0 * M_PI);
   } else {
@@ -62,7 +62,7 @@ Nanoseconds Path::still_until(Nanoseconds time) const {
   Nanoseconds lap = loop_ && time >= begin ? (time - begin) / length * length : 0;
   for (int round = 0; round < (loop_ ? 2 : 1); ++round, lap += length) {
     for (std::size_t i = 0; i + 1 < waypoints_.size(); ++i) {
-      if (stands(waypoints_[i], waypoints_[i + 1]) || lap + waypoints_[i + 1].time <= time)
+      if (is_pause(waypoints_[i], waypoints_[i + 1]) || lap + waypoints_[i + 1].time <= time)
         continue;
       return std::max(time, lap + waypoints_[i].time);
     }
@@ -70,7 +70,7 @@ Nanoseconds Path::still_until(Nanoseconds time) const {
   return kForever;
 }
 
-bool Path::stands(const Waypoint& from, const Waypoint& to) {
+bool Path::is_pause(const Waypoint& from, const Waypoint& to) {
   return std::hypot(to.x - from.x, to.y - from.y) < kNear;
 }
 

@@ -33,7 +33,7 @@ class Path {
   bool empty() const { return waypoints_.empty(); }
 
  private:
-  static bool stands(const Waypoint& from, const Waypoint& to);
+  static bool is_pause(const Waypoint& from, const Waypoint& to);
 
   std::vector<Waypoint> waypoints_;
   bool loop_ = false;

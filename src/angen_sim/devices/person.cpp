@@ -169,7 +169,7 @@ void Person::update(const View& view, Outputs& outputs) {
   walk(place, view, renew, outputs);
 }
 
-// Skin and clothing follow the air around; rays meet one surface, which radiates as both do.
+// Skin and clothing follow the air around; rays hit one surface, which radiates as both do.
 void Person::feel_air(const View& view, Outputs& outputs) {
   const Nanoseconds now = view.time() / kAirPeriod;
   if (now == felt_at_) return;

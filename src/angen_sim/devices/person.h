@@ -19,9 +19,9 @@ namespace angen::devices {
 inline constexpr const char* kPersonModes[] = {"STANDING", "WALKING", "BLOCKED"};
 
 /// Walks a path, or to a goal, by a motor of limited force. It plans its way to a goal on a map of
-/// what cannot move, opens doors by hand, and walks round obstacles that it sees. Where it cannot
-/// come on it steps back, so that a door can open towards it, and waits; a goal that it cannot
-/// reach it gives up. It pushes only where it is told to.
+/// things that cannot move, opens doors by hand, and walks round obstacles that it sees. Where it
+/// cannot come on it steps back, so that a door can open towards it, and waits; a goal that it
+/// cannot reach it gives up. It pushes only when commanded to.
 class Person : public Device {
  public:
   void configure(Params& params, Wiring& wiring) override;

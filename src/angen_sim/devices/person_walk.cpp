@@ -20,7 +20,7 @@ constexpr int kScansPerPlan = 3;
 constexpr double kNearRejoin = 0.3;  // m
 constexpr double kPushSpeed = 0.3;   // m/s, against a thing that it shall push
 constexpr double kOwnPlace = 0.1;    // m: nearer is the person itself
-constexpr double kTowards = 0.7;     // cosine, of one who comes towards it
+constexpr double kTowards = 0.7;     // cosine, of a person who walks towards it
 constexpr Nanoseconds kRejoinWithin = 6 * kSecond;
 
 }  // namespace

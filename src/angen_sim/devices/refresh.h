@@ -18,7 +18,7 @@ class Refresh {
   /// Rate in Hz, in kRefreshRate.
   explicit Refresh(double rate) : period_(from_seconds(1.0 / rate)) {}
 
-  /// Whether a multiple of the period lies in the step that ends at `time`; also the first time.
+  /// Whether a multiple of the period is in the step that ends at `time`; also the first time.
   bool due(Nanoseconds time, Nanoseconds step) {
     const bool first = std::exchange(first_, false);
     return first || time < step || time / period_ != (time - step) / period_;

@@ -9,7 +9,7 @@ namespace angen::devices {
 namespace {
 
 constexpr double kPushedBack = 5.0;  // freed distances
-constexpr double kStanding = 0.25;   // of the rate: what holds it may be an obstacle
+constexpr double kStanding = 0.25;   // of the rate: an obstacle may stop it
 constexpr double kLoadRamp = 250.0;  // per s: a blow is no load
 
 }  // namespace
@@ -38,7 +38,7 @@ double Servo::update(double target, double position, double velocity, double dt,
     if (target != target_) pid_.reset();
     profile_.start(target);
   }
-  if (target != target_ && blocked_) {                                 // without what blocks it
+  if (target != target_ && blocked_) {                                 // away from the obstacle
     if (steady_load_ * (target - position) > 0.0) steady_load_ = 0.0;  // it may have been that
     load_ = steady_load_;
   }
@@ -65,8 +65,8 @@ void Servo::observe(double velocity, double dt, double most) {
   const double rubs = velocity == 0.0 ? 0.0 : std::copysign(settings_.friction, velocity);
   const double expected = (acted_ - settings_.damping * velocity - rubs + load_) * dt;
   const double change = settings_.inertia * (velocity - std::exchange(velocity_, velocity));
-  const bool stands = std::abs(velocity) < settings_.arrive_speed;
-  const double more = (stands ? kStanding : 1.0) * settings_.load_rate * (change - expected);
+  const bool at_rest = std::abs(velocity) < settings_.arrive_speed;
+  const double more = (at_rest ? kStanding : 1.0) * settings_.load_rate * (change - expected);
   load_ += std::clamp(more, -kLoadRamp * dt, kLoadRamp * dt);
   load_ = std::clamp(load_, -most, most);
 }

@@ -28,7 +28,7 @@ struct ServoSettings {
 
 /// A joint led along a profile by a PID, or driven by a plain one, which has only `gains` of its
 /// settings and those by which it is at rest or blocked. An obstacle to the joint makes the profile
-/// wait; after kStallTime without motion it is blocked. When the obstacle is gone, the profile
+/// wait; after kStallTime without motion it is blocked. When the obstacle is removed, the profile
 /// restarts from the joint's position, so that the force gathered meanwhile does not fling it.
 class Servo {
  public:

@@ -6,7 +6,7 @@
 
 namespace angen::devices {
 
-/// Weighs what an elevator carries, by the force on its brake, and finds an overload.
+/// Weighs the load of an elevator, by the force on its brake, and finds an overload.
 class Weighing {
  public:
   void configure(Params& params);
@@ -23,7 +23,7 @@ class Weighing {
   void take(double mass) { mass_ = mass; }
   /// Each tick: an overload begins and ends after the load has settled.
   void watch(const View& view);
-  /// Where the joint is too weak for the load that the file gives.
+  /// Warns where the joint is too weak for the load in the file.
   void warn_of_effort(Params& params, double effort, const std::string& lift) const;
   /// "700 kg of 630 kg".
   std::string detail() const;

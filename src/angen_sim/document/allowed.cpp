@@ -29,7 +29,7 @@ bool is_model(const fs::path& folder) {
   return fs::exists(folder / "model.config", failed) || fs::exists(folder / "model.sdf", failed);
 }
 
-// True if a package lies between `folder`, one of ROS_PACKAGE_PATH, and the file.
+// True if the file is in a package below `folder`, one of ROS_PACKAGE_PATH.
 bool is_in_package(const std::string& file, const std::string& folder) {
   if (!is_within(file, folder)) return false;
   std::error_code failed;

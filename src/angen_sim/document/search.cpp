@@ -73,7 +73,7 @@ std::optional<std::string> existing(const fs::path& path, Sources& sources) {
   return found.size() > 1 && found.back() == '/' ? found.substr(0, found.size() - 1) : found;
 }
 
-// model://PACKAGE/… and package://PACKAGE/…, and what packages export to Gazebo.
+// model://PACKAGE/… and package://PACKAGE/…, and paths that packages export to Gazebo.
 std::optional<std::string> find_in_packages(const Address& address, Session& session) {
   if (session.paths.packages.empty()) return std::nullopt;
   const bool is_model = address.scheme == "model";
@@ -109,12 +109,12 @@ bool is_like(const std::string& name, const std::string& other) {
 
 // The addresses of models whose names are like that of a missing one.
 std::vector<std::string> models_like(const std::string& name, Session& session) {
-  constexpr int kMostEntries = 1000;
+  constexpr int kMaxEntries = 1000;
   std::set<std::string> found;
   for (const std::string& folder : session.paths.models) {
     std::error_code failed;
     fs::directory_iterator entry(folder, failed);
-    for (int k = 0; !failed && k < kMostEntries && entry != fs::directory_iterator(); ++k) {
+    for (int k = 0; !failed && k < kMaxEntries && entry != fs::directory_iterator(); ++k) {
       const fs::path model = entry->path();
       const std::string other = model.filename().string();
       if (is_like(name, other) && (is_plain_file((model / "model.sdf").string()) ||
@@ -142,7 +142,7 @@ void check_allowed(const std::string& file, const std::string& what, const Sourc
   if (session.allowed.holds(file, at.file)) return;
   std::error_code failed;
   throw Error(at, what + " is " + fs::weakly_canonical(file, failed).string() +
-                      ", which lies neither on the model or resource path, nor in a package on "
+                      ", which is neither on the model or resource path, nor in a package on "
                       "ROS_PACKAGE_PATH, nor in the folder of this file; move it there, add its "
                       "folder to ANGEN_MODEL_PATH, or allow every file by allow_paths:=true "
                       "(ANGEN_ALLOW_PATHS=true)");
@@ -296,8 +296,7 @@ std::string find_beside(const std::string& name, const std::string& what, const 
     if (may_name(path, file, at, session)) return path;
     std::string outside = what;
     outside.append(" ").append(printable(path, 300)).append(" of ").append(file);
-    session.warn(at,
-                 outside.append(" is not read: it lies outside of the folders that may be named"));
+    session.warn(at, outside.append(" is not read: it is outside of the allowed folders"));
     return "";
   }
   session.warn(at, what + " '" + printable(name, 300) + "' of " + file + " is not found");

@@ -7,12 +7,12 @@
 #include "core/element.h"
 #include "document/session.h"
 
-/// From model:// and file:// addresses to files.
+/// Files of model:// and file:// addresses.
 namespace angen::load {
 
-/// The file or folder that `uri` names, absolute. `from` is the document that holds it: its folder
-/// is searched last for file:// and for addresses without a scheme, and for model://NAME/… where it
-/// is called NAME.
+/// The file or folder that `uri` names, absolute. `from` is the document that contains it: its
+/// folder is searched last for file:// and for addresses without a scheme, and for model://NAME/…
+/// where it is called NAME.
 std::optional<std::string> find_uri(const std::string& uri, const std::string& from,
                                     Session& session);
 
@@ -20,7 +20,7 @@ std::optional<std::string> find_uri(const std::string& uri, const std::string& f
 std::string searched_places(const std::string& uri, const std::string& from, Session& session);
 
 /// find_uri, or an Error at `at` that says what `what` ("mesh", "model") is missing and where it
-/// was searched, and what an address looks like.
+/// was searched, and the form of an address.
 std::string need_uri(const std::string& uri, const std::string& what, const Source& at,
                      Session& session);
 
@@ -38,7 +38,7 @@ std::string find_beside(const std::string& name, const std::string& what, const 
                         const Source& at, Session& session);
 
 /// Makes the addresses that only hold beside their document (relative ones) absolute, so that they
-/// stay right wherever the element is written to.
+/// stay right in any file that the element is written to.
 void make_uris_absolute(Element& element, Session& session);
 
 /// An SDF version such as "1.6" as 106; -1 when it is none.

@@ -52,12 +52,12 @@ std::vector<double> numbers_of(const Element& element, std::size_t count) {
   const std::string want = count == 1 ? "one number" : std::to_string(count) + " numbers";
   if (!found.bad.empty()) {
     const std::string odd = odd_character(found.bad);
-    throw Error(element.source, "<" + element.name + "> holds '" + printable(found.bad) + "'" +
+    throw Error(element.source, "<" + element.name + "> contains '" + printable(found.bad) + "'" +
                                     (odd.empty() ? "" : " with the character " + odd) +
                                     ", which is not a number; give " + want);
   }
   if (found.values.size() != count) {
-    throw Error(element.source, "<" + element.name + "> holds " +
+    throw Error(element.source, "<" + element.name + "> contains " +
                                     std::to_string(found.values.size()) + " numbers; give " + want);
   }
   for (const double value : found.values) {
@@ -75,7 +75,7 @@ bool flag_of(const Element& element) {
   if (t == "true" || t == "1" || t == "True" || t == "TRUE") return true;
   if (t == "false" || t == "0" || t == "False" || t == "FALSE") return false;
   throw Error(element.source,
-              "<" + element.name + "> holds '" + printable(t) + "'; give true or false");
+              "<" + element.name + "> contains '" + printable(t) + "'; give true or false");
 }
 
 namespace {
@@ -103,7 +103,7 @@ Pose pose_of(const Element& element) {
     pose.rotation = Quat(v[6], v[3], v[4], v[5]);
     if (!(pose.rotation.norm() >= 1e-6 && pose.rotation.norm() <= 1e6)) {
       throw Error(element.source,
-                  "<pose> holds a quaternion of length 0 or infinite; give a unit quaternion");
+                  "<pose> contains a quaternion of length 0 or infinite; give a unit quaternion");
     }
     pose.rotation.normalize();
     pose.position = {v[0], v[1], v[2]};
@@ -137,7 +137,7 @@ Pose child_pose(const Element& element) {
 
 namespace {
 
-// To a picometer and a picoradian: what two saves one after the other agree on.
+// To a picometer and a picoradian: then two saves in a row are equal.
 double rounded(double value) {
   constexpr double kSteps = 1e12;
   if (std::abs(value) > 1e3) return value;

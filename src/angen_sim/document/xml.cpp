@@ -29,15 +29,15 @@ std::size_t allowed_prefix(const std::string& text) {
   return static_cast<std::size_t>(bad - text.begin());
 }
 
-// The file whose name differs from a missing one's by a typing error, as what would be right.
+// The fix for a missing file: one whose name differs by a typing error.
 std::string file_like(const std::filesystem::path& missing) {
   constexpr std::size_t kTypingError = 2;
-  constexpr int kMostFiles = 1000;
+  constexpr int kMaxFiles = 1000;
   const std::filesystem::path folder = missing.parent_path();
   std::error_code failed;
   std::filesystem::directory_iterator files(folder.empty() ? "." : folder, failed);
   std::vector<std::string> names;
-  for (int k = 0; !failed && k < kMostFiles && files != std::filesystem::end(files); ++k) {
+  for (int k = 0; !failed && k < kMaxFiles && files != std::filesystem::end(files); ++k) {
     names.push_back(files->path().filename().string());
     files.increment(failed);
   }
@@ -73,7 +73,7 @@ Element convert(const tinyxml2::XMLElement& from, const std::string& file) {
   return to;
 }
 
-// tinyxml2's own message repeats the line; what its error means is of more use.
+// tinyxml2's own message repeats the line; the meaning of its error is more useful.
 std::string reason(const tinyxml2::XMLDocument& document) {
   switch (document.ErrorID()) {
     case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
@@ -99,7 +99,7 @@ int line_at(const std::string& text, std::size_t offset) {
          static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(offset), '\n'));
 }
 
-// After what begins at `at`, if it is a comment, CDATA or a declaration; `at` otherwise.
+// The end of a comment, CDATA or declaration that begins at `at`; `at` otherwise.
 std::size_t after_aside(const std::string& text, std::size_t at) {
   static const std::pair<const char*, const char*> asides[] = {
       {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
@@ -264,7 +264,7 @@ std::string without_late_declaration(const std::string& text) {
 
 Element parse_xml(const std::string& text, const std::string& file) {
   if (text.size() > kMaxFileBytes)
-    throw Error({file, 0}, "larger than 64 MB, which no file may be");
+    throw Error({file, 0}, "larger than 64 MB, the limit for a file");
   const std::size_t bad = allowed_prefix(text);
   if (bad < text.size()) {
     const bool is_utf8 = valid_utf8_prefix(text) > bad && text[bad] != '\0';
@@ -307,7 +307,7 @@ std::string read_file(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   const auto size = std::filesystem::file_size(path, failed);
   if (!stream || failed) throw Error({path, 0}, "cannot be read; " + file_like(path));
-  if (size > kMaxFileBytes) throw Error({path, 0}, "larger than 64 MB, which no file may be");
+  if (size > kMaxFileBytes) throw Error({path, 0}, "larger than 64 MB, the limit for a file");
   std::ostringstream text;
   text << stream.rdbuf();
   return text.str();

@@ -117,7 +117,7 @@ Pose pose_of(const geometry_msgs::Pose& message) {
   pose.position = vector_of(message.position);
   const geometry_msgs::Quaternion& q = message.orientation;
   pose.rotation = Quat(q.w, q.x, q.y, q.z);
-  if (!pose.finite()) throw Error("the pose holds a number that is not finite");
+  if (!pose.finite()) throw Error("the pose contains a number that is not finite");
   const bool empty = pose.rotation.coeffs().isZero(0.0);
   pose.rotation.coeffs() =
       empty ? Quat::Identity().coeffs() : pose.rotation.coeffs().stableNormalized();

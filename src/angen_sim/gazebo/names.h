@@ -39,7 +39,7 @@ inline Vec3 vector_of(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z};
 inline Vec3 vector_of(const geometry_msgs::Point& v) { return {v.x, v.y, v.z}; }
 
 std::shared_ptr<const sim::Structure> structure_of(Inbox& inbox);
-/// Posts the edit and waits; throws Error where it is refused.
+/// Posts the edit and waits; throws Error where it is rejected.
 void edit(Inbox& inbox, sim::Edit edit);
 /// To be called by the world's thread, between ticks.
 sim::Observed observe(Inbox& inbox, sim::Observation what);

@@ -20,7 +20,7 @@ class PhysicsProperties {
   PhysicsProperties(Server& server, Inbox& inbox, std::atomic<double>& rate);
 
   gazebo_msgs::GetPhysicsProperties::Response get();
-  /// Returns what of it has no effect, "" if all has. Throws Error and changes nothing.
+  /// Returns the part without effect, "" if there is none. Throws Error and changes nothing.
   std::string set(const gazebo_msgs::SetPhysicsProperties::Request& request);
   /// Called after each change; of one listener.
   void on_change(std::function<void()> changed) { changed_ = std::move(changed); }

@@ -72,7 +72,7 @@ void StateTopics::receive(const Message& message) {
   try {
     inbox_.post(edit_of(*inbox_.simulation().snapshot()->structure, message));
   } catch (const Error& error) {
-    ROS_WARN("a state that was published to be set: %s", printable(error.what(), 2000).c_str());
+    ROS_WARN("a published state is rejected: %s", printable(error.what(), 2000).c_str());
   }
 }
 

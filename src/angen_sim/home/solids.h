@@ -20,7 +20,7 @@ struct OrientedBox {
 /// The box around a shape in `frame`; none for planes, heightmaps and empty shapes.
 std::optional<OrientedBox> box_around(const Shape& shape, const Pose& frame);
 
-/// By how much two boxes, or what is round in them, overlap along the direction in which they do
+/// The overlap of two boxes, or of round shapes in them, along the direction in which they do
 /// least, m; at most 0 where they are apart.
 double overlap_of(const OrientedBox& a, const OrientedBox& b);
 

@@ -105,7 +105,7 @@ std::optional<double> foot_of(const desc::Model& model, const Pose& pose,
   return leaf.min().z();
 }
 
-// Where doors stand.
+// The places of doors.
 void measure_doors(const desc::Model& model, const Pose& pose, std::vector<double>& feet) {
   std::set<std::string> fixed = {"world"};
   for (const desc::Joint& joint : model.joints) {
@@ -158,7 +158,7 @@ void add_apart(double floor, std::vector<double>& floors) {
 }
 
 // The floors of walls that no one describes: the widest first, those on which walls stand before
-// those that walls pass; what is too near to such a one is furniture or a ceiling.
+// those that walls pass; a surface too near to such a one is furniture or a ceiling.
 std::vector<double> floors_of(const std::vector<Wall>& walls, const std::vector<Slab>& slabs) {
   std::vector<Level> levels = levels_of(slabs);
   levels.erase(std::remove_if(levels.begin(), levels.end(),

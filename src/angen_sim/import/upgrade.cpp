@@ -32,7 +32,7 @@ void fill_pose(Element& pose, Session& session) {
   const Numbers found = numbers_in(pose.text);
   if (!found.bad.empty() || found.values.size() != 3) return;
   session.warn(pose.source,
-               "<pose> holds 3 numbers and is taken as a position; write 6, x y z and "
+               "<pose> contains 3 numbers and is read as a position; write 6, x y z and "
                "roll pitch yaw");
   pose.text += " 0 0 0";
 }
@@ -81,7 +81,7 @@ void rename_separated(Element& sdf, const std::string& separator, Session& sessi
   if (!found.empty()) rename_references(sdf, found);
 }
 
-using Name = std::pair<std::string, std::string>;  // what shares it, and the name
+using Name = std::pair<std::string, std::string>;  // the parts that share it, and the name
 
 std::string unused_name(const Element& child, std::set<Name>& used, std::map<Name, int>& tried) {
   const std::string space = names_shared_by(child);
@@ -114,7 +114,7 @@ void rename_twins(Element& parent, Session& session) {
   }
 }
 
-// Until 1.7 parts of a model could have one name; what refers to it means the first.
+// Until 1.7 parts of a model could have one name; references to it mean the first.
 void rename_duplicates(Element& element, Session& session) {
   if (element.name == "model" || element.name == "link") rename_twins(element, session);
   for (Element& child : element.children) {

@@ -45,7 +45,7 @@ void check_numbers(const Element& element) {
   for (const auto& [key, value] : element.attributes) {
     if (texts.count(key) != 0) continue;
     const Numbers found = numbers_in(value);
-    const std::string where = "<" + element.name + " " + key + "> holds '";
+    const std::string where = "<" + element.name + " " + key + "> contains '";
     if (!found.bad.empty()) {
       throw Error(element.source, where + printable(found.bad) + "', which is not a number");
     }

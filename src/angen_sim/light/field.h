@@ -90,7 +90,7 @@ class Field {
   }
   std::uint64_t serial(std::uint32_t patch) const { return surfaces_[patch].serial; }
   bool alive(std::uint32_t patch) const { return surfaces_[patch].alive; }
-  std::uint64_t forgotten() const { return surfaces_.forgotten(); }  // patches, so far
+  std::uint64_t forgotten() const { return surfaces_.forgotten(); }  // patches since the start
   Rgb albedo(std::uint32_t shape) const;
   Rgb albedo_of(std::uint32_t patch) const;
 

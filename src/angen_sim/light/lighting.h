@@ -80,7 +80,7 @@ class Lighting {
   /// shapes were added, removed or moved, after 0.1 s without a change, or else once a second. Then
   /// computes the light at each probe that is measured `ahead`. Takes about 5 ms of CPU time at
   /// most, and less than simulated time on average. When a result is complete depends on the events
-  /// and their times (`now`) and on these probes, not on what was measured. The scene must be
+  /// and their times (`now`) and on these probes, not on measurements. The scene must be
   /// committed.
   void advance(Nanoseconds now);
   /// Whether prepare() or pace() was called.

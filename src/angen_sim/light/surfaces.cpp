@@ -132,7 +132,7 @@ std::uint32_t Surfaces::add(const Key& key, std::vector<Site> sites, bool divide
   return number;
 }
 
-/// Makes the sides of a part of a cell, if a shape stands across it.
+/// Makes the sides of a part of a cell, if a shape crosses it.
 bool Surfaces::make_sides(const Key& key) {
   int covered = 0;
   std::vector<std::vector<Site>> all = sides(key, sites(key, kSitesPerSide, covered));

@@ -23,7 +23,7 @@ struct Site {
 };
 
 /// A piece of one side of a shape's surface of about 0.4 m (0.1 m if a shape covers a part of it or
-/// is close in front of it), with one illuminance. A shape that stands across such a part, as a
+/// is close in front of it), with one illuminance. A shape that crosses such a part, as a
 /// leaf on a door's sill, separates it into sides.
 struct Patch {
   std::array<std::int32_t, 6> key;  // shape, face, depth, u, v; 0, 1 for a part, 2, 3, … for a side

@@ -70,13 +70,13 @@ void Commands::subscribe(const std::shared_ptr<const Plugin>& plugin) {
 void Commands::on_kinds(const sim::Structure& structure) {
   std::vector<std::shared_ptr<const Plugin>> plugins = always_;
   plugins.insert(plugins.end(), structure.device_plugins.begin(), structure.device_plugins.end());
-  std::set<std::string> wanted;
+  std::set<std::string> kinds_in_use;
   for (const std::shared_ptr<const Plugin>& plugin : plugins) {
     subscribe(plugin);
-    wanted.insert(plugin->kind().name);
+    kinds_in_use.insert(plugin->kind().name);
   }
   for (auto kind = kinds_.begin(); kind != kinds_.end();) {
-    kind = wanted.count(kind->first) > 0 ? std::next(kind) : kinds_.erase(kind);
+    kind = kinds_in_use.count(kind->first) > 0 ? std::next(kind) : kinds_.erase(kind);
   }
 }
 

@@ -11,7 +11,8 @@ namespace angen::node {
 
 angen_msgs::Home to_message(const Home& home);
 
-/// /angen/home: the home's description, again whenever a model that it depends on comes or goes.
+/// /angen/home: the home's description, again whenever a model that it depends on is added or
+/// removed.
 class HomeTopic {
  public:
   explicit HomeTopic(ros::NodeHandle& node);

@@ -33,7 +33,7 @@ class LagWarning {
     if (factor >= kFar * rate || now < silent_until_) return "";
     silent_until_ = now + kSilence;
     return "simulated time passes at " + rounded(factor) + " of real time, " + number_text(rate) +
-           " was asked for; " + reason(share);
+           " was requested; " + reason(share);
   }
 
  private:
@@ -47,7 +47,7 @@ class LagWarning {
   }
 
   static std::string reason(double share) {
-    if (share >= kBusy) return "`angen top` shows what takes so long";
+    if (share >= kBusy) return "`angen top` shows the CPU time of each sensor and device";
     return "the simulation got " + number_text(std::round(share * 100.0)) +
            " % of a processor: other programs, such as rviz, use the rest";
   }

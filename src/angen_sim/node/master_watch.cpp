@@ -17,7 +17,7 @@ constexpr char kService[] = "/angen/list";  // one that each node has
 
 enum class Answer { kNone, kError, kGood };
 
-// Without a retry: ros::master waits for ever otherwise.
+// Without a retry: ros::master waits forever otherwise.
 Answer call_master(const char* method, const std::string& about, XmlRpc::XmlRpcValue& payload) {
   XmlRpc::XmlRpcValue request, response;
   request[0] = ros::this_node::getName();

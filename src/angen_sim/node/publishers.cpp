@@ -159,12 +159,13 @@ void Publishers::prepare_for_images() {
 void Publishers::request(const sim::Structure& structure) {
   for (OnDemand& sensor : on_demand_) {
     const std::vector<std::shared_ptr<Channel>>& channels = sensors_[sensor.sensor].channels;
-    const bool wanted = std::any_of(channels.begin(), channels.end(),
-                                    [](const auto& channel) { return channel->has_subscribers(); });
-    if (wanted == sensor.requested) continue;
-    sensor.requested = wanted;
+    const bool requested = std::any_of(channels.begin(), channels.end(), [](const auto& channel) {
+      return channel->has_subscribers();
+    });
+    if (requested == sensor.requested) continue;
+    sensor.requested = requested;
     const sim::SensorEntry& entry = structure.sensors[sensor.sensor];
-    simulation_.request(entry.kind, entry.name, wanted);
+    simulation_.request(entry.kind, entry.name, requested);
     if (sensor.is_camera) prepare_for_images();
   }
 }

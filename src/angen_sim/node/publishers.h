@@ -16,7 +16,7 @@
 
 namespace angen::node {
 
-/// The topics of all sensors and devices, kept equal to what exists.
+/// The topics of all sensors and devices that exist.
 class Publishers {
  public:
   Publishers(ros::NodeHandle& node, sim::Simulation& simulation, Topics topics, Readings& readings)
@@ -27,7 +27,7 @@ class Publishers {
   void on_structure(const sim::Snapshot& snapshot, const FrameTree& frames,
                     const std::vector<Robot>& robots, const Changes& changes);
 
-  /// Sends what is new in this tick.
+  /// Publishes the readings and states of this tick.
   void publish(const sim::Snapshot& snapshot);
 
  private:

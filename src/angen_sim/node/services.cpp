@@ -45,7 +45,7 @@ Pose to_pose(const geometry_msgs::Pose& message) {
   pose.position = {message.position.x, message.position.y, message.position.z};
   const geometry_msgs::Quaternion& q = message.orientation;
   pose.rotation = Quat(q.w, q.x, q.y, q.z);
-  if (!pose.finite()) throw Error("the pose holds a number that is not finite");
+  if (!pose.finite()) throw Error("the pose contains a number that is not finite");
   const double norm = pose.rotation.norm();
   if (norm == 0.0) {
     pose.rotation = Quat::Identity();
@@ -165,10 +165,10 @@ sim::Action Services::spawn_action(const angen_msgs::Spawn::Request& request) {
   const Pose pose = to_pose(request.pose);
   const bool lone_sensor = load::is_sensor(request.xml);
   if (lone_sensor && request.on.empty()) {
-    throw Error("a lone <sensor> needs a link to sit on: give `on` as MODEL::LINK");
+    throw Error("a lone <sensor> needs a link: give `on` as MODEL::LINK");
   }
   if (!lone_sensor && !request.on.empty()) {
-    throw Error("only a <sensor> can be put on a link, and xml holds none");
+    throw Error("only a <sensor> can be put on a link, and xml contains none");
   }
   if (!valid_utf8(request.on)) throw Error("`on` is not UTF-8");
   if (lone_sensor) {

@@ -246,13 +246,13 @@ class Builder {
     using Type = desc::Joint::Type;
     const std::string what = "joint \"" + model_.name + "::" + joint.name + "\" ";
     const bool none = joint.type == Type::kFixed || joint.type == Type::kBall;
-    const std::size_t wanted = joint.type == Type::kUniversal ? 2 : none ? 0 : 1;
-    if (joint.axes.size() < wanted) {
+    const std::size_t count = joint.type == Type::kUniversal ? 2 : none ? 0 : 1;
+    if (joint.axes.size() < count) {
       throw Error(joint.source, what + "has " + std::to_string(joint.axes.size()) +
-                                    " axes, it needs " + std::to_string(wanted));
+                                    " axes, it needs " + std::to_string(count));
     }
     if (!joint.anchor.allFinite()) throw Error(joint.source, what + "has no finite position");
-    for (std::size_t i = 0; i < wanted; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       const desc::JointAxis& axis = joint.axes[i];
       if (!axis.xyz.allFinite() || axis.xyz.norm() < 1e-9) {
         throw Error(joint.source, what + "has an axis without a direction");
@@ -299,7 +299,7 @@ class Builder {
   std::vector<Body*> body_of_;
 };
 
-// Displaces what hangs on each joint by its initial position, from the roots outwards.
+// Displaces the child bodies of each joint by its initial position, from the roots outwards.
 void displace(ModelRecord& record) {
   std::vector<std::pair<Body*, Pose>> queue;
   std::unordered_set<const Body*> seen;

@@ -30,14 +30,14 @@ constexpr double kPush =
 // A person's chest and pelvis: ISO/TS 15066:2016, table A.3, effective spring constant.
 constexpr double kSideYield = 1.0 / 25e3;  // m/N
 constexpr double kSide = 0.5;              // |z| of the normal at a person's side, at most
-// m/s, at which a person parts from what it has hit: DART's threshold of bouncing, by default.
+// m/s, at which a person parts from an obstacle: DART's threshold of bouncing, by default.
 constexpr double kRebound = 0.1;
 
 bool holds_to_world(const Joint* joint) {
   return !joint->first->dynamic() || !joint->second->dynamic();
 }
 
-// Whether what joints hold to the world, such as a leaf, is at the person's side. A latched one is
+// Whether a body jointed to the world, such as a leaf, is at the person's side. A latched one is
 // as rigid as the wall.
 bool is_squeezed(const Geom& person, const Geom& leaf, const Vec3& normal) {
   if (!person.body->upright || !leaf.body->dynamic() || std::abs(normal.z()) >= kSide) return false;
@@ -215,10 +215,9 @@ void Contacts::set_friction(dContact& contact, const Pair& pair, const PointShar
 
 // ODE bounds the friction along two directions, each by itself: a pyramid. Coulomb's cone follows
 // from the choice of the first. A sliding contact has friction against its slip and none across.
-// One that does not slide, or may stop within a step, has the first direction along the force that
-// would make it slip: against the friction of the last step, and along the slip that is left. That
-// force is one for all points between two mechanisms, as what the points hold against each other is
-// no load.
+// A contact that does not slide, or may stop within a step, has the first direction along the force
+// that would make it slip: against the friction of the last step, and along the slip that is left.
+// That force is one for all points between two mechanisms, as the share of each point is no load.
 void Contacts::align(dContact& contact, const Pair& pair) const {
   const Body& a = *pair.first->body;
   const Body& b = *pair.second->body;

@@ -55,9 +55,9 @@ bool set_drive(dWorldID world, Body& body, const Vec3& velocity, double yaw_rate
 // speed to its goal in this step.
 void aim_drive(const Body& body, double h) {
   const Drive& drive = *body.drive;
-  const Vec3 wanted =
+  const Vec3 target =
       ode::vec(drive.feedback.f1) + body.mechanism->mass / h * (drive.velocity - body.velocity());
-  const Vec3 flat(wanted.x(), wanted.y(), 0.0);
+  const Vec3 flat(target.x(), target.y(), 0.0);
   const bool easy = flat.norm() < kEasy * drive.max_force;
   const Vec3 along = easy ? Vec3::UnitX() : flat.normalized();
   const Vec3 across = Vec3::UnitZ().cross(along);

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFace = 0.7;        // least cosine between a contact's normal and its triangle's
 constexpr double kOnePlane = 1e-7;   // 1 - cosine between the normals of one plane's triangles
 constexpr double kOneHeight = 1e-5;  // m, between those planes where the solid is
-constexpr double kDeeper = 1e-3;     // m, more than twice what ODE found is too deep
+constexpr double kDeeper = 1e-3;     // m, more than twice the depth that ODE found is too deep
 constexpr double kBeside = 1e-4;     // m, from an edge, where its two triangles are looked for
 constexpr double kInside = 1e-6;     // m, that a point may be beyond a triangle's side
 

@@ -46,7 +46,7 @@ struct World::Impl {
   desc::Physics settings;
   Vec3 gravity;
   std::uint64_t seed;
-  ode::ThreadingHandle threading;  // of its own: what fails in a step leaves jobs in it
+  ode::ThreadingHandle threading;  // of its own: a failed step leaves jobs in it
   ode::WorldHandle world;
   ShapeFactory shapes;
   std::uint64_t serial = 0;

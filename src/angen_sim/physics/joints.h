@@ -8,7 +8,7 @@ namespace angen::physics {
 /// corrected in the next step. A later correction, of a velocity that has turned meanwhile,
 /// costs energy: with 0.2 a double pendulum loses some percent a minute.
 constexpr double kJointErp = 1.0;
-/// Stops give a fifth of what went past them back in each step: a door comes to rest at its stop.
+/// Stops correct a fifth of the overshoot in each step: a door comes to rest at its stop.
 constexpr double kStopErp = 0.2;
 
 /// Finds axis and anchor in the frames of the joint's bodies, of which one is dynamic.

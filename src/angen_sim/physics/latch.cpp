@@ -20,9 +20,9 @@ void watch_latch(Joint& joint, double h) {
   const double borne = std::clamp(joint.effort - joint.spring_effort, -most, most);
   joint.latch_strain += (borne - joint.latch_strain) * h / (h + kLatchTime);
   const double strain = std::abs(joint.latch_strain);
-  const bool stands = std::abs(joint_velocity(joint)) < kLatchSpeed;
+  const bool at_rest = std::abs(joint_velocity(joint)) < kLatchSpeed;
   const bool breaks = !joint.latch_broken && strain >= joint.latch_force;
-  const bool catches = joint.latch_broken && stands && strain < kLatchAgain * joint.latch_force;
+  const bool catches = joint.latch_broken && at_rest && strain < kLatchAgain * joint.latch_force;
   if (!breaks && !catches) return;
   joint.latch_broken = breaks;
   joint.latch_at = ode_position(joint);

@@ -8,8 +8,9 @@
 
 namespace angen::physics {
 
-/// A tree of boxes around a mesh's triangles. It tells what a collision of two meshes costs, before
-/// ODE begins with one: each of some thousand long triangles may cross each of the other mesh.
+/// A tree of boxes around a mesh's triangles. It estimates the cost of a collision of two meshes,
+/// before ODE begins with one: each of some thousand long triangles may cross each of the other
+/// mesh.
 class MeshBoxes {
  public:
   explicit MeshBoxes(const TriangleMesh& mesh);

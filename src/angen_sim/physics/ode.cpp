@@ -16,14 +16,14 @@ void on_message(int number, const char* text, va_list arguments) {
     lcp_failed = true;
     return;
   }
-  static std::atomic<bool> told{false};
+  static std::atomic<bool> reported{false};
   char line[200];
   std::vsnprintf(line, sizeof line, text, arguments);
-  if (std::strstr(line, "hash table") != nullptr) {  // said for each pair in each step
-    if (told.exchange(true)) return;
+  if (std::strstr(line, "hash table") != nullptr) {  // printed for each pair in each step
+    if (reported.exchange(true)) return;
     std::fputs(
-        "physics: meshes overlap at more places than ODE tells apart: some of their contacts may "
-        "be doubled (said once)\n",
+        "physics: meshes overlap at more places than ODE distinguishes: some of their contacts "
+        "may be duplicated (reported once)\n",
         stderr);
     return;
   }

@@ -39,8 +39,8 @@ using GeomHandle = std::unique_ptr<dxGeom, Destroy>;
 using ThreadingHandle = std::unique_ptr<dxThreadingImplementation, Destroy>;
 using MeshHandle = std::unique_ptr<dxTriMeshData, Destroy>;
 
-/// Starts ODE once a process, takes over its messages, and gives the calling thread what colliding
-/// needs.
+/// Starts ODE once a process, takes over its messages, and gives the calling thread the data that
+/// colliding needs.
 void prepare_thread();
 
 /// True when this thread's ODE reported a failed LCP since the last call.

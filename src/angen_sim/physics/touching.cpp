@@ -14,7 +14,7 @@ namespace {
 constexpr double kThinnest = 1e-3;  // m, of a box in place of a mesh
 constexpr double kApart = 1e-9;     // m, centers that are less apart coincide
 
-// ODE's cylinders have no normal (NaN) where a center lies on an axis or two stand exactly side by
+// ODE's cylinders have no normal (NaN) where a center is on an axis or two are exactly side by
 // side: they are parted along the line between them, else the moving one upward.
 void fix_normals(const Geom& first, const Geom& second, dContactGeom* points, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {

@@ -139,11 +139,11 @@ std::string parse_command(const Kind& kind, Command& command) {
   if (words.empty()) return "no verb; " + right;
   const Verb* verb = find_verb(kind, words);
   if (verb == nullptr) return "unknown verb '" + printable(words[0]) + "'; " + right;
-  const std::size_t wanted = verb->argument.empty() ? 1 : 1 + verb->count;
-  if (words.size() > wanted) return "too many words after " + verb->name + "; " + right;
-  if (words.size() < wanted) return verb->name + " without " + verb->argument + "; " + right;
+  const std::size_t expected = verb->argument.empty() ? 1 : 1 + verb->count;
+  if (words.size() > expected) return "too many words after " + verb->name + "; " + right;
+  if (words.size() < expected) return verb->name + " without " + verb->argument + "; " + right;
   std::vector<double> numbers;
-  for (std::size_t i = 1; i < wanted; ++i) {
+  for (std::size_t i = 1; i < expected; ++i) {
     numbers.emplace_back();
     if (!parse_number(words[i], verb->whole, numbers.back())) {
       return "'" + printable(words[i]) + "' is not a number of " + verb->argument + "; " + right;

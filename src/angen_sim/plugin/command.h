@@ -17,7 +17,7 @@ struct Command {
 };
 
 /// Finds the kind's verb in `command.text` ("Dim 40", "dim, 40", "Floor1") and fills in verb and
-/// number. Returns why the text is wrong and the right forms, "" where it is right. A kind
+/// number. Returns the error in the text and the right forms, "" where it is right. A kind
 /// without verbs takes any text; numbers alone become values.
 std::string parse_command(const Kind& kind, Command& command);
 

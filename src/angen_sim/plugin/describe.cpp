@@ -48,7 +48,7 @@ void read_common(Params& params, const Kind& kind) {
   params.text("topicName", "/angen/" + kind.name + "/NAME", "where it publishes");
   if (!kind.ray_color().empty()) read_ray_color(params, kind);
   params.text("frameName", "NAME", "frame_id of its messages");
-  params.text("fault", "", "what goes wrong with it, as dropout share=0.02; see docs/data.md");
+  params.text("fault", "", "a simulated fault, such as dropout share=0.02; see docs/data.md");
 }
 
 // The parameters that one reads when it is configured with nothing but these.

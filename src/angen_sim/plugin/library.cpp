@@ -146,10 +146,9 @@ std::string meant_library(const std::string& filename) {
 fs::path locate(const std::string& filename, bool any_path) {
   if (filename.find('/') != std::string::npos) {
     if (!any_path && !is_on_search_path(filename)) {
-      throw Error(
-          "plug-in library " + printable(filename, 300) +
-          " does not lie on the plug-in path; add its folder to ANGEN_PLUGIN_PATH, or allow "
-          "every path by allow_paths:=true (ANGEN_ALLOW_PATHS=true)");
+      throw Error("plug-in library " + printable(filename, 300) +
+                  " is not on the plug-in path; add its folder to ANGEN_PLUGIN_PATH, or allow "
+                  "every path by allow_paths:=true (ANGEN_ALLOW_PATHS=true)");
     }
     if (!is_plain_file(filename)) {
       throw Error("there is no plug-in library " + printable(filename, 300));

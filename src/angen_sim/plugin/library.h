@@ -11,7 +11,7 @@ namespace angen {
 
 /// The plug-ins of each requested library, or file of Python, by file name. Searches
 /// ANGEN_PLUGIN_PATH, GAZEBO_PLUGIN_PATH, in `lib` of each catkin workspace that is sourced
-/// (CMAKE_PREFIX_PATH), then beside Angen's own libraries; a library of that name that holds no
+/// (CMAKE_PREFIX_PATH), then beside Angen's own libraries; a library of that name that has no
 /// Angen plug-in (Gazebo's own, say) is skipped. Libraries in other folders are not loaded, nor are
 /// those that register no plug-in: loading runs code. A library stays loaded until the process
 /// ends: objects that it made may outlive the catalog. Calls from several threads are safe.
@@ -25,7 +25,7 @@ class Catalog {
   Catalog& operator=(const Catalog&) = delete;
 
   /// All plug-ins in `filename` (a name to look for, or a path with a '/'); throws Error when it is
-  /// not found, does not load, or holds none.
+  /// not found, does not load, or has none.
   const std::vector<std::shared_ptr<const Plugin>>& library(const std::string& filename);
 
   /// Adds plug-ins that live in this process (a Python class) under a file name of their own.
@@ -37,7 +37,7 @@ class Catalog {
   /// The file name by which a plug-in's library was requested.
   std::string library_of(const Plugin& plugin);
 
-  /// File names of every library on the path that holds Angen plug-ins, sorted. Loads none of them.
+  /// File names of every library on the path that has Angen plug-ins, sorted. Loads none of them.
   std::vector<std::string> available();
 
  private:
@@ -52,8 +52,8 @@ std::string find_library(const std::string& filename);
 /// The plug-ins that a file of Python registers; throws Error with file and line.
 using ScriptLoader = std::vector<std::shared_ptr<const Plugin>> (*)(const std::string& file);
 
-/// Sets what loads files that end in `.py`. Python's module `angen` does; in a program that is not
-/// Python, the catalog loads libangen_script.so at the first such file, which starts Python.
+/// Sets the loader of files that end in `.py`. Python's module `angen` does; in a program that is
+/// not Python, the catalog loads libangen_script.so at the first such file, which starts Python.
 void set_script_loader(ScriptLoader loader);
 
 struct PluginDoc {

@@ -79,7 +79,7 @@ const Element* Params::take(const std::string& path, const std::string& type,
     const std::string twice = "<" + path + "> is given twice";
     if (!takes_first_) throw Error(found[1]->source, twice + ", one is enough");
     warnings_.push_back(
-        {Diagnostic::Severity::kWarning, found[1]->source, twice + "; the first holds"});
+        {Diagnostic::Severity::kWarning, found[1]->source, twice + "; the first one is used"});
   }
   return found.empty() ? nullptr : found[0];
 }
@@ -159,7 +159,7 @@ std::vector<std::vector<double>> Params::rows(const std::string& path, std::size
                                               const std::string& unit, const std::string& doc) {
   note(path, std::to_string(count) + " numbers, any number of times", "", unit, doc);
   std::vector<std::vector<double>> result;
-  const auto refused = [&](const Element& given, const std::string& what) {
+  const auto rejected = [&](const Element& given, const std::string& what) {
     return Error(given.source, "<" + path + "> has " + what);
   };
   for (const Element* given : all(path)) {
@@ -169,11 +169,11 @@ std::vector<std::vector<double>> Params::rows(const std::string& path, std::size
     while (words >> word) {
       const std::optional<double> value = parse_finite(word);
       if (!value) {
-        throw refused(*given, word.insert(0, 1, '"').append("\", must be a finite number"));
+        throw rejected(*given, word.insert(0, 1, '"').append("\", must be a finite number"));
       }
       const std::string problem = limit_problem(limit_of_unit(unit), *value);
       if (!problem.empty()) {
-        throw refused(*given, word.append("; ").append(problem));
+        throw rejected(*given, word.append("; ").append(problem));
       }
       row.push_back(*value);
     }

@@ -51,8 +51,8 @@ class Params {
   /// and <odometryRate>, where that is not 0) in Hz as a period in ns; 0 or none = the kind's.
   Nanoseconds update_period();
   bool has(const std::string& path) const;
-  /// From now on the first of a parameter that is given twice holds, with a warning, as in Gazebo;
-  /// otherwise that is an error.
+  /// From now on the first of a parameter that is given twice is used, with a warning, as in
+  /// Gazebo; otherwise that is an error.
   void take_first() { takes_first_ = true; }
 
   /// Reads <noise_stddev>, returns it, and gives that field of the sensor's readings such noise.

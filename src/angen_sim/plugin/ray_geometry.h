@@ -7,7 +7,7 @@
 
 namespace angen {
 
-/// The rays of a sensor in its own frame (x forward, z up): what draws or checks them reads this.
+/// The rays of a sensor in its own frame (x forward, z up), for code that draws or checks them.
 struct RayGeometry {
   int columns = 1;
   int rows = 1;

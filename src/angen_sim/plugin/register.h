@@ -19,7 +19,7 @@
   }
 
 /// A sensor class and its kind, with no Plugin subclass to write: ANGEN_REGISTER_SENSOR(Type, NAME,
-/// DOC), or ANGEN_REGISTER_SENSOR(Type, Kind(NAME, DOC).number(…)…). Stands in the class's
+/// DOC), or ANGEN_REGISTER_SENSOR(Type, Kind(NAME, DOC).number(…)…). Put it into the class's
 /// namespace.
 #define ANGEN_REGISTER_SENSOR(Type, ...)                                        \
   struct Type##Plugin : angen::Plugin {                                         \

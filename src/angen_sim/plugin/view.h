@@ -21,7 +21,7 @@
 
 namespace angen {
 
-/// Handles that Wiring gives at configuration; indices into what this instance requested.
+/// Handles that Wiring gives at configuration; indices into the requests of this instance.
 struct JointRef {
   int index = -1;
 };
@@ -177,7 +177,7 @@ class Wiring {
   virtual std::vector<std::string> collision_names() const = 0;  // of the sensor's link
   virtual ContactRef collision(const std::string& collision) = 0;  // in the sensor's link
   /// The visuals of that name ("" = all, also as LINK/VISUAL) that a collision has its surface
-  /// from; rays meet no others. Throws Error where a name has none.
+  /// from; rays hit no others. Throws Error where a name has none.
   virtual std::vector<SurfaceRef> surfaces(const std::string& visual) = 0;
 };
 
@@ -200,7 +200,7 @@ class Outputs {
   virtual void push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) = 0;
   /// Light level 0..1 and the flux in lm at level 1.
   virtual void light(LightRef light, double level, double luminous_flux) = 0;
-  /// Temperature (K) of a surface, as PIRs see it: from `now` it goes to `limit` exponentially,
+  /// Temperature (K) of a surface, as PIRs see it: from `now` it approaches `limit` exponentially,
   /// with a time constant in s (0 = it is there at once). Holds until it is set again.
   virtual void temperature(SurfaceRef surface, double now, double limit, double time_constant) = 0;
   /// Commands another device of this world, as a hand on it does. It is executed at the end of this

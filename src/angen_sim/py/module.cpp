@@ -254,7 +254,7 @@ void bind_world(pyb::module_& module) {
             }
             return all;
           },
-          "What is missing or wrong in the description of the home: ('guessed' or 'contradicting', "
+          "Missing and wrong parts in the description of the home: ('guessed' or 'contradicting', "
           "what).")
       .def_property_readonly("fingerprint", &World::fingerprint,
                              "a hash of every snapshot since the start or the last reset")

@@ -11,7 +11,7 @@
 namespace angen::py {
 
 /// All that sensors publish, as rows of a long table: a row for each field of a reading, without
-/// lists and images. What was published in ticks that were leapt over is in it too.
+/// lists and images. Readings published in ticks that were leapt over are in it too.
 class ReadingLog {
  public:
   /// A field of a sensor.

@@ -11,7 +11,7 @@ namespace {
 
 using Plugins = std::vector<std::shared_ptr<const Plugin>>;
 
-// A file that is being loaded, and what it has registered. One may load another.
+// A file that is being loaded, and its registered classes. One may load another.
 struct Loading {
   std::string file;
   Plugins plugins;
@@ -45,7 +45,7 @@ Plugins load_script(const std::string& file) {
   for (const Loading* each = loading; each != nullptr; each = each->outer) {
     if (each->file == file) {
       throw Error(file +
-                  " asks for itself while it is loaded; put what only a program does below "
+                  " requests itself while it is loaded; put statements of the program only below "
                   "if __name__ == '__main__':");
     }
   }

@@ -11,7 +11,7 @@ namespace angen::py {
 
 namespace {
 
-// Python objects may only be let go of with the GIL held, also from a thread that steps without it.
+// Python objects may only be released with the GIL held, also from a thread that steps without it.
 class Held {
  public:
   explicit Held(pyb::object object) : object_(std::move(object)) {}
@@ -61,11 +61,10 @@ class PythonSensor : public Sensor {
   }
   void aim(const View& view, RayBatch& batch) override {
     with_python([&] {
-      const pyb::object wanted = self_.get().attr("aim")(borrowed(view));
-      if (wanted.is_none()) return;
+      const pyb::object rays = self_.get().attr("aim")(borrowed(view));
+      if (rays.is_none()) return;
       // Rows of origin x y z, direction x y z, min and max range.
-      const auto rows =
-          pyb::cast<Eigen::Matrix<double, Eigen::Dynamic, 8, Eigen::RowMajor>>(wanted);
+      const auto rows = pyb::cast<Eigen::Matrix<double, Eigen::Dynamic, 8, Eigen::RowMajor>>(rays);
       for (Eigen::Index i = 0; i < rows.rows(); ++i) {
         batch.push_back({rows.block<1, 3>(i, 0).transpose(),
                          rows.block<1, 3>(i, 3).transpose().normalized(), rows(i, 6), rows(i, 7)});

@@ -29,7 +29,7 @@ class World {
   World(const std::string& text, const std::string& name, std::uint64_t seed,
         std::shared_ptr<Catalog> catalog, bool allow_paths);
 
-  /// Goes on with a simulation that has run already, of a world whose models are found in `models`.
+  /// Continues a simulation that has run already, of a world whose models are found in `models`.
   World(std::unique_ptr<sim::Simulation> simulation, const std::string& models);
 
   void step(std::uint64_t ticks);

@@ -116,7 +116,7 @@ class Scene {
 
   /// For many rays from one point (m, world) to one shape, of which none hits anything nearer than
   /// `near` (m). A shape that reaches less than 2 mm into the other's box, as a floor does with
-  /// what stands on it, counts as beside it. Requires commit().
+  /// things on it, counts as beside it. Requires commit().
   Shaft shaft(const Vec3& from, double near, std::uint32_t shape_index) const;
 
   /// The nearest hit on one shape; ignores all others.

@@ -18,7 +18,7 @@ namespace {
 constexpr unsigned kWriteFlags = rapidjson::kWriteNanAndInfFlag;
 constexpr unsigned kParseFlags = rapidjson::kParseNumbersAsStringsFlag |
                                  rapidjson::kParseNanAndInfFlag | rapidjson::kParseIterativeFlag;
-constexpr std::size_t kSumEnd = 26;  // bytes of what ends_with() gives
+constexpr std::size_t kSumEnd = 26;  // bytes of the text of ends_with()
 
 std::string ends_with(std::uint64_t sum) { return ",\"sum\":\"" + fingerprint_text(sum) + "\"}"; }
 

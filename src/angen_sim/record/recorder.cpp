@@ -41,7 +41,7 @@ Recorder::Recorder(std::string file, const Origin& origin, sim::Simulation& simu
   if (file_ < 0) {
     const std::string why =
         errno == EEXIST ? "exists already; record into another file" : std::strerror(errno);
-    throw Error({path_, 0}, "cannot be recorded into: " + why);
+    throw Error({path_, 0}, "cannot be written: " + why);
   }
   LogHeader header{this_version(), this_host(),   simulation.seed(),  simulation.snapshot()->step,
                    origin.world,   origin.models, hashed(origin.sdf), origin.sdf};
@@ -136,8 +136,8 @@ void Recorder::write(LineWriter& line) {
     written_ += text.size();
     return;
   }
-  error_ = path_ + ": cannot be written any more: " + std::strerror(errno) +
-           "; the actions before that can be replayed";
+  error_ = path_ + ": can no longer be written: " + std::strerror(errno) +
+           "; the earlier actions can be replayed";
   if (ftruncate(file_, static_cast<off_t>(written_)) != 0) error_ += ", but for its last line";
 }
 

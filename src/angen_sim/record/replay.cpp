@@ -184,8 +184,8 @@ Replay::Located Replay::located(const std::string& sdf, const std::vector<LogFil
     if (recorded->hash != file_hash(beside)) {
       throw Error({log_.path, line},
                   "needs the file " + used.uri + " with the hash " + recorded->hash + "; " +
-                      (used.path.empty() ? "there is none" : used.path + " is another") +
-                      ": put the one that was used beside the log, as " + beside);
+                      (used.path.empty() ? "it is missing" : used.path + " differs from it") +
+                      ": put the file that was used beside the log, as " + beside);
     }
     moved.push_back({used.uri, beside});
     found.paths.files.push_back(beside);

@@ -64,7 +64,7 @@ void Inertia::read(const View& view, Reading& reading) {
   const Pose pose = view.pose();
   const Vec3 velocity =
       link.linear_velocity + link.angular_velocity.cross(pose.position - link.pose.position);
-  // While it slept or nobody subscribed it had no samples: then this one counts as rest.
+  // While it slept or had no subscribers it had no samples: then this one counts as rest.
   const Nanoseconds longest = kSecond;
   const bool follows = time_ >= 0 && view.time() > time_ && view.time() - time_ <= longest;
   Vec3 acceleration = Vec3::Zero();

@@ -30,7 +30,7 @@ Settings read_settings(Params& params) {
   params.flag("publishWheelTF", false, "not used: robot_state_publisher has them");
   params.flag("publishOdomTF", true, "the transform from odometry to base is published");
   params.flag("publishTf", true, "odometry is published");
-  params.text("legacyMode", "", "not used: it exchanged the wheels of old robots");
+  params.text("legacyMode", "", "not used: it swapped the wheels for older robots");
   return s;
 }
 

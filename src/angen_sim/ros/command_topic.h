@@ -13,7 +13,7 @@
 /// The topics on which devices take messages of their own, as Gazebo's plug-ins do.
 namespace angen::node {
 
-/// Subscribes to a topic; `take` gets each message as a command. Throws what roscpp throws.
+/// Subscribes to a topic; `take` gets each message as a command. May throw exceptions of roscpp.
 using Subscribe = std::function<ros::Subscriber(ros::NodeHandle& node, const std::string& topic,
                                                 const std::function<void(Command)>& take)>;
 

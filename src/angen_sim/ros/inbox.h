@@ -27,8 +27,8 @@ class Inbox {
 
   /// Queues an action and waits for its outcome; of one that changes something, until the topics
   /// show it too. Gives up when simulated time has not advanced for `timeout` of wall time, when
-  /// `is_lost` says that the caller has gone, or when the node ends. An action that is given up is
-  /// withdrawn; one that has begun takes effect all the same, and the outcome says so.
+  /// `is_lost` says that the caller has disconnected, or when the node ends. An action that is
+  /// given up is withdrawn; one that has begun takes effect all the same, and the outcome says so.
   sim::Outcome call(sim::Action action, const std::function<bool()>& is_lost = {});
 
   /// The number of actions that post() has queued.

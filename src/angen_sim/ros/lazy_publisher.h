@@ -15,7 +15,7 @@
 namespace angen::node {
 
 /// To advertise or subscribe a topic that may go: a handle keeps some 300 bytes of each topic that
-/// it was ever used for, as long as it lives.
+/// it was used for, as long as it lives.
 inline ros::NodeHandle handle_for_one(const ros::NodeHandle& node) { return node; }
 
 /// Messages that publishers of all kinds have sent since the start; each counts once, however many
@@ -57,7 +57,7 @@ class LazyPublisher {
   /// Grows with each new subscriber.
   std::uint64_t subscriptions() const { return listeners_->joined.load(std::memory_order_relaxed); }
 
-  /// Publishes what `make` returns; it is not called while there are no subscribers.
+  /// Publishes the message of `make`, which is not called while there are no subscribers.
   template <class Make>
   void publish(Make&& make) const {
     if (!has_subscribers()) return;
@@ -111,7 +111,7 @@ class LatchedLazyPublisher {
     publisher_ = handle_for_one(node).advertise(options);
   }
 
-  /// From now on the message is what `make` returns; it may be called by any thread until the next
+  /// From now on `make` makes the message; it may be called by any thread until the next
   /// call of this. Present subscribers get it too if `is_news`.
   void set(Make make, bool is_news = true) {
     const std::lock_guard<std::mutex> lock(state_->mutex);
@@ -125,7 +125,7 @@ class LatchedLazyPublisher {
     if (state_->make) send(state_->make);
   }
 
-  /// Present subscribers get what `make` returns, where newcomers get all.
+  /// Present subscribers get the message of `make`, new ones get all.
   template <class Part>
   void publish(Part&& make) {
     const std::lock_guard<std::mutex> lock(state_->mutex);

@@ -30,7 +30,7 @@ struct Format {
   bool leaf_alone = false;      // it is the topic, below <robotNamespace>; not the end of one
   std::string topic;            // of all sensors: /tf
   std::string off_switch;       // a parameter that is false where it is not published
-  Open open;                    // a message for each reading; throws what roscpp throws
+  Open open;                    // a message for each reading; may throw exceptions of roscpp
   Open latched;                 // the same for states, the last of them latched
   std::string array_type;       // angen_msgs/PirArray, or empty: there is none
   Open array;                   // one message for all readings between two flushes

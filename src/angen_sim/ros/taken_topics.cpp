@@ -16,7 +16,7 @@
 namespace angen::node {
 namespace {
 
-/// Empty where the library does not load or holds no sensor: the world says so when it is built.
+/// Empty where the library does not load or has no sensor: the world reports it when it is built.
 std::string kind_of(const std::string& library, Catalog& catalog) {
   try {
     for (const auto& plugin : catalog.library(library)) {

@@ -13,7 +13,7 @@
 namespace angen::node {
 
 /// /angen/scene, latched, and /angen/scene_changes: poses and light levels for each new
-/// subscriber, then what changes, at most 20 times a second of wall time. Nothing is made without
+/// subscriber, then changes, at most 20 times a second of wall time. Nothing is made without
 /// a subscriber.
 class SceneTopics {
  public:

@@ -19,7 +19,7 @@ std::string problem_of_python() {
 }  // namespace
 
 /// Starts the interpreter, which runs until the process ends, and imports `angen`, whose import
-/// says how scripts are loaded. Signals stay the program's. `problem` says what went wrong.
+/// says how scripts are loaded. Signals stay the program's. `problem` is the error.
 extern "C" void angen_start_python(std::string& problem) {
   PyConfig config;
   PyConfig_InitPythonConfig(&config);

@@ -144,7 +144,7 @@ desc::Model describe_actor(const Element& given, Session& session) {
   }
   body.inertial.moment *= mass / body.inertial.mass;
   body.inertial.mass = mass;
-  // Rays meet one capsule, which is like the first visual: its temperature is the whole body's.
+  // Rays hit one capsule, which is like the first visual: its temperature is the whole body's.
   const double temperature =
       mean_temperature(given_temperature(plugin, "skin_temperature", kSkin),
                        given_temperature(plugin, "clothing_temperature", kClothed));

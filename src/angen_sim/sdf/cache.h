@@ -24,11 +24,11 @@ class Cache {
   /// Leaves a world that was read from `sources` for the next recall().
   void keep(const desc::World& world, const Sources& sources) const;
 
-  /// The file that holds it; empty where there is no cache.
+  /// The cache file; empty where there is no cache.
   const std::string& file() const { return file_; }
 
  private:
-  std::string key_;  // what decides where a load searches, and which program does
+  std::string key_;  // the search paths of a load, and the program's version
   std::string file_;
 };
 

@@ -207,7 +207,7 @@ bool is_static(const Element& model) {
          });
 }
 
-// One range for each ray is what there is.
+// There is one range for each ray.
 void note_resolution(const Reader& axis) {
   const Element* given = axis ? axis.element().child("resolution") : nullptr;
   const bool one = given != nullptr && parse_finite(given->text) == 1.0;

@@ -77,7 +77,7 @@ Element& included_root(Element& sdf) {
   }
   if (found == nullptr) {
     throw Error(sdf.source,
-                "an included file holds a <model>, an <actor> or a <light>; this has "
+                "an included file needs a <model>, an <actor> or a <light>; this has "
                 "none");
   }
   return *found;
@@ -152,7 +152,7 @@ bool replace_typographic_characters(Element& element, Session& session) {
     const std::optional<std::string> plain = plain_numbers(text);
     if (!plain) return;
     const std::string name = find_typographic(text)->name;
-    session.warn(element.source, what + " holds the typographic character " + name +
+    session.warn(element.source, what + " contains the typographic character " + name +
                                      "; it is read as '" + *plain + "'; write that");
     text = *plain;
     changed = true;

@@ -11,7 +11,7 @@ namespace angen::load {
 
 /// The frames of a <model>, nested ones included, or of a <world>, and their poses, by SDF
 /// 1.9's rules: <pose relative_to>, <frame attached_to>, placement_frame, canonical_link. Each is
-/// worked out once, so a model costs what its size is.
+/// computed once, so the cost of a model is linear in its size.
 class Frames {
  public:
   /// `root` must outlive it. Names must have been checked.
@@ -47,7 +47,7 @@ class Frames {
   void add_parts(const Element& model, const std::string& scope);
   void add(const std::string& name, const Element& element, const std::string& scope,
            const std::string& base, const std::string& attached);
-  /// The key of what `name` means in a scope; throws Error at `what`.
+  /// The key of the frame that `name` means in a scope; throws Error at `what`.
   std::string key(const std::string& name, const std::string& scope, const Element& what) const;
   std::string canonical_link(const Element& model, const std::string& scope) const;
 

@@ -151,7 +151,7 @@ const Element& shape_in(const Reader& part) {
   }
   if (geometry->children.empty()) {
     throw Error(geometry->source,
-                std::string("<geometry> holds no shape; known shapes are ") + kShapes);
+                std::string("<geometry> has no shape; known shapes are ") + kShapes);
   }
   return geometry->children[0];
 }

@@ -32,7 +32,7 @@ std::string known_word(const std::string& word, const std::vector<std::string>& 
   throw Error(at.source, what + " is '" + printable(word) + "'; known are " + join_names(known));
 }
 
-// Names of a home are texts for people: they may hold what names in topics may not.
+// Names of a home are texts for people: they may contain characters that topics may not.
 std::string checked_label(std::string name, const Element& element) {
   std::string problem = label_problem(name);
   if (problem.empty() && !name.empty() && (name.front() == ' ' || name.back() == ' ')) {
@@ -64,7 +64,7 @@ Polygon polygon_of(const Element& element, const std::string& room) {
   const std::string what = "<" + element.name + "> of room '" + printable(room) + "'";
   const Numbers found = numbers_in(element.text);
   if (!found.bad.empty()) {
-    throw Error(element.source, what + " holds '" + printable(found.bad) +
+    throw Error(element.source, what + " contains '" + printable(found.bad) +
                                     "', which is not a number; write x y of each corner");
   }
   const std::size_t count = found.values.size();
@@ -92,7 +92,7 @@ Polygon polygon_of(const Element& element, const std::string& room) {
     };
     throw Error(element.source, what +
                                     (edges ? " crosses itself: its edge " + edge((*edges)[0]) +
-                                                 " meets the edge " + edge((*edges)[1])
+                                                 " intersects the edge " + edge((*edges)[1])
                                            : " has two corners") +
                                     "; give its corners once, in order");
   }

@@ -68,7 +68,7 @@ desc::Inertial inertial_of(const Reader& link, bool never_moves, Session& sessio
   try {
     return read_inertial(link, never_moves, session);
   } catch (const Error& error) {
-    session.warn_or_throw(error);  // numbers that are none, of what never moves
+    session.warn_or_throw(error);  // bad numbers do not matter for a static link
     return {};
   }
 }

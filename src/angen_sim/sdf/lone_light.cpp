@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kLightText = "(text)";
 constexpr int kLightVersion = 106;  // of an element without <sdf> around it
 
-// Null where the text holds something else.
+// Null where the text is something else.
 const Element* light_in(const Element& root) {
   if (root.name == "light") return &root;
   const bool lone =

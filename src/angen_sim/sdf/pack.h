@@ -10,8 +10,8 @@ namespace angen::load {
 /// are shared stay so.
 std::string pack(const desc::World& world);
 
-/// Throws some std::exception for what pack() cannot have made, and takes memory in proportion to
-/// the bytes. That they are whole must be known before.
+/// Throws some std::exception for bytes that pack() cannot have made, and takes memory in
+/// proportion to the bytes. That they are whole must be known before.
 desc::World unpack(const std::string& bytes);
 
 }  // namespace angen::load

@@ -73,7 +73,7 @@ class Reader {
   void note(std::initializer_list<const char*> keys) const;
   /// Others may read any of its attributes and children.
   void leave_to_others() const;
-  /// Checks what it reads, and notes it as without effect.
+  /// Checks the element, and notes it as without effect.
   Reader unused() const;
 
  private:

@@ -131,9 +131,9 @@ Source named_in(const std::string& message, const Element& world) {
 
 // It gets a printed tree and not the file: its Element::LineNumber and FilePath are right for
 // elements of a file, included files too, but missing for elements that it does not know (all of
-// a plug-in's parameters), for an include's pose and for defaults, and 0 for what an upgrade from
-// an older version moves. Messages with file and line need a tree of our own; see print_xml's
-// lines.
+// a plug-in's parameters), for an include's pose and for defaults, and 0 for elements that an
+// upgrade from an older version moves. Messages with file and line need a tree of our own; see
+// print_xml's lines.
 void check_piece(const Element& world, Session& session) {
   Element document;
   document.name = "sdf";

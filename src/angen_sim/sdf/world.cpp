@@ -155,8 +155,7 @@ const Element& only_world(const Element& sdf) {
     if (found != nullptr) throw Error(child.source, "a second <world> in one file; keep one");
     found = &child;
   }
-  if (found == nullptr)
-    throw Error(sdf.source, "the file holds no <world>; a world file needs one");
+  if (found == nullptr) throw Error(sdf.source, "the file has no <world>; a world file needs one");
   return *found;
 }
 

@@ -14,7 +14,7 @@ void append(std::vector<double>& flat, const Vec3& v) {
   flat.insert(flat.end(), {v.x(), v.y(), v.z()});
 }
 
-/// Contact pairs as the flat lists that a reading holds.
+/// Contact pairs as the flat lists of a reading.
 struct Lists {
   std::vector<std::string> collision1, collision2;
   std::vector<double> counts, positions, normals, depths, forces;

@@ -42,9 +42,9 @@ void Proximity::configure(Params& params, Wiring&) {
 void Proximity::read(const View&, Hits hits, Rng&, Reading& reading) {
   const auto nearest = std::min_element(
       hits.begin(), hits.end(), [](const auto& a, const auto& b) { return a.range < b.range; });
-  const bool meets = nearest != hits.end() && nearest->hit();
-  reading.set("range", meets ? nearest->range : std::numeric_limits<double>::infinity());
-  reading.set("near", meets);
+  const bool is_near = nearest != hits.end() && nearest->hit();
+  reading.set("range", is_near ? nearest->range : std::numeric_limits<double>::infinity());
+  reading.set("near", is_near);
   reading.set("ranges", fan_.measure(hits));
   reading.set("field_of_view", field_of_view_);
   reading.set("min_range", fan_.min);

@@ -109,8 +109,8 @@ class Building {
 
   /// Grows with every change of the structure.
   std::uint64_t revision() const { return revision_; }
-  /// A new Structure; also numbers every model's parts in it. It shares what has kept its number
-  /// with the last one: the models before the first that was renumbered, and their parts.
+  /// A new Structure; also numbers every model's parts in it. It shares the models that kept their
+  /// numbers with the last one: those before the first that was renumbered, and their parts.
   std::shared_ptr<const Structure> structure();
   /// The first model whose number, or whose parts' numbers, structure() will change.
   std::size_t renumbered_from() const { return renumbered_from_; }

@@ -90,7 +90,7 @@ class DeviceMaker {
       lamp.own_light = index;
       return lamp;
     }
-    throw Error(light.source, described.filename + " holds no " + described.name);
+    throw Error(light.source, described.filename + " has no " + described.name);
   }
 
   // A door without its plug-in would swing freely, and no command would reach it; the

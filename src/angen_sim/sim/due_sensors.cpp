@@ -14,7 +14,7 @@ bool light_unchanged(const Engines& engines, const SensorInstance& sensor) {
   return !sensor.light->region.changed_since(sensor.light->sampled);
 }
 
-/// Whether the temperature of a surface has changed that its rays may meet.
+/// Whether the temperature of a surface has changed that its rays may hit.
 bool heat_changed(const Engines& engines, const SensorInstance& sensor) {
   const MoverIndex::Moment seen = sensor.seen;
   if (sensor.near == nullptr) return engines.surfaces.changed_since(seen);

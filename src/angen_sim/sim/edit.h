@@ -8,7 +8,7 @@
 #include "core/time.h"
 #include "desc/world.h"
 
-/// Changes of what exists, from outside: state, forces, properties, lights. Entities have their
+/// Changes of models from outside: state, forces, properties, lights. Entities have their
 /// full names (entities.h); a frame is one of them, or "" for the world.
 namespace angen::sim {
 

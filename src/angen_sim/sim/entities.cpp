@@ -15,7 +15,7 @@ struct Parted {
   std::string rest;  // after "model::"
 };
 
-// A model's name holds no "::".
+// A model's name has no "::".
 Parted part(const Building& building, const std::string& name) {
   const std::size_t split = name.find("::");
   const std::string model = name.substr(0, split);

@@ -14,7 +14,7 @@ namespace angen::sim {
 namespace {
 
 constexpr double kForeverSeconds = 1e9;
-constexpr double kMost = 1e6;  // false alarms a day
+constexpr double kMaxAlarms = 1e6;  // false ones a day
 
 /// The numbers that a kind of fault takes, those in brackets may be missing.
 struct Form {
@@ -87,7 +87,7 @@ Fault made_of(Fault::Kind kind, const Numbers& numbers) {
   Vec3 turn = Vec3::Zero();
   for (const auto& [key, text] : numbers) {
     if (key == "share") fault.share = number(key, text, 0.0, 1.0);
-    if (key == "per_day") fault.a_day = number(key, text, 0.0, kMost);
+    if (key == "per_day") fault.a_day = number(key, text, 0.0, kMaxAlarms);
     if (key == "seconds_per_day") fault.a_day = number(key, text, -1e4, 1e4);
     if (key == "from") fault.from = seconds(key, text);
     if (key == "lasts") fault.lasts = std::max<Nanoseconds>(seconds(key, text), 1);

@@ -8,7 +8,7 @@
 
 namespace angen::sim {
 
-/// What goes wrong with a sensor, or on the way of what it sends. Times count from when the fault
+/// A fault of a sensor, or of the transmission of its readings. Times count from when the fault
 /// was given.
 struct Fault {
   enum class Kind {
@@ -23,7 +23,7 @@ struct Fault {
   };
 
   Kind kind = Kind::kDropout;
-  double share = 0.0;  // of what it sends
+  double share = 0.0;  // of its messages
   double a_day = 0.0;  // false alarms, or seconds that its clock gains
   Nanoseconds from = 0;
   Nanoseconds lasts = 0;

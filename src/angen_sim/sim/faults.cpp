@@ -38,7 +38,7 @@ std::string in_seconds(Nanoseconds time) {
 }
 
 /// Names of its events; of one without, "reading" where that has news.
-std::string told(const std::vector<Event>& events, bool is_news) {
+std::string events_text(const std::vector<Event>& events, bool is_news) {
   std::string names;
   for (const Event& event : events) names += (names.empty() ? "" : ", ") + event.event;
   return names.empty() && is_news ? "reading" : names;
@@ -46,7 +46,7 @@ std::string told(const std::vector<Event>& events, bool is_news) {
 
 }  // namespace
 
-/// How many it has been given: a sensor that raises no alarms has no false ones.
+/// The number of faults that it takes: a sensor that raises no alarms has no false ones.
 std::size_t Faults::add(const SensorEntry& entry, const std::vector<Fault>& faults,
                         Nanoseconds now) {
   std::size_t given = 0;
@@ -191,7 +191,7 @@ void Faults::pass(Snapshot& made) {
   notes_.clear();
 }
 
-/// What arrives now.
+/// The messages that arrive now.
 std::vector<Faults::Message> Faults::messages(Channel& channel, Message message,
                                               const Snapshot& now) {
   std::vector<Message> found;
@@ -227,7 +227,7 @@ bool Faults::passes(Active& active, Channel& channel, Message& message, const Sn
   const bool inside = age >= 0 && age < fault.lasts;
   Rng rng(seed_, active.key, now.tick);
   const bool flagged = alarm_of(structure_->sensors[channel.index]) != nullptr;
-  const std::string what = told(message.events, message.sent && !flagged);
+  const std::string what = events_text(message.events, message.sent && !flagged);
   const auto say = [&](const std::string& done) {
     if (!what.empty()) note(channel, active, now.time, what + " " + done);
   };

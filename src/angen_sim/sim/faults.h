@@ -13,9 +13,9 @@
 
 namespace angen::sim {
 
-/// The way that readings and events of sensors take into a snapshot, and what goes wrong on it.
-/// Sensors, devices and the simulation itself know nothing of it: a snapshot alone is changed. What
-/// a fault has done is an event of the kind "fault".
+/// The transmission of readings and events of sensors into a snapshot, with its faults.
+/// Sensors, devices and the simulation itself are not affected: only the snapshot is changed. The
+/// effect of a fault is an event of the kind "fault".
 class Faults {
  public:
   explicit Faults(std::uint64_t seed) : seed_(seed) {}
@@ -28,7 +28,7 @@ class Faults {
   /// Back to those that SDF names.
   void reset();
 
-  /// Changes what a snapshot shows of sensors with faults.
+  /// Changes the readings of sensors with faults in a snapshot.
   void pass(Snapshot& made);
 
   /// A sensor that is knocked out of its place.

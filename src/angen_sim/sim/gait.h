@@ -14,7 +14,7 @@ constexpr int kNoLimb = -1;
 /// The limb that a visual of a person is a part of, by its name; kNoLimb for head and trunk.
 int limb_of(const std::string& visual);
 
-/// How far the limbs of a walking person have swung. A person who stands has none that swings.
+/// The swing of the limbs of a walking person. Those of a standing person do not swing.
 class Gait {
  public:
   /// The body is at `pose` now, at `speed` m/s.
@@ -22,7 +22,7 @@ class Gait {
 
   bool swings() const { return swing_ > 0.0; }
 
-  /// The motion of a limb out of its place in the body that stands, in the body's frame.
+  /// The motion of a limb from its place in the standing body, in the body's frame.
   Pose limb(int number) const;
 
  private:

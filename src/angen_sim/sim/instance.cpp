@@ -179,7 +179,7 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
       instance.plugin = plugin;
       if (instance.sensor) break;
     }
-    if (!instance.sensor) throw Error(described.plugin + " holds no sensor");
+    if (!instance.sensor) throw Error(described.plugin + " has no sensor");
     Params& params = *read;
     instance.noisy = dynamic_cast<NoisySensor*>(instance.sensor.get());
     instance.kind = instance.plugin->kind().name;
@@ -195,7 +195,7 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
       instance.topic = params.text("bumperTopicName", "", "the same, in a contact sensor");
     }
     instance.frame = params.text("frameName", "", "frame of its header, instead of its name");
-    instance.faults = parse_faults(params.text("fault", "", "what goes wrong with it"));
+    instance.faults = parse_faults(params.text("fault", "", "a simulated fault"));
     if (!instance.plugin->kind().ray_color().empty()) {
       read_ray_color(params, instance.plugin->kind());
     }

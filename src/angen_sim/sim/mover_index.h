@@ -13,8 +13,8 @@ namespace angen::sim {
 
 /// Which moving shapes are near each watched region (a box in which a sensor's rays run), and which
 /// regions changed since when. A mover is indexed by a box somewhat larger than its own and indexed
-/// again only when it has left that box, so a tick costs what moved in it, whatever the number of
-/// regions.
+/// again only when it has left that box, so the cost of a tick depends on the movers in it, not on
+/// the number of regions.
 class MoverIndex {
  public:
   using Box = Eigen::AlignedBox3d;
@@ -72,7 +72,7 @@ class MoverIndex {
   }
 
   /// A moving shape came or moved; its box (m) is infinite for a plane, empty where it cannot be
-  /// met.
+  /// hit.
   void put(rays::ShapeId mover, const Box& box);
   void remove(rays::ShapeId mover);
   /// A static shape of this box was added or is removed.

@@ -178,7 +178,7 @@ struct Simulation::Impl {
 
   void note_crowd() {
     next.events.push_back({next.time, "world", "world", "crowded",
-                           "more touches than can be solved: bodies that overlap go through each "
+                           "more contacts than can be solved: overlapping bodies pass through each "
                            "other until they are apart"});
   }
 

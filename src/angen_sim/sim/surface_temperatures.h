@@ -36,7 +36,7 @@ class SurfaceTemperatures {
   bool set_since(Moment since) const { return set_ >= since; }
   /// The same of those that are in a box.
   bool set_since(Moment since, const Eigen::AlignedBox3d& within) const;
-  /// How often one was set.
+  /// The number of calls that set one.
   std::uint64_t times_set() const { return times_set_; }
 
  private:

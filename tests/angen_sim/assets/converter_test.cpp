@@ -211,7 +211,7 @@ TEST_F(Converter, ThatEndsOrAnswersBadlyIsAnError) {
   EXPECT_NE(complaint_of(program("exit 127")).find("does not start"), std::string::npos);
 }
 
-TEST_F(Converter, AnAnswerWithCornersThatAreNotThereIsRefused) {
+TEST_F(Converter, AnAnswerWithCornersThatAreNotThereIsRejected) {
   const std::string answer =
       convert_mesh(mesh_program(), request_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "obj"));
   EXPECT_EQ(decode_mesh(answer).triangles.triangles.size(), 1U);
@@ -226,7 +226,7 @@ TEST_F(Converter, AnAnswerWithCornersThatAreNotThereIsRefused) {
   EXPECT_THROW(decode_mesh(answer + "x"), Error);
 }
 
-TEST_F(Converter, PicturesThatAreDamagedOrTooLargeAreRefused) {
+TEST_F(Converter, PicturesThatAreDamagedOrTooLargeAreRejected) {
   const auto complaint = [&](const std::string& bytes) -> std::string {
     try {
       decode_texture(convert_texture(mesh_program(), bytes));

@@ -20,7 +20,7 @@ TEST(Name, OfAnotherFormSaysWhatIsWrong) {
       {std::string(kMaxNameBytes + 1, 'n'), "has 256 bytes"},
       {"a::b", "'::'"},
       {"a/b", "'/'"},
-      {"a\nb", "'a?b' holds a control character"},
+      {"a\nb", "'a?b' contains a control character"},
       {"a\x7f", "control character"},
       {"a\xc2\x85", "control character"},
       {std::string("a\0b", 3), "control character"},
@@ -44,12 +44,13 @@ TEST(Label, HasTheRuleWithoutWhatSeparatesTopics) {
   }
 }
 
-TEST(Name, IsRefusedWithWhatBearsItAndItsPlace) {
+TEST(Name, IsRejectedWithWhatBearsItAndItsPlace) {
   try {
     check_name("a/b", "<link>", {"a.world", 3});
     FAIL() << "no error";
   } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()).rfind("a.world:3: <link>: the name 'a/b' holds '/'", 0), 0U)
+    EXPECT_EQ(std::string(error.what()).rfind("a.world:3: <link>: the name 'a/b' contains '/'", 0),
+              0U)
         << error.what();
   }
 }

@@ -54,7 +54,7 @@ TEST_F(PrivateFile, MakesFoldersForThisUserAlone) {
   EXPECT_EQ(fs::status(made).permissions(), fs::perms::owner_all);
 }
 
-TEST_F(PrivateFile, RefusesALinkOrAFileInPlaceOfAFolder) {
+TEST_F(PrivateFile, RejectsALinkOrAFileInPlaceOfAFolder) {
   fs::create_directory(folder / "theirs");
   fs::create_directory_symlink(folder / "theirs", folder / "link");
   EXPECT_THROW(make_private_folder((folder / "link").string()), Error);

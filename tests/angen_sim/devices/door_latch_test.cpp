@@ -1,4 +1,4 @@
-// A door's latch: what it holds, what opens it, and what breaks it.
+// A door's latch: its force, its release, and its break.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -129,7 +129,7 @@ bool bump_opens(const char* latch_torque, double speed, double torque) {
   Rig& leaf = add_door(bench, {}, {{"latch_torque", latch_torque}});
   bench.run(0.2);
   const physics::LinkId body = bench.world.links(bench.add(person({kArm, 0.4, 0.001})))[0];
-  for (int i = 0; i < 50; ++i) {  // it has its speed when it meets the leaf
+  for (int i = 0; i < 50; ++i) {  // it has its speed when it hits the leaf
     bench.world.drive(body, {0, -speed, 0}, 0.0, 1e4);
     bench.tick();
   }

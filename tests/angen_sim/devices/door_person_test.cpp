@@ -15,12 +15,12 @@ constexpr double kStands = 150.0;        // N, with which a person holds their p
 
 struct Hit {
   double worst = 0.0;   // N
-  double speed = 0.0;   // m/s, of the leaf and the person towards each other before they met
-  double spring = 0.0;  // N: speed times sqrt(k m), m the reduced mass where they met
+  double speed = 0.0;   // m/s, of the leaf and the person towards each other before the contact
+  double spring = 0.0;  // N: speed times sqrt(k m), m the reduced mass at the contact
   double back = 0.0;    // m/s, the fastest that they parted
 };
 
-/// Runs until half a second after the leaf and the person have met. `walks`: the person's velocity.
+/// Runs until half a second after the leaf and the person touch. `walks`: the person's velocity.
 Hit meet(Bench& bench, Rig& door, const Vec3& at, const Vec3& walks) {
   const physics::LinkId body = bench.world.links(bench.add(person(at)))[0];
   const double inertia = door.limits(door.joint("hinge")).inertia;
@@ -64,8 +64,8 @@ TEST(Door, MeetsAPersonAsASpringDoes) {
     Vec3 at, walks;
   };
   for (const Case& with : {
-           Case{"closes onto one who stands", -1.57, "Close", {0.5, -0.55, 0.001}, {0, 0, 0}},
-           Case{"opens onto one who stands", 0.0, "Open", {0.6, -0.55, 0.001}, {0, 0, 0}},
+           Case{"closes onto a standing person", -1.57, "Close", {0.5, -0.55, 0.001}, {0, 0, 0}},
+           Case{"opens onto a standing person", 0.0, "Open", {0.6, -0.55, 0.001}, {0, 0, 0}},
            Case{"closes onto one who walks", -1.57, "Close", {0.85, -0.6, 0.001}, {-0.7, 0, 0}},
            Case{"opens onto one who walks", 0.0, "Open", {0.6, -0.9, 0.001}, {0, 0.7, 0}},
        }) {

@@ -29,7 +29,7 @@ class Bench {
   Rig& add(const desc::Model& model, const std::string& library, const std::string& kind,
            const Parameters& parameters = {});
 
-  /// Makes rays meet a model.
+  /// Makes rays hit a model.
   void show(const desc::Model& model, physics::ModelId id);
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
             rays::Mobilities among);

@@ -19,7 +19,7 @@ std::string with_mesh(const std::string& uri) {
              "</uri></mesh></geometry></visual></link></model>");
 }
 
-/// A folder `home` with readable files, and beside it `secret` with forbidden ones.
+/// A folder `home` with readable files, and beside it `secret` with files that are not allowed.
 class Allowed : public testing::Test {
  protected:
   Allowed() {
@@ -52,9 +52,9 @@ class Allowed : public testing::Test {
   Folder folder_;
 };
 
-void expect_refused(const std::string& error, const std::string& place) {
+void expect_rejected(const std::string& error, const std::string& place) {
   EXPECT_EQ(error.find(place), 0U) << error;
-  EXPECT_NE(error.find("lies neither on the model or resource path"), std::string::npos) << error;
+  EXPECT_NE(error.find("is neither on the model or resource path"), std::string::npos) << error;
   EXPECT_NE(error.find("allow_paths:=true"), std::string::npos) << error;
 }
 
@@ -70,7 +70,8 @@ TEST_F(Allowed, TheModelsOwnFilesByItsAddress) {
   folder_.write("home/a/meshes/s.stl", kStl);
   EXPECT_EQ(complaint("a", "model://a/meshes/s.stl"), "");
   EXPECT_NE(complaint("b", "model://a/meshes/s.stl").find("is not found"), std::string::npos);
-  expect_refused(complaint("a", "model://a/../../secret/s.stl"), home() + "/a/model.sdf:2: mesh '");
+  expect_rejected(complaint("a", "model://a/../../secret/s.stl"),
+                  home() + "/a/model.sdf:2: mesh '");
   complaint("a", "model://a/meshes/s.stl");
   const desc::Model read = model(home() + "/a/model.sdf", "m", {}, {});
   EXPECT_NE(read.expanded_xml.find("file://" + home() + "/a/meshes/s.stl"), std::string::npos);
@@ -83,16 +84,16 @@ TEST_F(Allowed, NothingElseByDotsOrAFullPath) {
         std::string("meshes/../../../secret/s.stl"), secret("s.stl"),
         "file://" + secret("s.stl")}) {
     fs::create_directories(home() + "/a/meshes");
-    expect_refused(complaint("a", uri), place + uri + "' is " + secret("s.stl"));
+    expect_rejected(complaint("a", uri), place + uri + "' is " + secret("s.stl"));
   }
-  expect_refused(complaint("a", "/etc/passwd"), place);
+  expect_rejected(complaint("a", "/etc/passwd"), place);
 }
 
 TEST_F(Allowed, NothingByAModelAddress) {
   const SearchPaths paths{{home()}, {}};
   for (const char* uri : {"model://a/../../secret/s.stl", "model://../secret/s.stl",
                           "model:///../secret/s.stl", "model:///a/../../secret/s.stl"}) {
-    expect_refused(complaint("a", uri, paths), home() + "/a/model.sdf:2: mesh '" + uri);
+    expect_rejected(complaint("a", uri, paths), home() + "/a/model.sdf:2: mesh '" + uri);
   }
   const std::string error = complaint("a", "model://" + secret("s.stl"), paths);
   EXPECT_EQ(error.find(home() + "/a/model.sdf:2: mesh"), 0U) << error;
@@ -113,7 +114,7 @@ TEST_F(Allowed, LinksOutOfAModelAreNotFollowed) {
   link("a/folder", folder_.path() + "/secret");
   const SearchPaths paths{{home()}, {}};
   for (const char* uri : {"s.stl", "folder/s.stl", "model://a/s.stl", "model://a/folder/s.stl"}) {
-    expect_refused(complaint("a", uri, paths), home() + "/a/model.sdf:2: mesh '");
+    expect_rejected(complaint("a", uri, paths), home() + "/a/model.sdf:2: mesh '");
   }
 }
 
@@ -126,7 +127,7 @@ TEST_F(Allowed, ALinkAtAPathOrDirectlyInItIsFollowed) {
             "");
   EXPECT_EQ(complaint("a", "model://part/s.stl", {{home() + "/paths/all"}, {}}), "");
   EXPECT_EQ(complaint("a", "file://part/s.stl", {{}, {home() + "/paths/all"}}), "");
-  expect_refused(complaint("a", "file://" + secret("s.stl"), {{home()}, {}}), "");
+  expect_rejected(complaint("a", "file://" + secret("s.stl"), {{home()}, {}}), "");
 }
 
 TEST_F(Allowed, AFileOfAPackageButNotOfItsWorkspace) {
@@ -138,8 +139,8 @@ TEST_F(Allowed, AFileOfAPackageButNotOfItsWorkspace) {
   paths.packages = {folder_.path() + "/ws/src"};
   const std::string mesh = "file://" + folder_.path() + "/ws/src/robot/meshes/s.stl";
   EXPECT_EQ(complaint("a", mesh, paths), "");
-  expect_refused(complaint("a", "file://" + folder_.path() + "/ws/src/notes/s.stl", paths), "");
-  expect_refused(complaint("a", mesh), "");
+  expect_rejected(complaint("a", "file://" + folder_.path() + "/ws/src/notes/s.stl", paths), "");
+  expect_rejected(complaint("a", mesh), "");
   paths.packages = {home() + "/src"};
   EXPECT_EQ(complaint("a", mesh, paths), "");
 }
@@ -155,29 +156,29 @@ TEST_F(Allowed, IncludesStayWithinToo) {
        {"file://" + secret("model.sdf"), "file://" + folder_.path() + "/secret",
         std::string("../../secret/model.sdf")}) {
     folder_.write("home/a/bad.sdf", include(uri));
-    expect_refused(complaint_of(home() + "/a/bad.sdf"), home() + "/a/bad.sdf:2: model '");
+    expect_rejected(complaint_of(home() + "/a/bad.sdf"), home() + "/a/bad.sdf:2: model '");
   }
 }
 
 TEST_F(Allowed, AModelFolderDoesNotLeadOut) {
   folder_.write("home/a/model.config",
                 "<model><sdf version='1.6'>../../secret/model.sdf</sdf></model>");
-  expect_refused(complaint_of("model://a", {{home()}, {}}),
-                 home() + "/a/model.config:1: the file '");
+  expect_rejected(complaint_of("model://a", {{home()}, {}}),
+                  home() + "/a/model.config:1: the file '");
   folder_.write("home/b/model.config", "<model><sdf version='1.6'>model.sdf</sdf></model>");
   link("b/model.sdf", secret("model.sdf"));
-  expect_refused(complaint_of("model://b", {{home()}, {}}),
-                 home() + "/b/model.config:1: the file '");
+  expect_rejected(complaint_of("model://b", {{home()}, {}}),
+                  home() + "/b/model.config:1: the file '");
   link("c/model.config", secret("model.sdf"));
-  expect_refused(complaint_of("model://c", {{home()}, {}}), home() + "/c/model.config: ");
+  expect_rejected(complaint_of("model://c", {{home()}, {}}), home() + "/c/model.config: ");
   link("d/model.sdf", secret("model.sdf"));
-  expect_refused(complaint_of("model://d", {{home()}, {}}), home() + "/d/model.sdf: ");
+  expect_rejected(complaint_of("model://d", {{home()}, {}}), home() + "/d/model.sdf: ");
 }
 
 TEST_F(Allowed, ATextHasNoFolderOfItsOwn) {
-  expect_refused(complaint_of(with_mesh("file://" + secret("s.stl"))), "(text):2: mesh '");
-  expect_refused(complaint_of("<include><uri>" + secret("model.sdf") + "</uri></include>"),
-                 "(text):1: ");
+  expect_rejected(complaint_of(with_mesh("file://" + secret("s.stl"))), "(text):2: mesh '");
+  expect_rejected(complaint_of("<include><uri>" + secret("model.sdf") + "</uri></include>"),
+                  "(text):1: ");
 }
 
 TEST_F(Allowed, WhatTheUserNamesIsRead) { EXPECT_EQ(complaint_of(secret("model.sdf")), ""); }
@@ -190,10 +191,10 @@ TEST_F(Allowed, PicturesAndHeightmapsStayWithinToo) {
                       "</geometry></collision></link></model>"));
     return complaint_of(home() + "/a/model.sdf");
   };
-  expect_refused(picture("<heightmap><uri>p.png</uri><size>1 1 1</size></heightmap>"),
-                 home() + "/a/model.sdf:2: heightmap 'p.png' is ");
-  expect_refused(picture("<image><uri>p.png</uri></image>"),
-                 home() + "/a/model.sdf:2: image 'p.png' is ");
+  expect_rejected(picture("<heightmap><uri>p.png</uri><size>1 1 1</size></heightmap>"),
+                  home() + "/a/model.sdf:2: heightmap 'p.png' is ");
+  expect_rejected(picture("<image><uri>p.png</uri></image>"),
+                  home() + "/a/model.sdf:2: image 'p.png' is ");
 }
 
 TEST_F(Allowed, EveryFileWhereThatIsAllowed) {
@@ -224,8 +225,8 @@ TEST_F(Allowed, BesideAWorldLinksLeadToModelsOnly) {
   };
   EXPECT_EQ(complaint("model://chair", false), "");
   EXPECT_EQ(complaint("model://all/table", true), "");
-  expect_refused(complaint("model://all/table", false),
-                 home() + "/w.world:2: ");  // not from the cache
+  expect_rejected(complaint("model://all/table", false),
+                  home() + "/w.world:2: ");  // not from the cache
   setenv("ANGEN_ALLOW_PATHS", "true", 1);
   EXPECT_EQ(complaint("model://all/table", false), "");
   unsetenv("ANGEN_ALLOW_PATHS");

@@ -98,7 +98,7 @@ TEST(ReflectedLight, DimmingIsLinear) {
   EXPECT_EQ(estimate(room, {2.0, 1.0, 0.0}, Vec3::UnitZ()), 0.0);
 }
 
-/// A door opens, and patches near it are found anew while pictures are made.
+/// A door opens, and patches near it are found again while pictures are made.
 TEST(ReflectedLight, IsThatOfNowWhoeverQueriedBefore) {
   TwoRooms often;
   often.lighting.pace();

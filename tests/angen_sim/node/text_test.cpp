@@ -85,7 +85,7 @@ TEST(DoorText, TheQueueParsesVerbAndNumber) {
   EXPECT_EQ(sent(topic_action(door(), "Set, a, 1, fast")), "door/a: Set 1 fast");
 }
 
-TEST(LongText, IsRefusedWithItsLength) {
+TEST(LongText, IsRejectedWithItsLength) {
   const std::string longest(1'000'000, 'x');
   for (const sim::Action& action :
        {topic_action(door(), longest), topic_action(door(), "Open, " + longest),
@@ -108,7 +108,7 @@ TEST(DoorText, AMissingVerbOrNameIsRejectedWithTheRightForms) {
   }
 }
 
-TEST(DoorText, OtherBytesThanUtf8AreRefusedInPrintableWords) {
+TEST(DoorText, OtherBytesThanUtf8AreRejectedInPrintableWords) {
   const std::string reason = rejection(topic_action(door(), "Open, \xff\xfe"));
   EXPECT_TRUE(says(reason, "not UTF-8")) << reason;
   EXPECT_TRUE(valid_utf8(reason));

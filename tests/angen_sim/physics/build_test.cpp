@@ -8,7 +8,7 @@
 namespace angen::physics::testing {
 namespace {
 
-TEST(Build, WithABadMassAreRefusedAndNothingIsAdded) {
+TEST(Build, WithABadMassAreRejectedAndNothingIsAdded) {
   TestWorld world;
   desc::Model model = model_of("m", {box_link("a", 1.0, {1, 1, 1}), box_link("b", 0.0, {1, 1, 1})});
   model.links[1].source = {"m.sdf", 7};

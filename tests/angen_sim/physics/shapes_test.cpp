@@ -192,7 +192,7 @@ TEST(Shapes, PlaneIsPlacedAndTilted) {
   EXPECT_FALSE(world.awake(box));
 }
 
-TEST(Shapes, WithoutASizeAreRefused) {
+TEST(Shapes, WithoutASizeAreRejected) {
   TestWorld world;
   EXPECT_THROW(world.add(box_model("box", 1, {0.2, 0.0, 0.2})), Error);
   desc::Model model = box_model("box", 1, {1, 1, 1});

@@ -40,7 +40,7 @@ TEST(Stopped, AtTheGreatestSpeedWhileTheRestGoesOn) {
   world.drive(link, {1.0, 0.0, 0.0}, 0.0, 10.0);
   world.step(tick++);
   EXPECT_EQ(world.link(link).pose, there) << "a stopped body does not move";
-  EXPECT_TRUE(world.stopped().empty()) << "it is told once";
+  EXPECT_TRUE(world.stopped().empty()) << "it is reported once";
   world.place(fast, {});
   EXPECT_TRUE(world.awake(link));
   world.step(tick++);
@@ -75,7 +75,7 @@ TEST(Stopped, OneIsLikeAStaticBodyForOthers) {
   }
   ASSERT_FALSE(world.stopped().empty());
   for (int i = 0; i < 3000; ++i) world.step(tick++);
-  EXPECT_FALSE(world.awake(top)) << "it lies on it and sleeps";
+  EXPECT_FALSE(world.awake(top)) << "it is on it and sleeps";
   EXPECT_NEAR(world.link(top).pose.position.z(), 1.5, 0.3);
   bool touches = false;
   for (const ContactPair& pair : world.contacts()) {

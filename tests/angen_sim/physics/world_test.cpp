@@ -240,7 +240,7 @@ TEST(World, MovedNamesWhatMovedAndNothingElse) {
   EXPECT_EQ(world.moved()[0], world.only_link(box));
 }
 
-TEST(World, StaleIdsAreRefused) {
+TEST(World, StaleIdsAreRejected) {
   TestWorld world;
   const ModelId box = world.add(box_model("box", 1, {0.2, 0.2, 0.2}));
   const LinkId link = world.only_link(box);

@@ -22,7 +22,7 @@ Command parsed(const Kind& kind, const std::string& text, std::vector<double> va
   return command;
 }
 
-std::string refusal(const Kind& kind, const std::string& text, std::vector<double> values = {}) {
+std::string rejection(const Kind& kind, const std::string& text, std::vector<double> values = {}) {
   Command command{text, std::move(values), "", 0.0};
   return parse_command(kind, command);
 }
@@ -39,7 +39,7 @@ TEST(Command, AnIntegerMayFollowItsVerbWithoutABlank) {
   EXPECT_EQ(parsed(elevator(), "floor 3").number, 3.0);
   for (const char* text :
        {"Floor", "Floor1.5", "Floor-1", "Floor100", "Floor99999999999", "Flo1"}) {
-    EXPECT_NE(refusal(elevator(), text), "") << text;
+    EXPECT_NE(rejection(elevator(), text), "") << text;
   }
 }
 
@@ -50,13 +50,13 @@ TEST(Command, TypographyOfAPdfIsReadAsMeant) {
   EXPECT_EQ(parsed(Kind("toy", ""), "\u201Cdance\u201D").text, "\u201Cdance\u201D");
 }
 
-TEST(Command, RefusalsSayWhatWouldBeRight) {
+TEST(Command, RejectionsSayWhatWouldBeRight) {
   const std::string right = "a lamp takes On, Dim <0 to 100 percent>";
   for (const char* text : {"", "Off", "On 1", "Dim", "Dim x", "Dim nan", "Dim 101", "Dim -1",
                            "Dim 1 2", "Dim 1e999"}) {
-    EXPECT_NE(refusal(lamp(), text).find(right), std::string::npos) << refusal(lamp(), text);
+    EXPECT_NE(rejection(lamp(), text).find(right), std::string::npos) << rejection(lamp(), text);
   }
-  EXPECT_NE(refusal(elevator(), "Up").find("an elevator takes Floor<0 to 99 floor>"),
+  EXPECT_NE(rejection(elevator(), "Up").find("an elevator takes Floor<0 to 99 floor>"),
             std::string::npos);
 }
 
@@ -64,9 +64,9 @@ TEST(Command, NumbersAloneAreValuesOfAKindThatTakesThem) {
   EXPECT_EQ(parsed(drive(), "0.1 -0.2").values, (std::vector<double>{0.1, -0.2}));
   EXPECT_EQ(parsed(drive(), "", {0.3, 0.4}).values, (std::vector<double>{0.3, 0.4}));
   EXPECT_EQ(parsed(drive(), "stop").verb, "Stop");
-  EXPECT_NE(refusal(drive(), "0.1"), "");
-  EXPECT_NE(refusal(drive(), "", {0.1, std::numeric_limits<double>::infinity()}), "");
-  EXPECT_NE(refusal(lamp(), "", {0.1, 0.2}), "");
+  EXPECT_NE(rejection(drive(), "0.1"), "");
+  EXPECT_NE(rejection(drive(), "", {0.1, std::numeric_limits<double>::infinity()}), "");
+  EXPECT_NE(rejection(lamp(), "", {0.1, 0.2}), "");
 }
 
 TEST(Command, AVerbMayTakeTwoNumbers) {
@@ -76,8 +76,8 @@ TEST(Command, AVerbMayTakeTwoNumbers) {
   EXPECT_EQ(sent.values, (std::vector<double>{1.5, -2.0}));
   EXPECT_EQ(sent.number, 1.5);
   for (const char* text : {"GoTo", "GoTo 1", "GoTo 1 x", "GoTo 1 2 3", "GoTo nan 1"}) {
-    EXPECT_NE(refusal(person, text).find("Stop, GoTo <x> <y>"), std::string::npos)
-        << refusal(person, text);
+    EXPECT_NE(rejection(person, text).find("Stop, GoTo <x> <y>"), std::string::npos)
+        << rejection(person, text);
   }
 }
 

@@ -126,7 +126,7 @@ TEST(Params, WhatEveryGazeboPluginMayCarryIsKnown) {
   EXPECT_EQ(complaint([&] { params.finish(); }), "");
 }
 
-TEST(Params, AKeyGivenTwiceIsRefused) {
+TEST(Params, AKeyGivenTwiceIsRejected) {
   Params params(plugin_element({{"x", "1"}, {"x", "2"}}));
   EXPECT_EQ(complaint([&] { params.number("x", 0.0, "", ""); }),
             "test.sdf:1: <x> is given twice, one is enough");
@@ -149,7 +149,7 @@ TEST(Params, TheUpdateRateBecomesAPeriod) {
   EXPECT_EQ(Params(plugin_element({}), nullptr, 5.0).update_period(), 200'000'000);
 }
 
-TEST(Params, AnUpdateRateWithoutAPeriodInNanosecondsIsRefused) {
+TEST(Params, AnUpdateRateWithoutAPeriodInNanosecondsIsRejected) {
   Params params(plugin_element({{"update_rate", "1e-300"}}));
   EXPECT_EQ(complaint([&] { params.update_period(); }),
             "test.sdf:1: <update_rate> is 1e-300 Hz, must be 0 or >= 1e-06");

@@ -90,7 +90,7 @@ TEST(Log, EveryDamageIsFound) {
   }
 }
 
-TEST(Log, OfAnotherVersionIsRefused) {
+TEST(Log, OfAnotherVersionIsRejected) {
   const Folder folder;
   record(folder);
   std::string text = read_all(folder.log());
@@ -209,7 +209,7 @@ TEST(Log, ActionsThatCannotBeAreErrorsWithTheirLine) {
     session.tick();
   }
   const std::string whole = read_all(folder.log());
-  const auto refusal = [&](const std::string& from, const std::string& to) {
+  const auto rejection = [&](const std::string& from, const std::string& to) {
     write_all(folder.log(), forged(whole, from, to));
     try {
       replayed(folder.log());
@@ -219,9 +219,9 @@ TEST(Log, ActionsThatCannotBeAreErrorsWithTheirLine) {
     return std::string();
   };
   const auto expect = [&](const std::string& from, const std::string& to, const std::string& why) {
-    EXPECT_NE(refusal(from, to).find(why), std::string::npos) << refusal(from, to);
+    EXPECT_NE(rejection(from, to).find(why), std::string::npos) << rejection(from, to);
   };
-  EXPECT_EQ(refusal("", ""), "");
+  EXPECT_EQ(rejection("", ""), "");
   expect("\"pose\":[0.5", "\"pose\":[NaN", "run.log:2: cannot be replayed: its pose is not that");
   expect("\"pose\":[0.5", "\"pose\":[1e300", "run.log:2: cannot be replayed: its pose is not that");
   expect("<model name=\\\"one\\\"", "<modle name=\\\"one\\\"", "run.log:2: cannot be replayed: ");

@@ -159,10 +159,10 @@ TEST(Replay, StopsAtATimeAndGoesOnLive) {
   session.end();
   Replay replay(read_log(folder.log()), std::make_shared<Catalog>());
   replay.stop_at(from_seconds(2.0005));
-  auto refused = replay.simulation().post(sim::ToDevice{"lamp", "hall0", {"Off", {}}});
+  auto answer = replay.simulation().post(sim::ToDevice{"lamp", "hall0", {"Off", {}}});
   while (!replay.done()) replay.advance();
   EXPECT_EQ(replay.simulation().snapshot()->time, from_seconds(2.001));
-  EXPECT_EQ(refused.get().message,
+  EXPECT_EQ(answer.get().message,
             folder.log() + " is being replayed; commands are executed after it");
   const auto rejected = replay.simulation().tick()->events;
   ASSERT_EQ(rejected.size(), 1U);
@@ -208,7 +208,7 @@ TEST(Replay, NeedsTheMeshesAsTheyWere) {
   session.run(1.5);
   session.end();
   EXPECT_EQ(replayed(folder.log()).mismatch(), "");
-  const auto refusal = [&] {
+  const auto rejection = [&] {
     try {
       replayed(folder.log());
     } catch (const Error& error) {
@@ -217,11 +217,11 @@ TEST(Replay, NeedsTheMeshesAsTheyWere) {
     return std::string();
   };
   write_all(mesh, stl + " ");
-  EXPECT_NE(refusal().find("run.log:1: needs the file file://" + mesh), std::string::npos)
-      << refusal();
-  EXPECT_NE(refusal().find("is another"), std::string::npos) << refusal();
+  EXPECT_NE(rejection().find("run.log:1: needs the file file://" + mesh), std::string::npos)
+      << rejection();
+  EXPECT_NE(rejection().find("differs from it"), std::string::npos) << rejection();
   std::filesystem::remove(mesh);
-  EXPECT_NE(refusal().find("there is none"), std::string::npos) << refusal();
+  EXPECT_NE(rejection().find("it is missing"), std::string::npos) << rejection();
   const std::filesystem::path elsewhere = folder.path / "mail";
   std::filesystem::create_directories(elsewhere);
   std::filesystem::rename(folder.log(), elsewhere / "run.log");

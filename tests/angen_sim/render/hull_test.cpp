@@ -33,7 +33,7 @@ Eigen::Matrix3f random_turn(Rng& rng) {
 
 TEST(Hull, OverlapsEachBoxThatASegmentMeets) {
   Rng rng(1, hash_bytes("hull"), 0);
-  int met = 0, beside = 0;
+  int hit = 0, beside = 0;
   for (int i = 0; i < 50000; ++i) {
     const Box from = random_box(rng, 0.01), to = random_box(rng, 1.5), box = random_box(rng, 0.7);
     const Hull hull(from, to);
@@ -46,14 +46,14 @@ TEST(Hull, OverlapsEachBoxThatASegmentMeets) {
       const Eigen::Vector3f a = point_in(rng, from), b = point_in(rng, to);
       const Eigen::Vector3f p = a + static_cast<float>(rng.uniform()) * (b - a);
       if (box.contains(p)) {
-        ++met;
+        ++hit;
         ASSERT_TRUE(overlaps);
       }
-      const bool met_turned = box.contains(turn.transpose() * (p - place));
-      ASSERT_TRUE(overlaps_turned || !met_turned);
+      const bool hit_turned = box.contains(turn.transpose() * (p - place));
+      ASSERT_TRUE(overlaps_turned || !hit_turned);
     }
   }
-  EXPECT_GT(met, 500);
+  EXPECT_GT(hit, 500);
   EXPECT_GT(beside, 30000);
 }
 

@@ -100,7 +100,7 @@ TEST(DiffDrive, OfAParameterThatIsGivenTwiceTheFirstHoldsInGazebosModels) {
   const std::string text = robot(drive("<updateRate>20</updateRate>"));
   EXPECT_THROW(Hall{text}, Error);
   Hall hall(text, true);
-  EXPECT_TRUE(hall.warns("<updateRate> is given twice; the first holds"));
+  EXPECT_TRUE(hall.warns("<updateRate> is given twice; the first one is used"));
   hall.run(0.1);
   EXPECT_EQ(hall.reading("odometry").stamp % (kSecond / 50), 0);
   EXPECT_EQ(hall.snapshot->structure->sensors[hall.sensor("odometry")].schedule.publish,

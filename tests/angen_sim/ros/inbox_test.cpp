@@ -11,7 +11,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Its command takes until it is let go on.
+/// Its command blocks until the test continues it.
 class SlowDevice : public Device {
  public:
   struct Gate {

@@ -70,7 +70,7 @@ const Broken kBroken[] = {
     {"short_pose",
      "<sdf version='1.6'><world name='w'><model name='m'><link name='l'>\n<pose>0 0 0 0</pose>"
      "</link></model></world></sdf>",
-     "w.world:2: ", "holds 4 numbers; give 6"},
+     "w.world:2: ", "contains 4 numbers; give 6"},
     {"infinite_pose",
      "<sdf version='1.6'><world name='w'><model name='m'><link name='l'>\n"
      "<pose>inf 0 0 0 0 0</pose></link></model></world></sdf>",
@@ -155,7 +155,7 @@ const Broken kBroken[] = {
     {"light_of_no_color",
      "<sdf version='1.6'><world name='w'><light name='l' type='point'>\n<diffuse>x 1 1</diffuse>"
      "</light></world></sdf>",
-     "w.world:2: ", "<diffuse> holds 'x', which is not a number"},
+     "w.world:2: ", "<diffuse> contains 'x', which is not a number"},
     {"include_without_uri", "<sdf version='1.6'><world name='w'>\n<include/></world></sdf>",
      "w.world:2: ", "no <uri>"},
     {"unknown_scheme",
@@ -213,7 +213,7 @@ TEST_P(BrokenWorld, IsAnErrorWithItsPlace) {
 INSTANTIATE_TEST_SUITE_P(All, BrokenWorld, testing::ValuesIn(kBroken),
                          [](const auto& info) { return std::string(info.param.name); });
 
-TEST(BrokenName, IsRefusedWhereverItStands) {
+TEST(BrokenName, IsRejectedWhereverItStands) {
   const Folder folder;
   folder.model("part", sdf("<model name='p'><link name='l'/></model>"));
   const std::string include = "<include><uri>model://part</uri>";

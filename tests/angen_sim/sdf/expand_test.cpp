@@ -3,7 +3,7 @@
 namespace angen::load {
 namespace {
 
-TEST(Expand, WithTwoNamesIsRefused) {
+TEST(Expand, WithTwoNamesIsRejected) {
   const Folder folder;
   folder.model("part", sdf("<model name='p'><link name='l'/></model>"));
   for (const std::string twice : {"name", "uri", "pose", "static"}) {

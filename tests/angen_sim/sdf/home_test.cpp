@@ -161,7 +161,7 @@ TEST(Home, NamesAreKeptOrAnErrorWithALine) {
   const std::string long_name(10'000, 'a');
   const std::pair<std::string, std::string> wrong[] = {{"  ", "begins or ends with a blank"},
                                                        {" hall", "begins or ends with a blank"},
-                                                       {"a&#10;b", "holds a control character"},
+                                                       {"a&#10;b", "contains a control character"},
                                                        {long_name, "has 10000 bytes"}};
   for (const auto& [name, says] : wrong) {
     for (const std::string& part :

@@ -111,10 +111,10 @@ TEST_F(Painted, WhatIsMissingBrokenOrElsewhereIsAWarning) {
   const Folder elsewhere;
   const std::string outside = png(elsewhere, 1, 1, {255, 0, 0}, {8, PNG_COLOR_TYPE_RGB});
   write_materials("map_Kd " + outside);
-  expect_untextured(part(), "it lies outside of the folders that may be named");
+  expect_untextured(part(), "it is outside of the allowed folders");
   fs::create_symlink(outside, picture);
   write_materials("map_Kd picture.png");
-  expect_untextured(part(), "it lies outside of the folders that may be named");
+  expect_untextured(part(), "it is outside of the allowed folders");
 }
 
 TEST_F(Painted, MaterialsElsewhereAreNotRead) {

@@ -13,7 +13,7 @@ TEST(Typography, MinusSignsAreReadWithAWarning) {
   expect_near(w.models[0].pose, {{-9.371533, 6.509166, 0.1}, from_rpy(0.0, 0.0, -1.7)});
   ASSERT_EQ(w.warnings.size(), 1U);
   EXPECT_EQ(w.warnings[0].text(),
-            "w.world:2: <pose> holds the typographic character \u2212 (U+2212); it is read as "
+            "w.world:2: <pose> contains the typographic character \u2212 (U+2212); it is read as "
             "'-9.371533 6.509166 0.1 0 0 -1.7'; write that");
 }
 
@@ -27,7 +27,7 @@ TEST(Typography, AModelFilesNumbersAreReadWithAWarning) {
   const desc::Model m = model(file, "", {}, {});
   EXPECT_DOUBLE_EQ(m.joints.at(0).axes.at(0).lower, -1.57);
   ASSERT_EQ(m.warnings.size(), 1U);
-  EXPECT_EQ(m.warnings[0].text().find(file + ":2: <lower> holds"), 0U) << m.warnings[0].text();
+  EXPECT_EQ(m.warnings[0].text().find(file + ":2: <lower> contains"), 0U) << m.warnings[0].text();
 }
 
 TEST(Typography, AUrdfsAttributesAreReadWithAWarning) {
@@ -40,7 +40,7 @@ TEST(Typography, AUrdfsAttributesAreReadWithAWarning) {
                     "\n<joint name='j' type='continuous'><parent link='a'/><child link='b'/>\n"
                     "<origin xyz='1 \u22122 3' rpy='0 0 0'/><axis xyz='0 0 1'/></joint></robot>");
   const desc::Model m = model(file, "", {}, {});
-  EXPECT_EQ(m.warnings.at(0).text().find(file + ":3: <origin xyz> holds"), 0U)
+  EXPECT_EQ(m.warnings.at(0).text().find(file + ":3: <origin xyz> contains"), 0U)
       << m.warnings[0].text();
   expect_near(m.links.at(1).pose.position, {1.0, -2.0, 3.0});
 }

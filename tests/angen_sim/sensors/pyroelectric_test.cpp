@@ -63,7 +63,7 @@ TEST(Pyroelectric, SleepsWithoutShaftsOrNoiseOnceAllIsStill) {
 TEST(Pyroelectric, ComputesWhatItWouldSampleWhileASurfaceWarms) {
   const Element plugin = pyroelectric({kWidePair, {"signal_threshold", "1e-5"}});
   Bench bench(kPir, plugin);
-  Bench other(kPir, plugin);  // its surface is set anew before each sample
+  Bench other(kPir, plugin);  // its surface is set again before each sample
   const Warming course{300.0, 340.0, 5.0, 0};
   const auto id = add_warm(bench, sphere(0.1), at(3, -1), 300.0);
   add_warm(other, sphere(0.1), at(3, -1), 300.0);

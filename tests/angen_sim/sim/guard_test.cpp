@@ -228,7 +228,7 @@ TEST(AField, ThatIsANumberTakesIntegers) {
   EXPECT_EQ(reading->get<double>("value"), 9.0);
 }
 
-TEST(AField, WithNoiseThatIsNotDeclaredIsRefusedWhenItsWorldIsLoaded) {
+TEST(AField, WithNoiseThatIsNotDeclaredIsRejectedWhenItsWorldIsLoaded) {
   EXPECT_THROW(world_of_wrong("<noisy>true</noisy>"), Error);
 }
 

@@ -24,14 +24,14 @@ constexpr double kWatchCell = 0.02;                  // rad between the rays tha
 constexpr std::size_t kEach = 4;                     // of the rays to a surface, one is probed
 constexpr std::size_t kFewProbed = 24;               // of fewer rays all are tested
 constexpr Nanoseconds kHiddenPeriod = kSecond / 20;  // while all surfaces are hidden
-constexpr std::size_t kMostScans = 64;
+constexpr std::size_t kMaxScans = 64;
 
 double fourth_power(double x) { return x * x * x * x; }
 
 double azimuth_of(const Vec3& p) { return std::atan2(p.y(), p.x()); }
 
-/// A window about the x axis of `pose` that holds the box; `whole` where it surrounds the detector.
-/// Azimuths are near that of the box's middle, also beyond pi.
+/// A window about the x axis of `pose` that contains the box; `whole` where it surrounds the
+/// detector. Azimuths are near that of the box's middle, also beyond pi.
 Window window_of(const Eigen::AlignedBox3d& box, const Pose& pose, const Window& whole) {
   if (box.contains(pose.position)) return whole;
   const Pose inverse = pose.inverse();
@@ -220,7 +220,7 @@ double Heat::factor_of(const rays::WarmShape& shape, const View& view) {
 }
 
 Heat::Scan& Heat::scan_of(const rays::WarmShape& shape) {
-  if (scans_.size() > kMostScans) scans_.clear();
+  if (scans_.size() > kMaxScans) scans_.clear();
   const auto [at, is_new] = scans_.try_emplace(shape.shape);
   Scan& found = at->second;
   const bool rests = !is_new && found.box.min() == shape.box.min() &&

@@ -43,7 +43,7 @@ class Heat {
   /// Flux on the positive element less that on the negative one, in W.
   double flux(Nanoseconds now);
 
-  /// What it comes from, until something moves or a surface is set to another temperature. The
+  /// Its sources, until something moves or a surface is set to another temperature. The
   /// object is replaced when it changes.
   const std::shared_ptr<const HeatSources>& sources() const { return sources_; }
 
@@ -76,7 +76,7 @@ class Heat {
     std::vector<Window> windows;           // of the lens, around the shape
     std::vector<std::vector<Cell>> parts;  // that it fills of each window; once needed
     std::uint64_t blockers = 0;            // of its shaft, when it was last looked at …
-    double factor = 0.0;                   // … and what was seen of it, m^2 sr
+    double factor = 0.0;                   // … and the part of it that was visible, m^2 sr
     bool is_known = false;
   };
 

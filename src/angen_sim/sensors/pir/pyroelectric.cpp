@@ -12,7 +12,7 @@ namespace {
 
 constexpr Range kAngles{-M_PI, M_PI};
 constexpr double kSamplesPerCutoff = 2.0;
-constexpr double kMostNoise = 9.0;      // standard deviations: Rng::gaussian() makes at most 8.6
+constexpr double kMaxNoise = 9.0;       // standard deviations: Rng::gaussian() makes at most 8.6
 constexpr int kLongestDecay = 1 << 12;  // samples that are computed ahead
 constexpr Trigger::Times kTimes{kSecond * 5 / 4, kSecond * 5 / 2, 60 * kSecond, true};
 
@@ -180,7 +180,7 @@ void Pyroelectric::read(const View& view, Hits, Rng& rng, Reading& reading) {
   if (!as_expected) {
     quiet_until_ = view.time();
   } else if (!has_same_sources || quiet_until_ <= view.time()) {
-    quiet_until_ = state_.quiet_until(state_.threshold - kMostNoise * state_.noise);
+    quiet_until_ = state_.quiet_until(state_.threshold - kMaxNoise * state_.noise);
   }
   if (quiet_until_ > view.time()) heat_.rest();
   state_.write(signal, reading);

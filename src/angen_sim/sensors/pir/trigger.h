@@ -32,7 +32,8 @@ class Trigger {
   }
 
   bool on() const { return on_; }
-  /// When the output goes off, unless the comparator fires before; kForever while it is off.
+  /// The time at which the output turns off, unless the comparator fires before; kForever while it
+  /// is off.
   Nanoseconds off_at() const { return on_ ? off_at_ : kForever; }
 
  private:
