@@ -1,4 +1,4 @@
-/** The card of one device, sensor or room: its state and what it can do, as its kind says of itself. */
+/** The card of one device, sensor or room: its state and its commands, as its kind describes them. */
 import { by, el, glyph, words } from './dom.js';
 import { middleOf } from './home.js';
 import { roomText } from './labels.js';
@@ -11,7 +11,7 @@ export class Card {
     this.element = by('card');
     /** @type {any} */
     this.shown = null;
-    /** @type {(() => void)[]} of sliders, which follow the state while nobody holds them */
+    /** @type {(() => void)[]} of sliders, which follow the state while they are not dragged */
     this.follow = [];
     home.on('rows', () => this.refresh());
     home.on('entities', () => this.again());
@@ -212,7 +212,7 @@ function title(home, e) {
 }
 
 /**
- * What a person does, how fast a robot is: where they are is seen.
+ * The activity of a person, the speed of a robot: their places are visible.
  * @param {import('./home.js').Home} home @param {any} e @param {string} text
  */
 function motion(home, e, text) {

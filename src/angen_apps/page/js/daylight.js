@@ -1,7 +1,7 @@
 /** Daylight: where the sun is over a home, by its latitude and clock. */
 import * as THREE from '../vendor/three/three.module.min.js';
 
-const STEP = 0.01; // rad of the sun's way, for which the light is set anew
+const STEP = 0.01; // rad of the sun's way, for which the light is set again
 const USUAL = [-0.19, -0.41, 0.89]; // from where light comes at night
 const TILT = (23.44 * Math.PI) / 180; // of the earth's axis
 const DAY = 86400; // s
@@ -60,7 +60,7 @@ export class Sky {
   }
 
   /**
-   * Shadows fall on what is shown.
+   * Shadows fall on the visible floors.
    * @param {any} middle @param {number} radius
    */
   cover(middle, radius) {
@@ -72,7 +72,7 @@ export class Sky {
     camera.updateProjectionMatrix();
   }
 
-  /** From where the sun is, or high enough to light rooms. */
+  /** From the direction of the sun, or high enough to light rooms. */
   aim() {
     const [x, y, z] = this.way && this.way[2] > 0.1 ? this.way : USUAL;
     this.sun.position.copy(this.sun.target.position).addScaledVector(new THREE.Vector3(x, y, Math.max(z, 0.6)).normalize(), 1.8 * this.radius);

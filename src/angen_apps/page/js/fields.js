@@ -1,4 +1,4 @@
-/** The floor that a sensor's rays reach: its fan, or what is below it, within its room. */
+/** The floor that a sensor's rays reach: its fan, or the floor below it, within its room. */
 
 /**
  * @param {import('./home.js').Home} home @param {any} sensor of the scene
@@ -37,7 +37,7 @@ export function fieldShape(home, sensor) {
 }
 
 /**
- * How far a ray gets within a polygon.
+ * The length of a ray within a polygon.
  * @param {number[][]} polygon
  * @param {number[]} at
  * @param {number[]} way

@@ -1,4 +1,4 @@
-/** The light of lamps on the floor and walls of their room, brighter by what the room's sensor measures. */
+/** The light of lamps on the floor and walls of their room, brighter by the illuminance of the room's sensor. */
 import * as THREE from '../vendor/three/three.module.min.js';
 import { CUT } from './shapes.js';
 

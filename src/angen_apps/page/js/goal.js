@@ -47,8 +47,8 @@ export class Goal {
 
   /**
    * @param {any} element
-   * @param {(x: number, y: number) => any} hit what is at a place of the page
-   * @param {(x: number, y: number, z: number) => number[] | null} ground where it meets the height z
+   * @param {(x: number, y: number) => any} hit the object at a place of the page
+   * @param {(x: number, y: number, z: number) => number[] | null} ground where it hits the height z
    */
   listen(element, hit, ground) {
     const at = (/** @type {string} */ type, /** @type {(e: PointerEvent) => boolean} */ act) => element.addEventListener(type, (/** @type {PointerEvent} */ e) => {

@@ -1,4 +1,4 @@
-/** The state that the server sends, and what is derived from it; views listen to its parts. */
+/** The state that the server sends, and data derived from it; views listen to its parts. */
 import { Connection } from './connection.js';
 import { clockText, notice } from './dom.js';
 
@@ -48,7 +48,7 @@ export class Home {
     /** @type {Map<string, ((what: any) => void)[]>} */
     this.listeners = new Map();
     this.loading = 0;
-    /** @type {WeakMap<Entity, Room[]>} of what stays */
+    /** @type {WeakMap<Entity, Room[]>} of static entities */
     this.roomsCache = new WeakMap();
     /** @type {Entity[]} */
     this.movers = [];
@@ -234,7 +234,7 @@ export class Home {
   }
 
   /**
-   * Where an entity is now.
+   * The present place of an entity.
    * @param {Entity} e
    */
   place(e) {
@@ -281,7 +281,7 @@ export class Home {
   }
 
   /**
-   * Of an entity; of the home's door with its name where it is one.
+   * The name of an entity; of the home's door where it is one.
    * @param {Entity} e
    * @returns {Room[]}
    */
@@ -311,7 +311,7 @@ export class Home {
   async order(order) {
     await this.connection.opened(PATIENCE);
     const answer = await this.connection.ask(order);
-    if (!answer.ok) notice(answer.text ?? 'The simulator refused.', true);
+    if (!answer.ok) notice(answer.text ?? 'The simulator rejected it.', true);
     return answer;
   }
 

@@ -20,7 +20,7 @@ export class Labels {
    */
   place(view) {
     const due = new Map();
-    const { home } = view, floors = view.storey === null ? home.rooms : []; // what may be before a label
+    const { home } = view, floors = view.storey === null ? home.rooms : []; // these may hide a label
     for (const [model, { figure, text: doing }] of view.people.all) {
       const p = figure.group.position;
       if (figure.group.visible) due.set(`person ${model}`, { at: [p.x, p.y, p.z + 2], text: model, person: true, small: doing, behind: isBehind(view, floors, [p.x, p.y, p.z + 0.9]) });

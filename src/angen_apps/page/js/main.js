@@ -1,4 +1,4 @@
-/** The page: what is chosen, the clock, the keys. */
+/** The page: the selection, the clock, the keys. */
 import { by, el, isForOthers, isNarrow, notice } from './dom.js';
 import { Card } from './card.js';
 import { Goal } from './goal.js';
@@ -154,7 +154,7 @@ class Page {
   buildLayers() {
     this.walls = el('select', { 'aria-label': 'Walls', onchange: () => this.view?.setWalls(this.walls.value) },
       el('option', { value: 'cut' }, 'Low walls'), el('option', { value: 'clear' }, 'See-through walls'), el('option', { value: 'full' }, 'Whole walls'));
-    const fields = el('button', { type: 'button', 'aria-pressed': 'false', title: 'Where sensors detect, and what lidars measure (F)' }, 'Sensor fields');
+    const fields = el('button', { type: 'button', 'aria-pressed': 'false', title: 'Fields of view of sensors, and scans of lidars (F)' }, 'Sensor fields');
     fields.addEventListener('click', () => {
       const on = fields.getAttribute('aria-pressed') !== 'true';
       fields.setAttribute('aria-pressed', String(on));
@@ -175,7 +175,7 @@ class Page {
 
   // --- choosing
 
-  /** What one can do, until one has done it. */
+  /** The hints for new users, until they are followed. */
   welcome() {
     const narrow = isNarrow();
     by('welcome').textContent = `${narrow ? 'Tap' : 'Click'} a lamp, door, person or room${narrow || !this.view ? '' : ' · drag turns the 3D view'}`;
@@ -251,7 +251,7 @@ class Page {
     return [half(xs), half(ys), storeys.find((s) => s.number === number)?.elevation ?? 0];
   }
 
-  /** @param {any} entity @returns {boolean} whether its state is in what is shown */
+  /** @param {any} entity @returns {boolean} whether its state is shown */
   isTold(entity) {
     return !this.home.status.replay || this.player.has(`${entity.kind}/${entity.name}`);
   }

@@ -5,7 +5,7 @@ import { poseMatrix } from './shapes.js';
 
 const matrix = new THREE.Matrix4(), color = new THREE.Color();
 const MOTION = 0x2f7df6, ALARM = 0xe5484d, QUIET = 0x0f9f8f;
-export const MOVES = new Set(['pir', 'switch', 'proximity']); // what they report is no fault
+export const MOVES = new Set(['pir', 'switch', 'proximity']); // their reports are not faults
 const FLASH = 0.9; // s in which a field that fires gets calm
 
 export class Bulbs {
@@ -142,7 +142,7 @@ export class Fields {
   }
 }
 
-/** What lidars measured last, as points. */
+/** The last scans of lidars, as points. */
 export class Scans {
   /** @param {import('./home.js').Home} home */
   constructor(home) {

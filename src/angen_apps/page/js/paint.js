@@ -1,4 +1,4 @@
-/** How the building looks: its colors, and how much effort the drawing takes. */
+/** The look of the building: its colors, and the level of detail. */
 import * as THREE from '../vendor/three/three.module.min.js';
 import { rotate } from './fields.js';
 import { poseMatrix } from './shapes.js';
@@ -24,7 +24,7 @@ export function paint(home, cls, color, link, shape) {
   if (cls === 'wall') return [0.95, 0.94, 0.92];
   if (cls === 'floor' && room) return FLOORS[room.use] ?? FLOORS.other;
   if (cls === 'ground') return [1, 1, 1];
-  if (cls === 'sensor' && Math.max(...shape.size) < SMALL) return SENSOR; // what hangs in the air over a low wall is known by it
+  if (cls === 'sensor' && Math.max(...shape.size) < SMALL) return SENSOR; // this color marks small shapes above low walls
   return color;
 }
 

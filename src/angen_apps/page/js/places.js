@@ -49,7 +49,7 @@ export function nameOf(polygon, w, h, taken) {
 }
 
 /**
- * Where a label may be around a thing: over it, below, beside, then further away.
+ * Places for a label of a thing: above it, below, beside, then farther away.
  * @param {number} gap to the thing's middle @param {number} w half of its width @param {number} h half of its height
  * @returns {number[][]} shifts x y
  */

@@ -7,11 +7,11 @@ import { Taken, around, nameOf } from './places.js';
 
 const SHOWN = new Set(['lamp', 'door', 'window', 'elevator', 'stove', 'heater', 'appliance', 'cabinet']);
 const LETTER = 0.66; // of a text's height: the width of a letter
-const WIDER = 1.5, LETTERS = 8; // a room's name may be so much wider than it, and has so many letters
+const WIDER = 1.5, LETTERS = 8; // limits of a room's name: its width over that of the room, its letters
 const LEAST = 11, FACE = 4, TOUCH = 12; // px of a text's height, of the radius of a mark and of its target
 const MARGIN = 0.6; // m around all that is shown
 const BODY = 0.22; // m: half of a person's mark
-const EMPTY = 5; // m: half of the ground that is drawn where nothing stands
+const EMPTY = 5; // m: half of the ground that is drawn where there are no models
 const HEIGHT = 0.9; // m of walls over their floor that are drawn where the home has no rooms
 
 export class Plan {
@@ -54,7 +54,7 @@ export class Plan {
     this.pending = setTimeout(() => { this.pending = 0; this.update(); }, 100);
   }
 
-  /** Anew, when it is seen and something came or went. */
+  /** Drawn again when it is visible and something was added or removed. */
   draw() {
     if (this.hidden || !this.stale || !this.home.scene) return;
     this.stale = false;
@@ -130,7 +130,7 @@ export class Plan {
   }
 
   /**
-   * What stands on a floor without rooms.
+   * The extent of a floor without rooms.
    * @param {number} number @returns {any[]} shapes
    */
   walls(number) {
@@ -267,7 +267,7 @@ export class Plan {
     const { home } = this, fires = (/** @type {any} */ s) => Boolean(home.rows.get(`${s.kind}/${s.name}`)?.alarm);
     const shown = home.scene.sensors.filter((/** @type {any} */ s) => (this.withFields || fires(s)) && !home.scene.links[s.link].moves);
     const state = shown.map((/** @type {any} */ s) => `${s.name} ${fires(s)}`).join();
-    if (state === this.fieldState && this.fieldsOf === this.fields) return; // what flashes is not begun anew
+    if (state === this.fieldState && this.fieldsOf === this.fields) return; // a flash is not started again
     this.fieldState = state;
     this.fieldsOf = this.fields;
     this.fields.replaceChildren();

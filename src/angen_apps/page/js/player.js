@@ -7,7 +7,7 @@ const LINE = 14; // px of a person's line
 const NAMES = 44; // px of their names
 const COLORS = ['#0f766e', '#b45309', '#7c3aed', '#2563eb', '#cf2369', '#4d7c0f', '#0e7490', '#a16207', '#9333ea', '#dc2626', '#64748b', '#047857'];
 
-/** What one thing was over time. */
+/** The states of an entity over time. */
 class Track {
   constructor() {
     /** @type {number[]} */
@@ -17,7 +17,7 @@ class Track {
     this.at = -1; // of the time that is shown
   }
 
-  /** @param {number} time @returns {boolean} whether another value holds now */
+  /** @param {number} time @returns {boolean} whether the value has changed */
   seek(time) {
     let at = this.at;
     if (at >= 0 && time < this.t[at]) at = -1;
@@ -129,7 +129,7 @@ export class Player {
     this.last = now;
     const playing = this.playing && this.time < this.end;
     const next = Math.min(this.time + dt * this.speed, this.loaded);
-    if (playing && next > this.time) this.seek(next, true); // what is not read yet is waited for
+    if (playing && next > this.time) this.seek(next, true); // it waits for the rows
     this.play.textContent = playing ? '❚❚' : '▶';
     this.slider.value = String(this.time);
     const text = `${clockText(this.time)} / ${clockText(this.end)}${this.loaded < this.end ? `, read ${Math.round((100 * this.loaded) / this.end)} %` : ''}`;

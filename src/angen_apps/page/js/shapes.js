@@ -25,7 +25,7 @@ function storeyOf(group) {
 }
 
 /**
- * As fine as the processor draws so many in time.
+ * As fine as the processor draws that many in time.
  * @param {any} mesh @param {number} copies
  */
 function plainGeometry(mesh, copies) {
@@ -73,7 +73,7 @@ function meshGeometry(mesh, cell) {
 
 /**
  * @param {string} type @param {string} cls
- * @param {boolean} plain few faces, for what is small and where the processor draws
+ * @param {boolean} plain few faces, for small shapes and where the processor draws
  */
 function geometryOf(type, cls, plain) {
   const few = plain || cls === 'sensor';
@@ -179,7 +179,7 @@ export class Shapes {
   }
 
   /**
-   * What of walls lets light through.
+   * The parts of walls that let light through.
    * @param {boolean} clear
    */
   clearWalls(clear) {
@@ -236,7 +236,7 @@ function put(part, slot, matrix) {
 }
 
 /**
- * Takes off what of an upright box is above `top`.
+ * Cuts the part of an upright box above `top`.
  * @param {any} matrix
  * @param {Part} part
  * @param {number} top

@@ -1,4 +1,4 @@
-/** How many pixels are drawn: fewer while frames take long, all of them once the view rests. */
+/** The number of pixels: fewer while frames take long, all of them once the view rests. */
 
 const SHARES = [1, 0.75, 0.55]; // of the width
 const SLOW = 150, FAST = 45; // ms that a frame takes

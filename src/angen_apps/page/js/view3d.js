@@ -18,9 +18,9 @@ const PLAIN_PERIOD = 80; // ms between frames where the processor draws
 const SHARE = 1.3; // of the time that a frame took, until the next one: buttons need some too
 const PLAIN_PIXELS = 4.5e5;
 const TOWER = 3; // floors: of more, those below the top one are closed while all are shown
-const GROUND = new THREE.Box3(new THREE.Vector3(-5, -5, 0), new THREE.Vector3(5, 5, 1)); // where nothing stands on it
-const LEAF = 1.2; // m: what moves in their walls is higher
-const TALL = 3, LID = 2.5, PLATE = 1; // m: what goes through floors; above a floor, what lies over it like a roof
+const GROUND = new THREE.Box3(new THREE.Vector3(-5, -5, 0), new THREE.Vector3(5, 5, 1)); // where there are no models
+const LEAF = 1.2; // m: moving leaves in their walls are higher
+const TALL = 3, LID = 2.5, PLATE = 1; // m: models this tall reach through floors; those above a floor and this thin are like a roof
 const SLAB = 0.3, THING = 0.05; // m below its floor's elevation, where a part still is on it
 
 export class View3d {
@@ -103,7 +103,7 @@ export class View3d {
 
   // --- building
 
-  /** What comes together is built once. */
+  /** Changes that arrive together are built once. */
   buildSoon() {
     this.building ??= setTimeout(() => { this.building = undefined; this.build(); }, 20);
   }
@@ -131,7 +131,7 @@ export class View3d {
     this.setTheme(this.dark);
   }
 
-  // --- what is shown where
+  // --- visibility of parts
 
   /**
    * @param {any} part @param {number} z of its middle
@@ -303,7 +303,7 @@ export class View3d {
     this.dirty = true;
   }
 
-  /** The box around what is shown. */
+  /** The box around the visible parts. */
   box() {
     const box = new THREE.Box3();
     for (const room of this.home.rooms) {
@@ -324,7 +324,7 @@ export class View3d {
   look(above = false) {
     if (!this.shapes) return;
     const box = this.box(), many = this.storey === null && this.home.storeys.length > 1;
-    this.framed = this.home.described !== null && this.element.clientWidth > 0; // until then what is seen may change, or its size
+    this.framed = this.home.described !== null && this.element.clientWidth > 0; // until then the visible parts may change, or their size
     this.viewpoint.look(box, above ? new THREE.Vector3(0, -0.02, 1) : new THREE.Vector3(-0.5, -0.92, many ? 0.72 : 1.05));
     this.sky.cover(box.getCenter(new THREE.Vector3()), 0.5 * box.getSize(new THREE.Vector3()).length());
     this.shadowsAt = 0;

@@ -1,4 +1,4 @@
-/** From where the home is seen: the camera, how the mouse moves it, and how it glides to what is shown. */
+/** The viewpoint: the camera, its motion by the mouse, and its glide to a selection. */
 import * as THREE from '../vendor/three/three.module.min.js';
 import { OrbitControls } from '../vendor/three/OrbitControls.js';
 
@@ -38,7 +38,7 @@ export class Viewpoint {
   }
 
   /**
-   * From where a box fills the view.
+   * The viewpoint from which a box fills the view.
    * @param {any} box
    * @param {any} middle
    * @param {any} way from the middle to the camera, of length 1
@@ -71,7 +71,7 @@ export class Viewpoint {
   }
 
   /**
-   * Where something is on the screen, in pixels of the page.
+   * The place of a point on the screen, in pixels of the page.
    * @param {number[]} at
    * @returns {number[]}
    */
@@ -83,7 +83,7 @@ export class Viewpoint {
   }
 
   /**
-   * @param {any} raycaster set to what is at a place of the page
+   * @param {any} raycaster aimed at a place of the page
    * @param {number} x @param {number} y px
    */
   aim(raycaster, x, y) {
@@ -94,7 +94,7 @@ export class Viewpoint {
 
   /**
    * @param {number} x @param {number} y px @param {number} z m
-   * @returns {number[] | null} where what is seen at a place of the page has this height
+   * @returns {number[] | null} the visible point of this height at a place of the page
    */
   ground(x, y, z) {
     const raycaster = new THREE.Raycaster();
