@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# What ./angen test, fuzz, coverage, tidy and docs do; `angen` sources this and has the functions that install and build.
+# The commands ./angen test, fuzz, coverage, tidy and docs; `angen` sources this and has the functions that install and build.
 # shellcheck disable=SC2154 # root, suites: of `angen`
 
 summary=()
@@ -49,7 +49,7 @@ check_ctest() { # [WORDS]
 
 check_pytest() { # [WORDS]
   local code=0
-  # Many tests wait for wall time: more workers than processors. tests/conftest.py says what runs on one worker.
+  # Many tests wait for wall time: more workers than processors. tests/conftest.py lists the tests that share a worker.
   timeout $((2400 * slowness)) env ${preloaded:+"LD_PRELOAD=$preloaded"} python3 -m pytest -q -n $(($(nproc) + extra_workers)) --dist loadfile --durations=10 ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
   if ((code != 5)); then
     matched=1
@@ -126,7 +126,7 @@ sanitized_tree() { # asan|tsan TARGETS...
     "-DCMAKE_CXX_FLAGS=$flags -fno-omit-frame-pointer" -- "${@:2}"
 }
 
-# What a sanitizer finds in others' libraries is named in the files of tests/sanitizers. Programs are built while these
+# The files of tests/sanitizers list findings in libraries of others. Programs are built while these
 # options hold: angen_describe runs after each plug-in.
 sanitizer_options() {
   local lists=$root/tests/sanitizers

@@ -4,7 +4,7 @@
     python3 bench/physics.py --folder out              a minute
     python3 bench/physics.py --folder out --hour       furniture for an hour too
 
-Exit code 1 where a figure lies beyond its tolerance.
+Exit code 1 where a figure is beyond its tolerance.
 """
 from __future__ import annotations
 

@@ -66,7 +66,7 @@ def spawn(world: angen.World, model: str, pose: list[float]) -> Result:
 def spawns(count: int, seed: int = 1) -> list[Result]:
     draw = random.Random(seed)
     world = angen.World(str(WORLDS / 'angen.world'))
-    world.command('person', 'person', 'Stop')  # whose motor would push what is spawned
+    world.command('person', 'person', 'Stop')  # its motor would push spawned models
     world.run(2.0)
     models = loose_models()
     results = []

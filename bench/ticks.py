@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How long single ticks take while all lamps, doors and the elevator of the building are used.
+"""Measures single ticks while all lamps, doors and the elevator of the building are used.
 
     python3 bench/ticks.py                 10 minutes of simulated time, some minutes
     python3 bench/ticks.py --seconds 130

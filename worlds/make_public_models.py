@@ -88,7 +88,7 @@ def mesh(part: Part, color: str) -> Mesh:
 
 
 def inertial(model: Model) -> str:
-    """Of a solid box around all parts."""
+    """The inertia of a solid box around all parts."""
     half = [max(abs(part.at[i]) + (part.size[i] / 2 if part.is_box else part.size[0])
                 for part in model.parts) for i in (0, 1)]
     top = max(part.at[2] + (part.size[2] if part.is_box else part.size[1]) / 2

@@ -93,7 +93,7 @@ def value(question: Question, row: Row, none: Row | None) -> float | None:
 
 
 def ratio(question: Question, angen: float | None, peer: float | None) -> float | None:
-    """How many times better Angen is; None where one of them is missing or not above 0."""
+    """The factor by which Angen is better; None where a value is missing or not above 0."""
     if angen is None or peer is None or min(angen, peer) <= 0.0:
         return None
     return peer / angen if question.less_is_better else angen / peer

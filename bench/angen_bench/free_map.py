@@ -1,4 +1,4 @@
-"""Where the middle of a person may be on a storey of a world file."""
+"""The map of places for the middle of a person on a storey of a world file."""
 from __future__ import annotations
 
 from pathlib import Path

@@ -32,7 +32,7 @@ exec chroot "$1" /usr/bin/env -i HOME=/root PATH=/usr/bin:/bin DISPLAY="$DISPLAY
 
 
 def default_chroot() -> Path:
-    """Where the chroot is kept."""
+    """The folder of the chroot."""
     cache = os.environ.get('XDG_CACHE_HOME') or Path.home() / '.cache'
     return Path(cache) / 'angen/gazebo11'
 

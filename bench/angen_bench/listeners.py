@@ -38,7 +38,7 @@ def topics_of(master: Any) -> list[str]:
 
 
 def address_of(master: Any, topic: str) -> tuple[str, int]:
-    """Where the node takes connections, the same for all its topics."""
+    """The address at which the node takes connections, the same for all its topics."""
     import xmlrpc.client
     uri = master.lookupNode('/listeners', NODE)[2]
     node: Any = xmlrpc.client.ServerProxy(uri)

@@ -212,7 +212,7 @@ def start_calls(callers: Callers, client: Client) -> None:
 
 
 def counts_of(sensors: int) -> dict[str, int]:
-    """How many of each kind, together `sensors`."""
+    """The number of each kind, together `sensors`."""
     counts = {kind: int(share * sensors) for kind, share in SHARES.items()}
     counts['pir'] += sensors - sum(counts.values())
     return counts

@@ -33,7 +33,7 @@ class Sample:
 
 
 def due(rate: float, begin: float, end: float) -> int:
-    """How often a sensor that started at time 0 reads in (begin, end]; rate in Hz, times in s."""
+    """The readings of a sensor that started at time 0 in (begin, end]; rate in Hz, times in s."""
     return math.floor(end * rate + 1e-6) - math.floor(begin * rate + 1e-6)
 
 
@@ -143,7 +143,7 @@ class Meter:
 
 @dataclass(frozen=True)
 class Deployed:
-    """How the spawning of sensors went: s, % of a core, ms."""
+    """The cost of spawning sensors: s, % of a core, ms."""
     seconds: float
     server_cpu: float
     client_cpu: float | None

@@ -43,7 +43,7 @@ class Case:
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many sensors of each kind the case has in the end."""
+        """The number of sensors of each kind that the case has in the end."""
         if self.mode == 'desired':
             rooms, places = 6 * self.count, 9 * self.count  # chairs and tables
             return {'pir': 2 * rooms, 'luminosity': rooms, 'switch': rooms, 'contact': places + 1}
@@ -81,7 +81,7 @@ def cases(mode: str, kind: str, counts: Sequence[int] | None, mover: str = 'pers
 
 @cache
 def rate_of(model: str) -> float:
-    """How often the sensor of a block reads, in Hz."""
+    """The rate of the sensor of a block, Hz."""
     path = find(f'model://{model}')
     text = sdf.read(path).findtext('.//sensor/update_rate') if path else None
     if not text:
@@ -151,7 +151,7 @@ class Bench:
                                expected(case, subscribed, first.sim, last.sim))
 
     def fast(self, case: Case, found: Session, meter: Meter, client: Client) -> None:
-        """How fast a node at rate 0 is."""
+        """The speed of a node at rate 0."""
         sensors = case.sensors()
         if case.mode == 'deployed' and sensors:
             meter.subscribe([topic_of(s) for s in spread(sensors, SUBSCRIBED)])
@@ -198,7 +198,7 @@ class Bench:
 
 
 def expected(case: Case, sensors: Sequence[Placement], begin: float, end: float) -> float:
-    """How many readings are due between two simulated times in s."""
+    """The number of readings that are due between two simulated times in s."""
     rates = Counter(rate_of(sensor.model) for sensor in sensors)
     if case.mode == 'deployed':  # each counts from its own start
         return sum(n * rate * (end - begin) for rate, n in rates.items())

@@ -37,7 +37,7 @@ ANCHOR = '''<model name="anchor"><static>true</static><link name="link"><collisi
 <link name="right"/><joint name="right_joint" type="revolute"><parent>link</parent>
 <child>right</child><axis><xyz>0 0 1</xyz></axis></joint></model>'''
 ROBOT = 'turtlebot'
-# Of the robot: 30 a second would take most of the time, and cameras come and go too.
+# Images of the robot are left out: 30 a second take most of the time. Other cameras are spawned.
 PICTURES = ('/camera/', f'/{ROBOT}/camera/')
 FAR = (60.0, 0.0, 0.05, 0.0, 0.0, 0.0)  # from the apartment: the pose of spawned models
 # Parameters that these kinds require.

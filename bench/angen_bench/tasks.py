@@ -1,4 +1,4 @@
-"""Runs demo, seek and care in imported homes: what ends, how long it takes, and what fails."""
+"""Runs demo, seek and care in imported homes: results, times and failures."""
 from __future__ import annotations
 
 import json

@@ -15,7 +15,7 @@ from angen_bench.free_map import CELL, STEP_OVER, TALL, free_map
 
 BODY = 0.25  # m, half a person's width
 ROOMY = 0.32  # m from a place to something, at best
-BESET = 0.8  # m from a door: what is named where a person does not fit
+BESET = 0.8  # m from a door: models this near are named where a person does not fit
 BESIDE = (0.7, 1.0, 1.4, 0.5)  # m from a door to where the person is sent
 LIMIT = 60.0  # s for a way
 LOOK = 0.1  # s between two looks at the person

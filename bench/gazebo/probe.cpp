@@ -1,7 +1,7 @@
 // A system plug-in of gzserver: counts the readings of its sensors and executes the bench's orders
 // on stdin; it ends when stdin is closed.
 //
-//   rate HZ            steps a second of wall time, 0: as fast as it goes
+//   rate HZ            steps a second of wall time, 0: as fast as possible
 //   drive MODEL L R    the wheels left_wheel_joint and right_wheel_joint turn at L and R rad/s
 //   spawn NAME FILE    puts the model of an SDF file into the world
 //   delete NAME        takes a model out

@@ -29,7 +29,7 @@ class Worst:
         rospy.Subscriber(topic, JointTrajectoryControllerState, self.see)
 
     def see(self, state: JointTrajectoryControllerState) -> None:
-        """Of one message."""
+        """Notes the errors of one message."""
         self.seen += 1
         errors = [abs(a - b) for a, b in zip(state.desired.positions, state.actual.positions)]
         self.off = max(self.off, *errors)

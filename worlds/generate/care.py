@@ -71,7 +71,7 @@ class Day:
 
 
 def seconds(clock: str) -> float:
-    """Of a time of day as 22:30, s since the world began."""
+    """The seconds from the start of the world to a time of day such as 22:30."""
     hours, minutes = clock.split(":")
     return 60.0 * ((int(hours) * 60 + int(minutes) - BEGINS) % (24 * 60))
 

@@ -231,7 +231,7 @@ def write_turtlebot(models: Path) -> None:
     urdf.add_root(robot, "base_footprint", "base_link")
     urdf.add_link(robot, "base_link", _robot_body())
     for side, y in (("left", SEPARATION / 2), ("right", -SEPARATION / 2)):
-        # a sphere rolls as the wheel does and meets the floor in one point, which keeps ODE calm
+        # a sphere rolls as the wheel does and touches the floor in one point, which keeps ODE calm
         tread = Part("tread", (WHEEL_RADIUS,), mass=0.0, show=False, friction=1.0)
         looks = Part("wheel", (WHEEL_RADIUS, 0.021), rpy=(pi / 2, 0, 0), material="Gazebo/Black",
                      mass=0.25, collide=False)

@@ -21,7 +21,7 @@ class Part:
 
     size is (x, y, z) of a box, (radius, length) of a cylinder, (radius,) of a sphere. A part
     with `mesh` (a uri) is looks only. `material` is a Gazebo material's name or an RGB colour.
-    With `same`, collision and visual have one name: rays meet it with its own surface.
+    With `same`, collision and visual have one name: rays hit it with its own surface.
     """
     name: str
     size: Sequence[float] = ()

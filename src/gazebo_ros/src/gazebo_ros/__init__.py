@@ -1,1 +1,1 @@
-"""What launch files and scripts written for Gazebo's gazebo_ros use, served by Angen."""
+"""The package gazebo_ros for launch files and scripts written for Gazebo, served by Angen."""

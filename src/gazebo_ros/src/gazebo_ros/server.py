@@ -15,13 +15,13 @@ EMPTY_WORLD = 'worlds/empty.world'
 
 
 class Failure(Exception):
-    """What the user is told in one line."""
+    """An error for the user, in one line."""
 
 
 def parser() -> argparse.ArgumentParser:
     """Gazebo's options. Those without a meaning here are taken and not used."""
     made = argparse.ArgumentParser(
-        prog='gzserver', description="Angen's simulator in the place of Gazebo's server.")
+        prog='gzserver', description="Angen's simulator instead of Gazebo's server.")
     made.add_argument('-u', '--pause', action='store_true', help='start paused')
     made.add_argument('-r', '--record', action='store_true', help='record the run')
     made.add_argument('--record_path', metavar='FOLDER', help='where to record it')
@@ -45,13 +45,13 @@ def own_folder() -> Path:
 
 
 def resource_folders() -> list[Path]:
-    """Where a world that is not a path is searched: the last is our own."""
+    """The folders in which a world that is not a path is searched: the last is Angen's."""
     given = os.environ.get('GAZEBO_RESOURCE_PATH', '').split(':')
     return [Path(folder) for folder in given if folder] + [own_folder()]
 
 
 def find_world(name: str) -> str:
-    """The file that a world's name stands for; the empty world if there is none, as in Gazebo."""
+    """The file of a world's name; the empty world if there is none, as in Gazebo."""
     tried = [Path(name)] + [folder / name for folder in resource_folders()]
     for path in tried:
         if path.is_file():

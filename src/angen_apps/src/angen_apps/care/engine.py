@@ -81,7 +81,7 @@ class Engine:
         self._expect(self.signals)
 
     def observe(self, event: Event) -> list[Change]:
-        """Takes an event, after all that came before it; one that comes late counts as of now."""
+        """Takes an event; events come in order, a late one counts as of now."""
         changes = self.advance(event.time)
         self.now = max(self.now, event.time)
         flipped = {name for name, signal in self.signals.items() if signal.observe(event)}

@@ -52,5 +52,5 @@ def around(corners: Sequence[float], cycle: float) -> Trapezoid:
     c = b + (c - b) % cycle
     d = c + (d - c) % cycle
     if d - a > cycle:
-        raise ValueError('go round the clock more than once')
+        raise ValueError('span more than 24 hours')
     return Trapezoid(a, b, c, d, cycle)

@@ -1,4 +1,4 @@
-"""What care leaves: lines for people, warnings.csv, events.csv."""
+"""The output of care: lines for people, warnings.csv, events.csv."""
 from __future__ import annotations
 
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What care rules are made of, as their file says it."""
+"""The parts of care rules, as their file has them."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ class Signal:
     tag: str             # only this RFID tag, '' any
     elsewhere: tuple[str, ...]
     line: int
-    rooms: tuple[str, ...] = ()  # names or uses of rooms that `of` is in; none: wherever it is
+    rooms: tuple[str, ...] = ()  # names or uses of rooms that `of` is in; none: any room
 
 
 @dataclass(frozen=True)

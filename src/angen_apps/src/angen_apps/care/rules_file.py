@@ -1,4 +1,4 @@
-"""Reads care rules from their YAML file; Failure says file, line, and what would be right."""
+"""Reads care rules from their YAML file; Failure has file, line, the error and its fix."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -34,7 +34,7 @@ class _Reader(YamlFile):
         for node in self.list(top['rules'], 'rules'):
             rule = self._rule(node, signals)
             if rule.name in rules:
-                raise self.fail(node, f"rule '{rule.name}' is there twice; the first is in line "
+                raise self.fail(node, f"rule '{rule.name}' is given twice; the first is in line "
                                 f'{rules[rule.name].line}')
             rules[rule.name] = rule
         return Rules(self.path, starts, signals, tuple(rules.values()))
@@ -104,7 +104,7 @@ class _Reader(YamlFile):
         if ('is' in parts) + ('not' in parts) + ('time' in parts) != 1:
             raise self.fail(node, "a condition has one of 'is', 'not' and 'time'")
         if 'time' in parts and len(parts) > 1:
-            raise self.fail(node, "'time' is a condition of its own; for when a signal began "
+            raise self.fail(node, "'time' is a separate condition; for when a signal began "
                             "there is 'began'")
         key = 'is' if 'is' in parts else 'not'
         return Condition(
@@ -129,7 +129,7 @@ class _Reader(YamlFile):
         return Trapezoid(*corners)
 
     def _window(self, node: Any, what: str) -> Trapezoid:
-        """Of '22:00 to 6:00' with upright edges, or of four corners."""
+        """The membership of '22:00 to 6:00', with upright edges, or of four corners."""
         if is_list(node):
             corners = self._corners(node, what, time_of_day, (4,))
         else:

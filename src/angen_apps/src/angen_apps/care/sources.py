@@ -26,7 +26,7 @@ def chosen(patterns: Iterable[str], existing: Collection[str]) -> set[str]:
 def at_home(rules: Rules, home: Home, rooms: Mapping[str, str], existing: Collection[str]) -> Rules:
     """The rules with their sources and places in a home, and with the home's start.
 
-    `rooms`: the room of each KIND/NAME that is in one. What is chosen by kind, use or the entrance
+    `rooms`: the room of each KIND/NAME that is in one. Signals chosen by kind, use or the entrance
     may be missing: rules that ask for it are left out. Failure where something named is missing.
     """
     signals: dict[str, Signal] = {}
@@ -101,7 +101,7 @@ def check_sources(rules: Rules, existing: Collection[str], places: Collection[st
                               f'no {pattern}; {_suggest(pattern, existing)}')
     for rule in rules.rules:
         if rule.at and rule.at not in places:
-            raise Failure(f"{rules.path}:{rule.line}: rule '{rule.name}': nothing is named "
+            raise Failure(f"{rules.path}:{rule.line}: rule '{rule.name}': no source is named "
                           f"'{rule.at}'; {did_you_mean(rule.at, places, 'angen list')}")
 
 

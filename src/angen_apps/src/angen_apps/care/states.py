@@ -27,7 +27,7 @@ CONTACT = {'open': State(('opened',), ('closed',), r'^open'),
            'closed': State(('closed',), ('opened',), r'^closed')}
 SWITCHED = {'on': State(('on',), ('off',), r'^on\b')}
 
-# by kind; a state of tags is told apart by the ids in the event's detail
+# by kind; a state of tags is distinguished by the ids in the event's detail
 STATES: dict[str, dict[str, State]] = {
     'pir': {'motion': State(('motion',), ('still',), r'^MOTION')},
     'reed': CONTACT,

@@ -44,7 +44,7 @@ def add_care(commands: Any) -> None:
     care.add_argument('--day', metavar='FILE', type=Path,
                       help='commands to devices: a CSV file with time,target,command')
     care.add_argument('--residents', metavar='WHO', type=checked(residents), default=(),
-                      help='people who live there: how many, or profiles between commas, as of '
+                      help='people who live there: a number, or profiles between commas, as of '
                       'angen generate (none)')
     add_seed(care, 'of all noise and habits')
     add_allow_paths(care)

@@ -35,7 +35,7 @@ def date(text: str) -> str:
 
 
 def residents(text: str) -> tuple[str, ...]:
-    """How many, or profiles between commas."""
+    """A number of residents, or profiles between commas."""
     words = tuple(word.strip() for word in text.split(','))
     for word in words:
         if not word:
@@ -118,7 +118,7 @@ def add_generate(commands: Any) -> None:
     made.add_argument('--days', metavar='N', type=checked(at_least(1, 36525)), default=1,
                       help='days of each home (1)')
     made.add_argument('--residents', metavar='WHO', type=checked(residents), default=('2',),
-                      help='how many, or profiles between commas: retired, worker, student, … or '
+                      help='a number, or profiles between commas: retired, worker, student, … or '
                       'YAML files, as docs/data.md describes them (2)')
     add_seed(made, 'of everything')
     made.add_argument('--format', metavar='LIST', type=checked(formats), default=('casas',),

@@ -43,7 +43,7 @@ def add_import(commands: Any) -> None:
                         help='a home of Sweet Home 3D (.sh3d, or its Home.xml), a building of '
                         'Open-RMF (building.yaml), a picture, or a map of map_server (map.yaml)')
     parser.add_argument('--scale', metavar='M', type=checked(pixel),
-                        help='how wide a pixel of a picture is, in m')
+                        help='width of a pixel of a picture, in m')
     parser.add_argument('--doors', action='store_true', help='gaps of 0.7 to 1.1 m in the walls '
                         'of a picture or map are doors')
     parser.add_argument('--sensors', choices=SENSORS, default='seed', help='seed: two PIRs and a '

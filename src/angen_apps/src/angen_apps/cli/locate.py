@@ -55,7 +55,7 @@ def _print(args: argparse.Namespace, rows: Any, answers: Any) -> None:
 def add_locate(commands: Any) -> None:
     """angen locate."""
     locate = command(commands, 'locate', run_locate,
-                     'says who is where, by RFID, PIRs, doors and mats',
+                     'locates tagged people in rooms, by RFID, PIRs, doors and mats',
                      'locate', 'locate --for 60', 'locate --world worlds/angen.world --for 300')
     locate.set_defaults(parser=locate)
     locate.add_argument('--for', metavar='TIME', dest='span', type=checked(duration),

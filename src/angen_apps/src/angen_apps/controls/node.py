@@ -39,7 +39,7 @@ QUIET = 0.3  # s without such an event, after which the markers are made again
 
 
 def ball(kind: str, x: float, y: float, z: float) -> Marker:
-    """What one clicks."""
+    """A control that is clicked."""
     made = Marker()
     made.type = Marker.SPHERE
     made.scale.x = made.scale.y = made.scale.z = MOVER if kind in OVER else HANDLE
@@ -101,7 +101,7 @@ class Controls:
             del self._made[key], self._menus[key]
         for key, entity in self._shown.items():
             made = self._marker(key, entity), offered[key]
-            if self._made.get(key) != made:  # rviz closes the menu of one that comes again
+            if self._made.get(key) != made:  # rviz closes the menu of a control that is sent again
                 self._made[key] = made
                 self._server.insert(made[0], self._on_click)
                 self._menus[key] = self._menu(entity, made[1])
@@ -167,7 +167,7 @@ class Controls:
         return OVER[mover.kind] + ABOVE * (others.index(key) + 1 if key in others else 0)
 
     def _landings(self, entity: Any) -> list[tuple[float, float, float]]:
-        """Where one calls an elevator: its cabin hides what is in it."""
+        """The call button of an elevator: its cabin hides the controls in it."""
         return [(x, y, z + HAND) for one in self._home.elevators
                 if (entity.kind, entity.name) == ('elevator', one.name)
                 for x, y, z, _ in (landing.pose for landing in one.landings)]
@@ -235,7 +235,7 @@ class Controls:
         return f'{walk(kind)} {x:.2f} {y:.2f}'
 
     def _taken(self, entity: Any, floor: float) -> Taken:
-        """What is in the way of a mover on a floor."""
+        """The obstacles of a mover on a floor."""
         movers = [e for e in self._list('').entities if e.kind in kinds('device') and (
             is_robot(kinds()[e.kind]) or walk(kinds()[e.kind]))]
         storey = self._home.storey_at(floor)

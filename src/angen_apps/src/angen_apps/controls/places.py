@@ -9,17 +9,17 @@ from angen_tools.common.home import FloorPose, Home, Room
 from angen_tools.common.geometry import yaw_of
 
 INSIDE = 0.8  # m from the middle of a door into its room
-SEAT = 0.5  # m around the place of one who sits or lies, where a seat may be in the way
+SEAT = 0.5  # m around the place of a person who sits or lies, where a seat may be in the way
 STEP = 0.4  # m between places of a room that are tried last
-AROUND = 0.3  # m that one needs to what stands there
+AROUND = 0.3  # m from obstacles that a mover needs
 APART = 0.7  # m between the middles of two who stand
-LOW, HIGH = 0.1, 1.5  # m over the floor: what is between is in the way
+LOW, HIGH = 0.1, 1.5  # m over the floor: shapes between these are obstacles
 BOX, CYLINDER = 0, 2  # as angen_msgs/SceneShape
 
 
 @dataclass(frozen=True)
 class Box:
-    """What covers a part of the floor: its middle, turn and half lengths."""
+    """An obstacle on the floor: its middle, turn and half lengths."""
 
     x: float
     y: float
@@ -35,7 +35,7 @@ class Box:
 
 @dataclass(frozen=True)
 class Taken:
-    """What is in the way: things, and people and robots, by their middles."""
+    """The obstacles: things, and people and robots, by their middles."""
 
     things: list[Box] = field(default_factory=list)
     movers: list[tuple[float, float]] = field(default_factory=list)
@@ -73,7 +73,7 @@ def rooms(home: Home, z: float) -> list[Room]:
 
 
 def place(home: Home, room: Room, taken: Taken) -> FloorPose | None:
-    """Where one stands to use a thing, or inside a door, or in the middle, or anywhere in the room;
+    """A place to use a thing, or inside a door, or in the middle, or anywhere in the room;
     None where no place is free."""
     at_things = (at for at in _at_things(home, room) if taken.apart(*at[:2]))
     others = (at for at in _others(home, room) if taken.is_free(*at[:2]))

@@ -1,4 +1,4 @@
-"""Where the cabins and leaves of elevators are in a recording, for its replay."""
+"""Positions of the cabins and leaves of elevators in a recording, for its replay."""
 from __future__ import annotations
 
 from typing import Any, NamedTuple
@@ -42,7 +42,7 @@ class Cabins:
         for name, since in list(self._moving.items()):
             state = self._world.device('elevator', name)
             rests = state['mode'] == 'IDLE' and state['door_mode'] in ('OPEN', 'CLOSED')
-            self._note(since if rests else self._world.time, name)  # what ended may be long ago
+            self._note(since if rests else self._world.time, name)  # it may have ended before
             if rests:
                 del self._moving[name]
 

@@ -30,7 +30,7 @@ class Fault:
 
 
 class Happened(NamedTuple):
-    """What a fault did."""
+    """An effect of a fault."""
 
     time: float
     sensor: str

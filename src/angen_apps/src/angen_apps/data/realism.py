@@ -110,7 +110,7 @@ def _labels(path: Path) -> list[tuple[float, str, str]]:
 
 
 def on_times(stream: Stream) -> np.ndarray:
-    """How long motion sensors are on, s."""
+    """The ON times of motion sensors, s."""
     since: dict[str, float] = {}
     found = []
     for time, sensor, value in zip(stream.time.tolist(), stream.sensor, stream.value):
@@ -143,7 +143,7 @@ def by_hour(stream: Stream) -> np.ndarray:
 
 
 def transitions(stream: Stream) -> Counter[tuple[str, str]]:
-    """From room to room, by motion sensors that come on."""
+    """Transitions from room to room, by motion sensors that turn on."""
     found: Counter[tuple[str, str]] = Counter()
     last = ''
     for sensor, value, room in zip(stream.sensor, stream.value, stream.room):
@@ -195,7 +195,7 @@ def compare(stream: Stream, reference: Stream | None) -> list[tuple[str, float, 
 
 
 def durations(stream: Stream) -> dict[str, list[float]]:
-    """How long activities last, s."""
+    """The durations of activities, s."""
     since: dict[str, float] = {}
     found: dict[str, list[float]] = {}
     for time, activity, turn in stream.labels:

@@ -94,7 +94,7 @@ class Site:
 
     def _clear(self) -> None:
         """Deletes the world's sensors that the rules replace or that are not in the data: light
-        sensors that nobody reads cost an hour a day."""
+        unread sensors cost an hour a day."""
         for kind, name, model, _ in self.world.entities():
             if kind in kinds('sensor') and kind not in OWN:
                 self.world.delete(name)
@@ -179,17 +179,17 @@ class _Placer:
 
     def _cells(self, room: Room) -> None:
         """Motion sensors at the ceiling, each over a cell of the floor that people use."""
-        wanted = [place.pose[:2] for thing in self.home.things if thing.room == room.name
+        places = [place.pose[:2] for thing in self.home.things if thing.room == room.name
                   for place in thing.places]
         for door in self.home.doors:
             if door.kind != 'window' and room.name in door.rooms:
                 x, y, _, yaw = door.pose
                 inside = [(x + s * 0.7 * math.sin(yaw), y - s * 0.7 * math.cos(yaw))
                           for s in (1, -1)]
-                wanted += [at for at in inside if room.contains(*at)]
-        wanted.append(room.center)
+                places += [at for at in inside if room.contains(*at)]
+        places.append(room.center)
         kept: list[tuple[float, float]] = []
-        for x, y in wanted:
+        for x, y in places:
             if room.contains(x, y) and all(math.dist((x, y), other) >= APART for other in kept):
                 kept.append((x, y))
         for i, (x, y) in enumerate(kept):

@@ -118,7 +118,7 @@ def _walls(findings: Findings, layout: Any, folder: Path) -> None:
         rooms = [_room(layout, *before[1:]), _room(layout, x, y, storey)]
         if rooms[0] != rooms[1]:
             near = any(_through(door, before[1:3], (x, y)) for door in layout['doors'])
-            findings.say('nobody crossed a wall', near,
+            findings.say('no resident crossed a wall', near,
                          f'{who} at {time}: from {rooms[0]} at {before[1]} {before[2]} to '
                          f'{rooms[1]} at {x} {y}')
 
@@ -141,7 +141,7 @@ def _through(door: Any, start: tuple[float, float], end: tuple[float, float]) ->
 
 
 def _rooms(findings: Findings, layout: Any, truth: list[dict[str, str]]) -> None:
-    """Who does something at a thing is in its room."""
+    """A resident who uses a thing is in its room."""
     things = {thing['name']: thing['room'] for thing in layout['things']}
     for row in truth:
         if row['phase'] == 'does' and row['thing'] and row['room']:
@@ -151,14 +151,14 @@ def _rooms(findings: Findings, layout: Any, truth: list[dict[str, str]]) -> None
 
 
 def _uses(findings: Findings, layout: Any, truth: list[dict[str, str]]) -> None:
-    """Who does something is in a room where it is done, if the home has one."""
+    """An activity is in a room of its kind, if the home has one."""
     rooms = {name: set().union(*(_rooms_for(step, layout) for step in activity.steps))
              for name, activity in activities().items()
              if not any({OUTSIDE, ENTRANCE} & set(step.at) for step in activity.steps)}
     for row in truth:
-        wanted = rooms.get(row['activity'])
-        if row['phase'] == 'does' and row['room'] and wanted and not row['note']:
-            findings.say('an activity is in a room for it', row['room'] in wanted,
+        allowed = rooms.get(row['activity'])
+        if row['phase'] == 'does' and row['room'] and allowed and not row['note']:
+            findings.say('an activity is in a room for it', row['room'] in allowed,
                          f'{row["resident"]} at {row["start"]}: {row["activity"]} in {row["room"]}')
 
 
@@ -167,9 +167,9 @@ def _rooms_for(step: Step, layout: Any) -> set[str]:
     use = {room['name']: room['use'] for room in layout['rooms']}
     found = {name for name, of in use.items() if step.room == of}
     for what in step.at:
-        wanted, _, kind = what.rpartition(' ')
+        wanted_use, _, kind = what.rpartition(' ')
         found |= {thing['room'] for thing in layout['things'] if thing['type'] == kind
-                  and (not wanted or use.get(thing['room']) == wanted)}
+                  and (not wanted_use or use.get(thing['room']) == wanted_use)}
     return found
 
 
@@ -204,7 +204,7 @@ def _alternate(findings: Findings, events: list[dict[str, str]]) -> None:
 
 def _seats(findings: Findings, layout: Any, truth: list[dict[str, str]],
            events: list[dict[str, str]]) -> None:
-    """Who sits on a chair with a contact presses it."""
+    """A resident on a chair with a contact presses it."""
     import datetime
     start = datetime.datetime.fromisoformat(layout['start'])
     seats = {sensor['name']: sensor['id'] for sensor in layout['sensors']
@@ -228,7 +228,7 @@ def _seats(findings: Findings, layout: Any, truth: list[dict[str, str]],
 
 
 def _labels(findings: Findings, path: Path) -> None:
-    """Of casas.txt: each begin has its end."""
+    """Each begin in casas.txt has its end."""
     opened: Counter[str] = Counter()
     for line in path.read_text(encoding='utf-8').splitlines():
         words = line.split('\t')

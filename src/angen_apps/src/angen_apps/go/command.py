@@ -72,7 +72,7 @@ def go(words: Sequence[str], robot: str, json: bool) -> int:
                     start)
     if arrived.error_m > ASTRAY:
         raise Failure(f'{route.robot} is at {arrived.x_m:.2f}, {arrived.y_m:.2f}, '
-                      f'{arrived.error_m:.2f} m from {arrived.goal}, and believes to be there')
+                      f'{arrived.error_m:.2f} m from {arrived.goal}: its estimate is wrong')
     print(as_json(asdict(arrived)) if json else
           f'{route.robot} is in {arrived.goal}: {arrived.distance_m:.1f} m in '
           f'{arrived.time_s:.1f} s, doors: {arrived.doors}, rides: {arrived.rides}, '
@@ -142,7 +142,7 @@ def goal_of(words: Sequence[str], home: Home, planners: Mapping[int, Planner]) -
         planner = planners.get(found.storey)
         at = planner.nearest(found.center, REACH) if planner else None
         if at is None or not found.contains(*at):
-            raise Failure(f'the robot finds no room to stand in {found.name}')
+            raise Failure(f'the robot finds no free place in {found.name}')
         return Waypoint(found.name, found.storey, at, 0)
     floor = found[2] if len(found) == 3 else 0.0
     if floor not in planners:

@@ -16,7 +16,7 @@ LOST, UNSURE = 0.5, 1.5  # share of a scan on the map: less for UNSURE s means t
 
 
 class Guard:
-    """Of one drive after the other of a driver; `reason` says why it gave the last one up."""
+    """Guards one drive after the other; `reason` says why it gave the last one up."""
 
     def __init__(self, clearance: float) -> None:
         self._beside = clearance - BESIDE

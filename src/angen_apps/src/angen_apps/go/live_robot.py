@@ -118,6 +118,6 @@ class LiveRobot:
 
 
 def pose_of(message: Any) -> Pose:
-    """Of a nav_msgs/Odometry."""
+    """The pose of a nav_msgs/Odometry."""
     pose = message.pose.pose
     return Pose(pose.position.x, pose.position.y, yaw_of(pose.orientation))

@@ -33,7 +33,7 @@ class Held(Failure):
 
 
 class Trip:
-    """`goal` names it by what is free; `lift` is the elevator that it enters on a floor; `note`
+    """`goal` names it by the free place; `lift` is the elevator that it enters on a floor; `note`
     takes a line for the user; `watch` the share of the actions that is done, and the present one.
     """
 
@@ -75,7 +75,7 @@ class Trip:
 
     def plan(self, at: Point, floor: int, foreign: np.ndarray | None = None
              ) -> tuple[Waypoint, list[Action]]:
-        """The goal and the actions from a place, around what is `foreign` to the map."""
+        """The goal and the actions from a place, around obstacles that are `foreign` to the map."""
         planners, doors = dict(self._planners), dict(self._survey.doors)
         if foreign is not None and len(foreign):
             grid = with_points(self._survey.maps[floor], foreign)

@@ -24,7 +24,7 @@ from angen_tools.common.yaml_file import YamlFile
 
 HEIGHT = 2.5  # m
 FURNITURE = 0.4, 3.0  # m of the longer side: smaller things are text and pillars
-LONGEST_THIN = 1.0  # m of a thing thinner than LEAST_WALL: a longer one is a wall that stands free
+LONGEST_THIN = 1.0  # m of a thing thinner than LEAST_WALL: a longer one is a free-standing wall
 FURNITURE_HEIGHT = 0.75  # m
 BESIDE = 0.15  # m from a doorway to the wall that ends at it
 LEAST_ROOM = 1.0  # m2: a smaller space that is closed is the inside of a thing
@@ -219,7 +219,7 @@ def thick_spots(dark: np.ndarray, scale: float) -> list[float]:
 
 
 def _labels_at(labels: np.ndarray, point: Point, scale: float) -> set[int]:
-    """What is within BESIDE of a point."""
+    """The pixels within BESIDE of a point."""
     columns, rows = (slice(max(0, int((v - BESIDE) / scale)), int((v + BESIDE) / scale) + 1)
                      for v in point)
     return set(np.unique(labels[rows, columns]).tolist()) - {0}

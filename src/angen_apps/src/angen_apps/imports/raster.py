@@ -31,7 +31,7 @@ def darkness(path: Path) -> np.ndarray:
     data = read_bytes(path)
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter('ignore')  # of large pictures, which are refused below
+            warnings.simplefilter('ignore')  # of large pictures, which are rejected below
             picture = Image.open(io.BytesIO(data))
         with picture:
             if picture.width * picture.height > PIXELS:

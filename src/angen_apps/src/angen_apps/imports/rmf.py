@@ -55,7 +55,7 @@ class _Building:
     def __init__(self, path: Path) -> None:
         data = read_bytes(path)
         if data.count(b'*') + data.count(b'&') > ALIASES:
-            _refuse_aliases(path, data)
+            _reject_aliases(path, data)
         self.file = YamlFile(path)
         self.path = path
         self.remarks: list[str] = []
@@ -360,7 +360,7 @@ def _within(corners: Sequence[Point]) -> list[float]:
     return found
 
 
-def _refuse_aliases(path: Path, data: bytes) -> None:
+def _reject_aliases(path: Path, data: bytes) -> None:
     count = 0
     for event in yaml.parse(data, yaml.CSafeLoader):
         count += isinstance(event, yaml.AliasEvent)

@@ -94,9 +94,9 @@ def _member(path: Path) -> bytes:
             names = archive.namelist()
             if HOME not in names:
                 if OLD in names:
-                    raise Failure(f'{path}: holds no {HOME}, only the format before Sweet Home 3D '
+                    raise Failure(f'{path}: has no {HOME}, only the format before Sweet Home 3D '
                                   '5.3; open it with 5.3 or later and save it')
-                raise Failure(f'{path}: holds no {HOME}; it is not a home of Sweet Home 3D')
+                raise Failure(f'{path}: has no {HOME}; it is not a home of Sweet Home 3D')
             with archive.open(HOME) as file:
                 data = file.read(LARGEST_XML + 1)
     except Failure:

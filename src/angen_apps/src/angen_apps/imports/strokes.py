@@ -40,7 +40,7 @@ def straight_walls(dark: np.ndarray, scale: float) -> list[Box]:
     found: list[Box] = []
     left = dark.copy()
     least = max(2, round(LEAST_WALL / scale))
-    # first what is longer than walls are thick: across a thick wall there are runs, too
+    # first runs longer than walls are thick: across a thick wall there are runs, too
     for length in sorted({least, max(least, round(LONGER * _thickness(dark, scale)))})[::-1]:
         for upright in (False, True):
             found += _runs(left.T if upright else left, length, upright)
@@ -51,7 +51,7 @@ def straight_walls(dark: np.ndarray, scale: float) -> list[Box]:
 
 
 def _rest(cells: np.ndarray) -> list[tuple[int, int, int, int]]:
-    """The rectangles of what is no run, such as the stub between a corner and a door."""
+    """The rectangles of pixels outside of runs, such as the stub between a corner and a door."""
     labels, count = label(cells)
     found = []
     for k, (rows, columns) in enumerate(slices(labels, count), 1):
@@ -88,7 +88,7 @@ def _without_edges(boxes: list[Box], shape: tuple[int, ...]) -> list[Box]:
 
 
 def _thickness(dark: np.ndarray, scale: float) -> float:
-    """Of the thickest walls, in pixels."""
+    """The thickness of the thickest walls, in pixels."""
     away = distance_transform_edt(np.pad(dark, 1))[1:-1, 1:-1]
     middle = (away > 0) & (away == maximum_filter(away, 3)) & (2 * away * scale <= THICKEST)
     return float(2 * np.quantile(away[middle], THICK_SHARE)) if middle.any() else 0.0
@@ -123,7 +123,7 @@ def _joined(boxes: list[Box], shape: tuple[int, ...]) -> list[Box]:
 
 
 def _nearby(lines: np.ndarray, low: int, high: int) -> tuple[int, int]:
-    """How many pixels before `low` and after `high` the next wall is; 0 where it is not near."""
+    """Pixels before `low` and after `high` to the next wall; 0 where it is not near."""
     before, after = lines[:, :low][:, ::-1][:, :JOINT + 1], lines[:, high:high + JOINT + 1]
     return (int(before.any(axis=0).argmax()) if before.any() else 0,
             int(after.any(axis=0).argmax()) if after.any() else 0)

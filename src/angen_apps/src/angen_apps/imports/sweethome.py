@@ -130,7 +130,7 @@ class _Home:
         color = _color(element.get('rightSideColor') or element.get('leftSideColor'),
                        (0.92, 0.92, 0.9))
         extent = xml.number(element, 'arcExtent', 0.0, -2 * pi + 0.01, 2 * pi - 0.01)
-        # seen with y up, what turned clockwise turns counterclockwise
+        # with y up, clockwise turns become counterclockwise
         points = arc(start, end, -extent)
         heights = [height + (last - height) * i / (len(points) - 1) for i in range(len(points))]
         z = storey.elevation
@@ -214,8 +214,8 @@ class _Home:
         storey.openings.append(opening)
 
     def _join_layers(self) -> None:
-        """Of levels at one height: gives openings to that of the walls which they are in, and rooms
-        of one without walls to one with walls."""
+        """Joins levels at one height: gives openings to the level of their walls, and rooms of a
+        level without walls to one with walls."""
         for storey in self.storeys.values():
             same = [other for other in self.storeys.values() if other is not storey
                     and other.walls and abs(other.elevation - storey.elevation) < SAME_LEVEL]

@@ -121,7 +121,7 @@ class Belief:
         return 1.0 - unexplained
 
     def _of_motion(self, motion: Mapping[str, bool], others: list[np.ndarray]) -> np.ndarray:
-        """How likely the PIRs are, for each room that this tag may be in."""
+        """The likelihood of the PIRs, for each room that this tag may be in."""
         model, rooms = self.model, self.site.of_kind('pir')
         explained = self._explained(others, model.stray)
         fired: dict[int, bool] = {}
@@ -151,7 +151,7 @@ class Belief:
         return likely
 
     def _of_reads(self, tag: str, reads: Mapping[str, Mapping[str, float]]) -> np.ndarray:
-        """How likely it is that readers read this tag at their distances, or do not."""
+        """The likelihood that readers read this tag at their distances, or do not."""
         model, rooms = self.model, self.site.of_kind('rfid')
         likely = np.ones(len(self.site.rooms))
         for reader, tags in reads.items():

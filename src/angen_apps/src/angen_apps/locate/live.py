@@ -33,7 +33,7 @@ class Locator:
         home = client.home()
         self.site = make_site(home, [entity_of(entity, home) for entity in entities])
         if not self.site.of_kind('rfid'):
-            raise Failure('no room has an RFID reader: people cannot be told apart')
+            raise Failure('no room has an RFID reader: people cannot be distinguished')
         self.belief = Belief(self.site)
         self.time = 0.0
         self._evidence = Evidence()

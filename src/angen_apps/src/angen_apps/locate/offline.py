@@ -26,7 +26,7 @@ def run(path: str, seconds: float, seed: int, drive: Callable[[Any], None] | Non
     world.run(SAMPLE)  # until all have reported
     site = make_site(Home.of_world(world), entities_of(world))
     if not site.of_kind('rfid'):
-        raise Failure('no room of the world has an RFID reader: people cannot be told apart')
+        raise Failure('no room of the world has an RFID reader: people cannot be distinguished')
     belief, rows = Belief(site), []
     carriers = _carriers(world)
     with Progress('locate') as progress:

@@ -17,7 +17,7 @@ RESOLUTION = 0.05  # m; cells are centered on its multiples, where the faces of 
 LOW, HIGH = 0.02, 0.45  # m above the floor: a robot of that height can touch things between
 LEVEL = 0.02  # m from one height of rays to the next
 FINE = 0.01  # m between rays: a thing that is thinner both ways may be missed
-STEP_DOWN = 0.05  # m: ground that lies deeper is not a floor
+STEP_DOWN = 0.05  # m: deeper ground is not a floor
 REACH = 60.0  # m: the largest distance of a building from the origin
 SETTLE = 60.0  # s of simulated time for doors and elevators to get where they are sent
 ROOM, HEADROOM = 0.4, 1.0  # m: free floor without a circle of that radius and height is not a room
@@ -181,7 +181,7 @@ def reached(seeds: np.ndarray, within: np.ndarray) -> np.ndarray:
 
 
 def _shrunk(mask: np.ndarray, radius: float) -> np.ndarray:
-    """The cells whose circle of that radius (m) lies wholly in the mask; outside is false."""
+    """The cells whose circle of that radius (m) is wholly in the mask; outside is false."""
     steps = int(radius / RESOLUTION)
     return distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1] > steps
 
@@ -198,7 +198,7 @@ class _Surveyor:
         """West and south in cells, columns and rows of everything on a floor at that
         height, with a margin.
 
-        None where rays from afar meet nothing.
+        None where rays from afar hit nothing.
         """
         across = np.arange(-REACH, REACH, RESOLUTION) + FINE
         hits = []
@@ -248,8 +248,8 @@ class _Surveyor:
         return ground, ground & (self._vertical(x, y, start, 1, HEADROOM) >= HEADROOM)
 
     def _march(self, starts: np.ndarray, axis: int, end: float) -> Any:
-        """Every point (n, 3) that rays along +axis meet up to `end`, a surface after the other."""
-        past = 1e-4  # m: beyond a surface, to meet the next
+        """Every point (n, 3) that rays along +axis hit up to `end`, a surface after the other."""
+        past = 1e-4  # m: beyond a surface, to hit the next
         while len(starts):
             reach = end - starts[:, axis]
             ranges = self._cast(starts, axis, 1, reach)

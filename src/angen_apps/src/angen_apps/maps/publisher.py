@@ -32,7 +32,7 @@ class MapServer:
     """Latches /floorN/map of each floor, and does as map_server does for one of them.
 
     That one, floor 0 at first, is /map, /map_metadata and the answer of /static_map;
-    /change_map chooses another one. In a frame other than the world's it lies at z = 0, and a
+    /change_map chooses another one. In a frame other than the world's it is at z = 0, and a
     transform puts that frame on its floor.
     """
 
@@ -74,7 +74,7 @@ class MapServer:
         self._broadcaster.sendTransform(transform)
 
     def _change(self, request: Any) -> Any:
-        """Of LoadMap; its map_url is the name of a floor."""
+        """The response to LoadMap; its map_url is the name of a floor."""
         import rospy
         from nav_msgs.srv import LoadMapResponse
         if request.map_url not in self._maps:

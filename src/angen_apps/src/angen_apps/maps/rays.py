@@ -46,7 +46,7 @@ class Caster:
              ) -> np.ndarray:
         """Ranges (n,) in m of rays from `origins` (n, 3) along `directions` (n, 3), world frame.
 
-        A range is not below `reach` (m, a number or (n,)) where a ray meets nothing within it.
+        A range is not below `reach` (m, a number or (n,)) where a ray hits nothing within it.
         Time moves on by a step, or as long as the probe's next reading takes.
         """
         count = len(origins)

@@ -35,7 +35,7 @@ RECORDED = (f'/angen/(?!contact/{BUMPER})'
             '|/gazebo/.*_controller|/clock|/tf|/tf_static')
 BAG_LIMIT = 30.0  # s
 BAG_QUIET = 0.5  # s without a message after which all have arrived
-NO_SPACE = 'Disabling recording'  # in what rosbag prints then
+NO_SPACE = 'Disabling recording'  # in the output of rosbag then
 LEFT, FEW = '32M', 64_000_000  # on the disk: with less rosbag stops; with less it is why it did
 SENSORS = ('pir', 'switch', 'luminosity', 'contact')
 

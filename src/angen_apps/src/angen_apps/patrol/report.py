@@ -74,7 +74,7 @@ class Run:
 
 
 def begun(events: list[tuple[float, str, str]], kind: str) -> list[tuple[float, float]]:
-    """From when to when a sensor detected something, s."""
+    """The periods in which a sensor detected something, s."""
     found: list[tuple[float, float]] = []
     for t, event, _ in events:
         if event in BEGINS[kind]:
@@ -222,7 +222,7 @@ def table_of(rows: list[Row]) -> Table:
 
 
 def summary(run: Run, found: Figures, whole: float, out: Path) -> str:
-    """What happened; `whole`: s of wall time of all."""
+    """The summary of a run; `whole`: s of wall time of all."""
     stops = ', '.join(f'floor {floor} {1000 * error:+.2f} mm' for floor, error in
                       run.track.levels)
     lines = [

@@ -23,7 +23,7 @@ START_PLACE, START_YAW = 0.1, 0.1  # m, rad: how far a start may lie from the wo
 
 
 def start_offset(seed: int) -> tuple[float, float, float]:
-    """How far from its place in the world the robot is put at the start: x, y (m), yaw (rad)."""
+    """The offset of the robot at the start from its place in the world: x, y (m), yaw (rad)."""
     chance = random.Random(seed)
     return (chance.uniform(-START_PLACE, START_PLACE), chance.uniform(-START_PLACE, START_PLACE),
             chance.uniform(-START_YAW, START_YAW))

@@ -31,14 +31,14 @@ def hidden(origin: np.ndarray, points: np.ndarray, door: Door, turned: np.ndarra
     across = np.where(np.abs(across) < 1e-9, np.nan, across)
     along_line = (start[0] * leaf[:, 1] - start[1] * leaf[:, 0]) / across
     along_leaf = (start[0] * line[:, 1] - start[1] * line[:, 0]) / across
-    meets = (along_line > 0) & (along_line < 1) & (along_leaf > 0) & (along_leaf < 1)
+    crosses = (along_line > 0) & (along_line < 1) & (along_leaf > 0) & (along_leaf < 1)
     height = origin[2] + along_line * (points[:, 2] - origin[2])
-    return meets & (door.bottom < height) & (height < door.top)
+    return crosses & (door.bottom < height) & (height < door.top)
 
 
 def outline(world: Any, start: np.ndarray) -> np.ndarray:
     """Points (n, 3) of the surface of the robot at `start` (x, y, z, yaw; m), in its
-    own frame. Takes all robots out of the world."""
+    own frame. Removes all robots from the world."""
     caster = Caster(world)
     turns = np.arange(SIDES) * 2 * math.pi / SIDES
     ways = np.repeat(np.stack([np.cos(turns), np.sin(turns), 0 * turns], axis=1), len(HEIGHTS),
@@ -110,7 +110,7 @@ def door_beside(switch: Entity, doors: Iterable[Door]) -> str:
 
 def beam_angles(world: Any, doors: dict[int, list[Door]], switches: list[Entity],
                 rooms: dict[str, str]) -> dict[str, float]:
-    """How far (rad) each switch's door has turned from shut when its beam comes free.
+    """The angle (rad) of each switch's door from shut at which its beam is free.
 
     `doors` of each floor, all shut; they are opened for it.
     """

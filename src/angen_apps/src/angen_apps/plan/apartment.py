@@ -1,8 +1,8 @@
 """Homes by seed: rooms on both sides of a hall, on storeys with an elevator between them.
 
 Bedrooms have at least 11.5 m2 and 2.75 m (the first) or 7.5 m2 and 2.15 m, ceilings 2.5 m: the
-Nationally Described Space Standard (England, 2015) asks for that and for 2.3 m. Leaves are 0.86 m
-wide: Approved Document M (2015) asks for 0.75 m clear where one comes head on.
+Nationally Described Space Standard (England, 2015) requires that and 2.3 m. Leaves are 0.86 m
+wide: Approved Document M (2015) requires 0.75 m clear for a straight approach.
 """
 from __future__ import annotations
 

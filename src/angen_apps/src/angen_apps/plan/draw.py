@@ -167,7 +167,7 @@ def draw_storey(axis: Any, scene: Scene, storey: Storey, inch: float | None) -> 
 
 
 def _draw_section(axis: Any, scene: Scene, storey: Storey) -> None:
-    """What rays meet on a storey: the outline of shapes that are not boxes, such as meshes."""
+    """The outline of a storey's shapes that are not boxes, such as meshes, found by rays."""
     from angen_apps.maps.gridmap import OCCUPIED, load_world, make_map
     grid = make_map(load_world(str(scene.path)), storey.number)
     shade = np.zeros((*grid.cells.shape, 4))

@@ -97,7 +97,7 @@ def _apart(storey: Storey, plan: Plan) -> list[Opening]:
 
 
 def _below_ceiling(opening: Opening, storey: Storey, plan: Plan) -> Opening:
-    """The opening; it ends below the ceilings beside it, if its leaves would meet them."""
+    """The opening; it ends below the ceilings beside it, if its leaves would hit them."""
     ceilings = [room.floor + room.ceiling for room in sides(opening, storey)
                 if room is not None and room.has_ceiling]
     ceilings += [other.elevation - other.slab for other in plan.storeys
@@ -148,10 +148,10 @@ def _filled(opening: Opening, storey: Storey, plan: Plan) -> Opening:
         outline = rectangle(piece.x, piece.y, piece.yaw, (-piece.depth / 2, -piece.width / 2),
                             (piece.depth / 2, piece.width / 2))
         tall = min(2.0, opening.top - opening.bottom)
-        stands = piece.z < opening.bottom + 0.3 and piece.height > WHOLE * tall
+        upright = piece.z < opening.bottom + 0.3 and piece.height > WHOLE * tall
         spans = overlap(across, outline) > 0 and all(
             _is_across(opening, end, outline) for end in ends)
-        if stands and spans and not any(piece.tilt):
+        if upright and spans and not any(piece.tilt):
             plan.remarks.append(f'the opening {opening.name} is closed by the piece '
                                 f'"{piece.source or piece.name}"')
             return replace(opening, filled=True)
@@ -159,7 +159,7 @@ def _filled(opening: Opening, storey: Storey, plan: Plan) -> Opening:
 
 
 def _is_across(opening: Opening, point: Point, outline: Sequence[Point]) -> bool:
-    """Whether a line through the wall at a point meets an outline."""
+    """Whether a line through the wall at a point crosses an outline."""
     u, _ = local((opening.x, opening.y), opening.yaw, point)
     return any(contains(outline, *opening.point(u, v)) for v in np.arange(
         opening.band[0], opening.band[1] + 0.01, 0.01))

@@ -20,8 +20,8 @@ from angen_tools.common.text_file import separator_hint
 
 ROWS = 5_000_000
 COLUMN = re.compile('^(x|y|z)_m$')  # as tasks write them
-WHO = ('name', 'person', 'who', 'resident')  # columns that name what moved
-SIGHT = 0.15  # m above a PIR's cone's lower edge where it meets the floor, at least
+WHO = ('name', 'person', 'who', 'resident')  # columns with the name of the track
+SIGHT = 0.15  # m above a PIR's cone's lower edge where it hits the floor, at least
 STEP = pi / 90  # between the rays of a field of view
 COLORS = {'pir': '#c0392b', 'camera': '#8e44ad', 'lidar': '#16a085', 'luminosity': '#d68910',
           'reed': '#1f618d', 'switch': '#1f618d', 'contact': '#7d6608'}
@@ -51,7 +51,7 @@ def read(what: What, entities: Iterable[Any]) -> Data:
     names = {name for _, name, _, _ in entities}
     if what.events:
         for line, row in _rows(what.events, ('source',)):
-            if row.get('kind') != 'world':  # a model comes or goes
+            if row.get('kind') != 'world':  # a model is added or removed
                 data.counts[row['source']] += 1
         if data.counts and not names & set(data.counts):
             raise Failure(f'{what.events}:2: names no sensor or device of this world')

@@ -155,7 +155,7 @@ def rectangle(x: float, y: float, yaw: float, low: Point, high: Point) -> list[P
 
 
 def overlap(first: Sequence[Point], second: Sequence[Point]) -> float:
-    """How deep two convex polygons overlap, m; not above 0 if they are apart."""
+    """The depth of overlap of two convex polygons, m; not above 0 if they are apart."""
     depth = inf
     for polygon in (first, second):
         x0, y0 = polygon[-1]

@@ -22,7 +22,7 @@ CLOSE = 0.002  # m: obstacles this close above or below a leaf block it
 
 @dataclass(frozen=True)
 class Obstacle:
-    """Something that a leaf may meet: corners seen from above, and its heights."""
+    """An obstacle of a leaf: corners seen from above, and its heights."""
 
     name: str
     corners: list[tuple[float, float]]

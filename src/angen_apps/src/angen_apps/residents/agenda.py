@@ -34,7 +34,7 @@ class Item:
 
 @dataclass(frozen=True)
 class Day:
-    """Of the calendar, counted from the start of a run."""
+    """A day of the calendar, counted from the start of a run."""
 
     number: int
     date: datetime.date

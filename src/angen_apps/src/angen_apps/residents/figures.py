@@ -31,8 +31,8 @@ CAT: tuple[Part, ...] = (
 CAT_MASS, CAT_FORCE = 4.0, 15.0  # kg and N: more force would tip it over
 LEVEL = 1.571  # rad, of a capsule along x
 
-# What is seen of them, as of an actor: capsules have radius and length without their ends. `_s` is
-# on both sides. The first has the temperature of the boxes without a part of their name.
+# Their visible parts, as those of an actor: capsules have radius and length without their ends.
+# `_s` is on both sides. The first has the temperature of the boxes without a part of their name.
 Look = tuple[str, str, str, tuple[float, ...], tuple[float, float, float], float]
 LOOKS: dict[str, tuple[Look, ...]] = {
     'sit': (('thigh_s', TROUSERS, 'capsule', (0.075, 0.40), (0.18, 0.09, 0.08), LEVEL),

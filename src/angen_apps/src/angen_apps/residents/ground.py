@@ -18,7 +18,7 @@ from angen_apps.robot.planner import Planner, Point
 from angen_tools.common.home import Door, Home, Place, Room
 
 BODY = 0.3  # m: half the width of a person, with a margin
-CLEAR = 1.05  # m from a door's middle: its leaf does not meet who is there
+CLEAR = 1.05  # m from a door's middle: its leaf does not hit a person there
 SWING = 1.25  # m from a door's middle: its leaf does not reach farther
 CACHED = 1 << 25  # bytes of ways to goals that are kept
 REACH = 1.1  # m from a person to the thing that the person uses
@@ -272,7 +272,7 @@ class Ground:
         return bool(planner.passable[row, column].all())
 
     def _planner(self, grid: GridMap, opened: GridMap, walls: Sequence[Door] = ()) -> Planner:
-        """Of a storey whose doors stand open: their leaves are in the way, but for those without
+        """The ground of a storey with open doors: their leaves are obstacles, except those without
         which a room could not be reached. `grid` is without leaves. A door that opens too little
         for people is a wall, as `walls` are."""
         doors = [door for door in self.home.doors
@@ -310,7 +310,7 @@ class Ground:
 
     def _add_stop(self, door: Door, passable: np.ndarray, leaf: np.ndarray, x: np.ndarray,
                   y: np.ndarray) -> None:
-        """Notes where one stands clear of a leaf, on its side, and gets to with it open."""
+        """Notes a place that is clear of a leaf, on its side, and reached with it open."""
         parts, _ = label(passable, np.ones((3, 3), int))
         away = np.hypot(x - door.pose[0], y - door.pose[1])
         across = _across(door, x, y)
@@ -329,7 +329,7 @@ class Ground:
 
 
 def _across(door: Door, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """How far places are from the plane of a shut door, with a sign."""
+    """The signed distances of places from the plane of a shut door."""
     return np.asarray(math.cos(door.pose[3]) * (y - door.pose[1])
                       - math.sin(door.pose[3]) * (x - door.pose[0]))
 

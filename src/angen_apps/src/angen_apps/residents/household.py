@@ -8,7 +8,7 @@ from typing import Any, Callable, Iterator
 
 from angen_apps.residents.agenda import Day
 from angen_apps.residents.ground import Ground
-from angen_apps.residents.interface import Refused, Simulator
+from angen_apps.residents.interface import Rejected, Simulator
 from angen_apps.residents.light import daylight
 from angen_apps.residents.places import Places
 from angen_tools.common.home import Home
@@ -95,7 +95,7 @@ class Household:
         """A resident commands a device; whether it obeyed."""
         try:
             self.simulator.command(kind, name, text)
-        except Refused:
+        except Rejected:
             return False
         if kind != 'person':
             self.acts[kind, name] = (self.now, who)

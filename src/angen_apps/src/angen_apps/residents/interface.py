@@ -7,7 +7,7 @@ from angen_tools.common.home import Home, Place
 
 
 class Body(NamedTuple):
-    """Where a resident is: m and rad in the world."""
+    """The place of a resident: m and rad in the world."""
 
     x: float
     y: float
@@ -15,7 +15,7 @@ class Body(NamedTuple):
     yaw: float
 
 
-class Refused(Exception):
+class Rejected(Exception):
     """The simulator rejected a command."""
 
 
@@ -38,7 +38,7 @@ class Simulator(Protocol):
         """The state of a device, or the reading of a sensor; empty where there is none."""
 
     def command(self, kind: str, name: str, text: str) -> None:
-        """Commands a device; Refused says why not."""
+        """Commands a device; Rejected says why not."""
 
     def appear(self, name: str, x: float, y: float, z: float, yaw: float, speed: float, body: str
                ) -> None:
@@ -54,4 +54,4 @@ class Simulator(Protocol):
         """Turns a sitting or lying resident by some rad."""
 
     def body(self, name: str) -> Body:
-        """Where a resident is."""
+        """The place of a resident."""

@@ -43,7 +43,7 @@ class Leaves:
         self._leaves = self._found(body)
 
     def _found(self, body: float) -> dict[str, Leaf]:
-        """Each door's leaf: what is nearer to the door's middle than to that of another."""
+        """Each door's leaf: the shapes nearer to its middle than to that of another door."""
         most = max((door.width for door in self.doors), default=0.0) + LEAF
         nearest = np.full(self.grid.cells.shape, np.inf)
         for door in self.doors:

@@ -6,7 +6,7 @@ import time
 from typing import Any
 
 from angen_apps.residents.figures import figure, walker
-from angen_apps.residents.interface import Body, Refused
+from angen_apps.residents.interface import Body, Rejected
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import quaternion, yaw_of
 from angen_tools.common.home import Home, Place
@@ -137,7 +137,7 @@ class Live:
         try:
             return self._client.call(service, kind, **fields)
         except Failure as failure:
-            raise Refused(str(failure)) from None
+            raise Rejected(str(failure)) from None
 
 
 def _client() -> Client:

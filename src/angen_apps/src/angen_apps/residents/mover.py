@@ -1,4 +1,4 @@
-"""How a resident gets from place to place: on foot, through doors, out of the home and back."""
+"""Moves a resident from place to place: on foot, through doors, out of the home and back."""
 from __future__ import annotations
 
 import math
@@ -18,7 +18,7 @@ STALLED = 7.0  # s without coming nearer, after which another way is tried
 TRIES = 3
 DOOR_WAIT = 20.0  # s to wait for another person in a doorway
 OPENS_IN, SHUTS_IN = 12.0, 6.0  # s
-LIFT_WAIT = 90.0  # s for an elevator, or for somebody else in it
+LIFT_WAIT = 90.0  # s for an elevator, or for someone else in it
 LIFT_ROOM = 1.6  # m around cabin and landing, where a robot uses the elevator
 LEAVES_AROUND = 2.5  # m to the middle of their doorways
 ASIDE = 0.55  # m between the middles of two people
@@ -250,7 +250,7 @@ class Mover:
             yield self.now + min(max((away - near) / self.profile.speed, least), most)
 
     def _behind(self, door: Door, point: Point) -> bool:
-        """Whether a door lies behind, on the way to a point."""
+        """Whether a door is behind, on the way to a point."""
         return math.dist(self.at, point) < math.dist(door.pose[:2], point)
 
     def _open(self, door: Door) -> Process:
@@ -273,13 +273,13 @@ class Mover:
             self.household.leave(key, self.name)
 
     def _meets_robot(self, door: Door) -> bool:
-        """Whether the leaf of a door that is not open would meet a robot."""
+        """Whether the leaf of a door that is not open would hit a robot."""
         x, y = door.pose[:2]
         return (self.household.robot_near(x, y, CLEAR, self.storey)
                 and self.simulator.state('door', door.name).get('mode') != 'OPEN')
 
     def _wait_for(self, mode: str, door: Door, seconds: float) -> Process:
-        """Waits until a door is open or shut, for so long at most."""
+        """Waits until a door is open or shut, for at most this time."""
         until = self.now + seconds
         while self.now < until \
                 and self.simulator.state('door', door.name).get('mode', mode) != mode:
@@ -302,7 +302,7 @@ class Mover:
         held.clear()
 
     def _shut_around(self) -> Process:
-        """Shuts open leaves nearby that nobody uses: two of them can close off a corridor."""
+        """Shuts open leaves nearby that are not in use: two of them can close off a corridor."""
         for door in self.ground.home.doors:
             x, y, z, _ = door.pose
             if (door.kind == 'door' and self.profile.body == 'person'
@@ -315,7 +315,7 @@ class Mover:
                 self.household.do(self.name, 'door', door.name, 'CloseByHand')
 
     def _out_of_swing(self, door: Door) -> Process:
-        """Steps to where a leaf that is shut does not meet it."""
+        """Steps to where a leaf that shuts does not hit it."""
         x, y = door.pose[:2]
         free = self.ground.planners[self.storey].is_free
         around = [(x + CLEAR * math.cos(turn), y + CLEAR * math.sin(turn))

@@ -22,7 +22,7 @@ FAR = 1.9  # m from a standing person to the middle of a bed
 TOWARDS = 0.62  # m from the middle of a thing without places to its user
 COVERED = 0.12  # m above a seat: a table there, under which the chair is pushed
 LONG = 1.4  # m of free cells in a line, on which a person can lie
-LYING, BESIDE = 0.65, 0.55  # m from the middle of one who lies to head and feet, and past them
+LYING, BESIDE = 0.65, 0.55  # m from the middle of a lying resident to head and feet, and past them
 PART, LEAST = 1.0, 0.05  # m2 of floor that a way has to lead to, and of a room
 OUTSIDE, ENTRANCE = 'outside', 'entrance'
 IN_ROOM = 'in room'  # in place of a posture
@@ -105,7 +105,7 @@ class Places:
 
     @cached_property
     def on_floor(self) -> list[Spot]:
-        """Where as many residents as a home may have lie without a bed: in a bedroom first, or
+        """Places for as many residents without a bed as a home may have: in a bedroom first, or
         else in the largest room."""
         found: list[Spot] = []
         last: list[Spot] = []
@@ -124,8 +124,8 @@ class Places:
         return found
 
     def _beds(self, room: Room) -> Iterator[tuple[Point, float, bool]]:
-        """Places on the open floor where people can lie, the yaw of each, and whether one who lies
-        there is in the way: far from doors first."""
+        """Places on the open floor where people can lie, the yaw of each, and whether a person
+        who lies there is in the way: far from doors first."""
         free, whole = self.ground.floor_of(room), self.ground.free[room.storey]
         x, y = middles(self.ground.planners[room.storey].grid, *np.indices(free.shape))
         cells = round(LONG / RESOLUTION)
@@ -166,7 +166,7 @@ class Places:
         return found
 
     def _in_room(self, thing: Thing) -> list[Spot]:
-        """On the open floor of a thing's room: for one that nobody gets near to."""
+        """On the open floor of a thing's room: for a thing that residents cannot reach."""
         room = self._rooms.get(thing.room)
         if room is None or room.storey not in self.ground.planners:
             return []
@@ -226,7 +226,7 @@ class Places:
 
 
 def _divides(free: np.ndarray, x: np.ndarray, y: np.ndarray, yaw: float) -> bool:
-    """Whether one who lies at x = y = 0 separates parts of a floor from each other."""
+    """Whether a person who lies at x = y = 0 separates parts of a floor from each other."""
     along = np.abs(math.cos(yaw) * x + math.sin(yaw) * y)
     across = math.cos(yaw) * y - math.sin(yaw) * x
     left, _ = label(free & (np.hypot(np.maximum(along - LYING, 0.0), across) > BESIDE),

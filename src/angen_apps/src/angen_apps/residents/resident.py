@@ -10,7 +10,7 @@ from angen_apps.residents.activities import Activity, Step, activities
 from angen_apps.residents.agenda import Item, Planner
 from angen_apps.residents.chance import chance
 from angen_apps.residents.household import Household
-from angen_apps.residents.interface import Refused
+from angen_apps.residents.interface import Rejected
 from angen_apps.residents.mover import ASIDE
 from angen_apps.residents.places import OUTSIDE, Spot
 from angen_apps.residents.profiles import DAY, Profile
@@ -26,7 +26,7 @@ ROAMS = (15.0, 45.0)  # s at a place
 OPEN_FOR = 20.0  # s that a fridge is open, at most
 QUEUE, PATIENCE = 10.0, 900.0  # s between two looks at a room or way, and until it is given up
 MAKES_WAY = 30.0  # s in which another one passes
-ANYWHERE = 4  # places for what a home lacks
+ANYWHERE = 4  # places for things that a home lacks
 PAUSE = 60.0  # s until a way that was given up is tried again, then twice as long
 OUT_BETWEEN = 900.0  # s: a visitor with less to wait stays
 
@@ -34,14 +34,14 @@ Process = Iterator[float]
 
 
 class Resident(User):
-    """One who lives in a household; live() is its process."""
+    """A member of a household; live() is its process."""
 
     def __init__(self, household: Household, name: str, number: int, profile: Profile) -> None:
         super().__init__(household, name, number, profile)
         self.diary = Diary()
         self.planner = Planner(household.seed, household.name, name, profile)
         self._known = activities()
-        self._missing: dict[tuple[str, int], str] = {}  # by step: what the home lacks for it
+        self._missing: dict[tuple[str, int], str] = {}  # by step: the missing thing
         self._tasks = {task: self._resolve(self._known[task])
                        for task in sorted(profile.does | {'sleep', 'leave'}
                                           | ({'relax', 'toilet', 'wash', 'shower', 'dress'}
@@ -49,7 +49,7 @@ class Resident(User):
 
     def _resolve(self, activity: Activity) -> list[list[Spot]]:
         """The spots of each step. Without a bed a resident sleeps on the floor; Failure where
-        nobody can lie."""
+        no one can lie."""
         places = self.household.places
         found = []
         for index, step in enumerate(activity.steps):
@@ -153,7 +153,7 @@ class Resident(User):
         if spot.place is not None and self.profile.body == 'person':
             try:
                 self.settle(spot)
-            except Refused as error:
+            except Rejected as error:
                 self.diary.note(str(error))
         self._note('does', activity.name, index)
         self._lamps(activity.dark)

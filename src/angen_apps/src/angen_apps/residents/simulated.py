@@ -4,7 +4,7 @@ from __future__ import annotations
 from typing import Any
 
 from angen_apps.residents.figures import figure, walker
-from angen_apps.residents.interface import Body, Refused
+from angen_apps.residents.interface import Body, Rejected
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.geometry import yaw as yaw_of
 from angen_tools.common.home import Home, Place
@@ -44,7 +44,7 @@ class Simulated:
         try:
             self.world.command(kind, name, text)
         except self._error as error:
-            raise Refused(str(error)) from None
+            raise Rejected(str(error)) from None
 
     def appear(self, name: str, x: float, y: float, z: float, yaw: float, speed: float, body: str
                ) -> None:
@@ -59,7 +59,7 @@ class Simulated:
         try:
             self.world.spawn(sdf, name, pose)
         except self._error as error:
-            raise Refused(str(error)) from None
+            raise Rejected(str(error)) from None
 
     def vanish(self, name: str) -> None:
         if name in self.world.models:

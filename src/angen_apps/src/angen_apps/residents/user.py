@@ -1,4 +1,4 @@
-"""How a resident uses a home's devices: fronts, the stove, the TV, lamps."""
+"""A resident's use of a home's devices: fronts, the stove, the TV, lamps."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -52,7 +52,7 @@ class User(Mover):
         return next((t for t in self.ground.home.things if t.name == spot.thing), None)
 
     def _make_way(self, kind: str, name: str, spot: Spot) -> Process:
-        """Steps back from a leaf that has met the resident, until it is open."""
+        """Steps back from a leaf that has hit the resident, until it is open."""
         thing = self._thing(spot)
         side, wide = 1.0, 0.0
         for _ in range(LOOKS):

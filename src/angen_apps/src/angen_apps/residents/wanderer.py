@@ -1,4 +1,4 @@
-"""One who goes from room to room at random and stays a while in each: no day of activities."""
+"""A person who walks from room to room at random and stays a while in each, without activities."""
 from __future__ import annotations
 
 import itertools

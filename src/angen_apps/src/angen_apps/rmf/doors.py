@@ -32,7 +32,7 @@ class Door:
 
     @property
     def mode(self) -> int | None:
-        """Of DoorMode; None before the first state."""
+        """The value of DoorMode; None before the first state."""
         return None if self._state is None else MODES[self._state.mode]
 
     def request(self, mode: int) -> str:

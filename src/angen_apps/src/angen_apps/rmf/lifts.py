@@ -22,7 +22,7 @@ def floor_name(floor: int) -> str:
 
 @dataclass(frozen=True)
 class Session:
-    """Who has the lift, in which mode, and where it is requested to be."""
+    """The session that has the lift, its mode, and the requested floor."""
 
     name: str
     mode: int

@@ -23,7 +23,7 @@ SETTLE = 5  # scans at rest until a robot has localized itself at its start
 
 @dataclass
 class Track:
-    """Where the robot was, and where it estimated to be; a row a cycle, times in s."""
+    """The true and the estimated places of the robot; a row a cycle, times in s."""
 
     rows: list[tuple[float, ...]] = field(default_factory=list)  # t, x, y, z, yaw: in truth
     believed: list[tuple[float, float]] = field(default_factory=list)  # x, y
@@ -76,7 +76,7 @@ class Driver:
             self._localizer.see(self._returns())
 
     def _returns(self) -> np.ndarray:
-        """Of the latest scan, as the robot would see them where it is now."""
+        """The returns of the latest scan, as the robot would see them from its present place."""
         scan = self._robot.scan()
         if scan is self._seen and self._seen_at is self._odometry:
             return self._found

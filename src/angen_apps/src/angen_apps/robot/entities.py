@@ -35,7 +35,7 @@ class Entity:
 
     @property
     def flat(self) -> Pose:
-        """From above."""
+        """The pose from above."""
         return Pose(self.pose[0], self.pose[1], yaw(*self.pose[3:]))
 
 

@@ -21,7 +21,7 @@ FITS, SHARE = 0.1, 0.7  # m from the map; the part of a scan's returns that do n
 EACH, TURNS, RAYS = 4, 48, 60  # one of EACH free cells; directions; returns
 BEST = 8  # places that are looked at closely
 NEAR_FIRST = 0.002  # m of misfit that a meter from the previous pose counts as
-# How odometry is weighed against a scan: standard deviations since the last one, and of a return.
+# The weights of odometry and a scan: standard deviations since the last one, and of a return.
 PLACE, TURN, RANGE = 0.02, 0.02, 0.05
 
 
@@ -83,7 +83,7 @@ class Localizer:
 
     @property
     def field(self) -> Field:
-        """Of the map that it is on."""
+        """The field of the map that it is on."""
         return self._field
 
     def share(self, returns: np.ndarray) -> float:
@@ -165,7 +165,7 @@ class Localizer:
 
 
 def returns_of(scan: Any, mount: Pose, every: int = 1) -> tuple[np.ndarray, np.ndarray]:
-    """Of a sensor_msgs/LaserScan each `every`th return (n, 2) in the robot's frame, m, and their
+    """Each `every`th return of a sensor_msgs/LaserScan (n, 2) in the robot's frame, m, and their
     numbers in the scan; `mount`: the laser on the robot."""
     ranges = np.asarray(scan.ranges[::every])
     angles = scan.angle_min + every * scan.angle_increment * np.arange(len(ranges)) + mount.yaw

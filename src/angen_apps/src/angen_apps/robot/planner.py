@@ -1,4 +1,4 @@
-"""Ways over a map: the shortest that keeps its distance, and where it meets doors."""
+"""Ways over a map: the shortest that keeps its distance, and its crossings of doors."""
 from __future__ import annotations
 
 import math
@@ -174,7 +174,7 @@ class Door:
 
     @property
     def middle(self) -> Point:
-        """Of the shut leaf."""
+        """The middle of the shut leaf."""
         tip = self.tip(self.shut)
         return (self.hinge[0] + tip[0]) / 2, (self.hinge[1] + tip[1]) / 2
 

@@ -84,7 +84,7 @@ def _kept_shut(world: Any, entities: list[Entity], route: Route) -> set[str]:
 
 def _start(route: Route, survey: Survey, planners: dict[int, Planner], entities: list[Entity],
            world: Path) -> tuple[Point, int, float]:
-    """Where the robot is, or where it fits behind the main entrance: x, y, floor, yaw."""
+    """The place of the robot, or one where it fits behind the main entrance: x, y, floor, yaw."""
     for entity in entities:
         if (entity.kind, entity.name) == ('drive', route.robot):
             return (entity.pose[0], entity.pose[1]), entity.floor, entity.flat.yaw

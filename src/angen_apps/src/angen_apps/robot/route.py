@@ -1,4 +1,4 @@
-"""From a route's waypoints to all that the robot does: drive, have doors turned, ride."""
+"""Turns a route's waypoints into actions of the robot: drive, have doors turned, ride."""
 from __future__ import annotations
 
 from dataclasses import dataclass

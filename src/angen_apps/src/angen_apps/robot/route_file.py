@@ -56,7 +56,7 @@ KEYS = ('robot', *NUMBERS, 'elevator', 'waypoints')
 
 
 def read_route(path: Path) -> Route:
-    """The route of a file; Failure has the file, the line, the error and what would be right."""
+    """The route of a file; Failure has the file, the line, the error and its fix."""
     return _Reader(path).route()
 
 

@@ -11,12 +11,12 @@ LIFT_DOOR = ('DOOR_OPEN', 'DOOR_CLOSED', 'DOOR_OPENING', 'DOOR_CLOSING', 'DOOR_B
 
 
 def door_state(message: Any) -> DoorState:
-    """Of an angen_msgs/DoorState."""
+    """The state of an angen_msgs/DoorState."""
     return DoorState(_constant(message, message.mode, DOOR))
 
 
 def lift_state(message: Any) -> LiftState:
-    """Of an angen_msgs/ElevatorState."""
+    """The state of an angen_msgs/ElevatorState."""
     door = _constant(message, message.door_mode, LIFT_DOOR)
     return LiftState(_constant(message, message.mode, LIFT), door.removeprefix('DOOR_'),
                      message.target_floor, message.position)

@@ -32,7 +32,7 @@ def _away(planner: Planner, places: Sequence[Point]) -> np.ndarray:
 
 
 def _nearest(away: np.ndarray) -> list[int]:
-    """From number 0 to the nearest that is left, and so on."""
+    """The order from number 0 to the nearest that is left, and so on."""
     order, left = [0], set(range(1, len(away)))
     while left:
         order.append(min(left, key=lambda number: (away[order[-1], number], number)))

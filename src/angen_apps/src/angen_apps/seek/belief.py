@@ -1,4 +1,4 @@
-"""Where a person may be: a Bayes filter over cells, standing or walking."""
+"""The belief of a person's place: a Bayes filter over cells, standing or walking."""
 from __future__ import annotations
 
 import numpy as np

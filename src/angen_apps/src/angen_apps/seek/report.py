@@ -59,7 +59,7 @@ def verdict(figures: Figures) -> int:
 
 
 def pairs(found: list[Figures]) -> list[tuple[Figures, Figures]]:
-    """Of each seed the search with ambient sensors and that without, where both are there."""
+    """The searches of each seed, with ambient sensors and without, where both exist."""
     by = {(figures.seed, figures.ambient): figures for figures in found}
     seeds = sorted({figures.seed for figures in found})
     return [(by[seed, True], by[seed, False]) for seed in seeds

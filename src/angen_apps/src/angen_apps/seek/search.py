@@ -220,7 +220,7 @@ class Search:
     # --- goals
 
     def _scores(self) -> np.ndarray:
-        """Of each viewpoint: the probability to see the person there, by the time until then."""
+        """For each viewpoint the probability to see the person there, by the time until then."""
         pose = self._driver.pose
         shut = {door.name for _, door in self._home.all_doors()
                 if self._simulation.door(door.name).mode != 'OPEN'}
@@ -377,7 +377,7 @@ class Search:
         return True
 
     def _camera(self) -> tuple[float, float, float]:
-        """Where the depth camera is on the robot: m ahead, left, and above the floor."""
+        """The place of the depth camera on the robot: m ahead, left, and above the floor."""
         start = self._home.start
         camera = next(e for e in self._home.entities
                       if (e.kind, e.model) == ('depth', start.robot.model))

@@ -97,6 +97,6 @@ class Simulation:
         return self.place(f'{self._name}::{BASE}')
 
     def place(self, link: str) -> tuple[float, float, float, float]:
-        """Where a link is in truth: x, y, z (m), yaw (rad)."""
+        """The true place of a link: x, y, z (m), yaw (rad)."""
         row = np.asarray(self.world.link_poses)[self.world.links.index(link)]
         return float(row[0]), float(row[1]), float(row[2]), yaw(*row[3:])

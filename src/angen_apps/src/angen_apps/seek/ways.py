@@ -1,4 +1,4 @@
-"""How long the robot takes to the viewpoints: ways, doors, and the elevator."""
+"""The times of the robot to the viewpoints: ways, doors, and the elevator."""
 from __future__ import annotations
 
 from collections import deque
@@ -55,7 +55,7 @@ class Ways:
         return found
 
     def _doors_between(self, room: int, shut: set[str]) -> np.ndarray:
-        """How many shut doors lie at least between a room and each room of its floor."""
+        """The least number of shut doors between a room and each room of its floor."""
         count = np.full(len(self._home.rooms), 99)
         count[room] = 0
         waiting = deque([room])

@@ -140,7 +140,7 @@ def _turned(pose: Pose, yaw: float) -> Joints:
 
 
 def _between(first: Pose, then: Pose, yaw: float, begins: float, lasts: float) -> Script:
-    """From one posture to another, starting and stopping smoothly."""
+    """The change from one posture to another, starting and stopping smoothly."""
     a, b = _turned(first, yaw), _turned(then, yaw)
 
     def script(time: float) -> Joints:

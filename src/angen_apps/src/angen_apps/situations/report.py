@@ -47,13 +47,13 @@ def as_table(results: Results) -> Table:
 
 
 def counts(results: Results) -> str:
-    """How many rows came out as expected, by model."""
-    told = []
+    """The number of rows with the expected result, by model."""
+    lines = []
     for model in ('pyroelectric', 'range_difference'):
         of = [each.passed for row in results for each in row if each.model == model]
         if of:
-            told.append(f'{model}: {sum(of)} of {len(of)} as expected')
-    return '; '.join(told)
+            lines.append(f'{model}: {sum(of)} of {len(of)} as expected')
+    return '; '.join(lines)
 
 
 def check_page(page: Path) -> str:

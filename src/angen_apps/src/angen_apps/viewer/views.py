@@ -13,8 +13,8 @@ SMALLEST = 200.0  # pixels of a picture
 FILLS = 0.94  # of the picture
 ROUNDS = 8  # to center a perspective
 ORTHO_HEIGHT = 500.0  # m above the world's origin, where rviz has the camera of TopDownOrtho
-BELOW_NEXT = 0.1  # m: so far below the next floor the view of a floor cuts
-STOREY = re.compile(r'(.*) (-?\d+)')  # the names of what each storey has: ceilings 0, Map 1
+BELOW_NEXT = 0.1  # m below the next floor, where the view of a floor cuts
+STOREY = re.compile(r'(.*) (-?\d+)')  # names of displays of a storey: ceilings 0, Map 1
 
 
 def framed(config: dict[str, Any], box: np.ndarray, storeys: Sequence[Any],
@@ -49,7 +49,7 @@ def framed(config: dict[str, Any], box: np.ndarray, storeys: Sequence[Any],
 
 
 def _of_storeys(names: dict[str, bool], numbers: Sequence[int]) -> dict[str, bool]:
-    """What a namespace of one storey is, those of all are."""
+    """Sets the namespaces of all storeys as that of one storey."""
     found = {}
     for name, value in names.items():
         match = STOREY.fullmatch(name)
@@ -80,7 +80,7 @@ def orbit(view: dict[str, Any], box: np.ndarray, panel: np.ndarray) -> dict[str,
 
 
 def _floors(box: np.ndarray, storeys: Sequence[Any], panel: np.ndarray) -> list[dict[str, Any]]:
-    """From above, without what is higher than the floor."""
+    """The view from above, without the parts that are higher than the floor."""
     views = []
     for i, storey in enumerate(storeys):
         top = (storeys[i + 1].elevation if i + 1 < len(storeys) else box[1][2] + 2 * BELOW_NEXT)

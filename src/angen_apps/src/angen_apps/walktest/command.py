@@ -76,7 +76,7 @@ def _test(standard: Mapping[str, Any], test: Mapping[str, Any], tested: Detector
     all_probes: list[Probe] = []
     for probes in probes_of(test, area):
         if not probes:
-            raise Failure(f'{test["name"]}: no cell lies in the area that it is to cover')
+            raise Failure(f'{test["name"]}: no cell is in the area that it should cover')
         if test['mover'] == 'arm':
             _swing(standard, test, tested, area, probes)
         else:
@@ -115,7 +115,7 @@ def _walk(standard: Mapping[str, Any], tested: Detector, area: Area, way: Walk, 
             while pending and world.time > pending[0].ends + LAG:
                 done = pending.pop(0)
                 if math.dist(world.link_poses[body][:2], done.end) > OFF_THE_WAY:
-                    raise Failure(f'{name}: the person does not keep to the way at {done.end}')
+                    raise Failure(f'{name}: the person leaves the way at {done.end}')
                 progress.update(1 - len(pending) / len(way.probes))
             if pending and world.time > pending[0].begins and _motion(world):
                 pending[0].seen = True

@@ -1,4 +1,4 @@
-"""Where and when a person moves in a walk test. In m; the detector is at 0 0 and faces along x."""
+"""The walks of a person in a walk test. In m; the detector is at 0 0 and faces along x."""
 from __future__ import annotations
 
 import math
@@ -75,7 +75,7 @@ class Result:
 
 
 def cells(area: Area, size: float) -> list[tuple[float, float]]:
-    """Middles of the squares of a grid whose middle lies in the area, from near to far."""
+    """Middles of the squares of a grid whose middle is in the area, from near to far."""
     across = math.ceil(area.half_width / size) + 1
     return [(x, y) for i in range(math.ceil(area.reach / size))
             for j in range(-across, across)

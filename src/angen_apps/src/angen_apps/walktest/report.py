@@ -88,7 +88,7 @@ def _plan(axis: Any, result: Result) -> None:
 
 
 def _color(result: Result, seen: bool) -> str:
-    """Of a walk or an arm: on cells it differs from theirs."""
+    """The color of a walk or an arm: on cells it differs from theirs."""
     if result.cell:
         return 'black' if seen else 'white'
     return SEEN_WALK if seen else MISSED_WALK

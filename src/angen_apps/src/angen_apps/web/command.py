@@ -76,7 +76,7 @@ def serve(source: Source, host: str, port: int, as_json: bool) -> None:
     """Serves until Ctrl-C."""
     logging.basicConfig(level=logging.WARNING, format='%(message)s')
     if not is_loopback(host):
-        print('angen web: reachable from other machines; whoever has the address with its token '
+        print('angen web: reachable from other machines; anyone with the address and its token '
               'controls the building, and nothing is encrypted', file=sys.stderr)
     asyncio.run(_serve(source, host, port, as_json))
 

@@ -24,20 +24,20 @@ from angen_tools.common.wait import wait
 
 DAY = 86400.0  # s
 STANDBY = 0.05  # of the most W of an appliance: with less it is off
-LEAST = 1.0  # W of an appliance that is on: one that nobody used has its standby as its most
+LEAST = 1.0  # W of an appliance that is on: the maximum of an unused one is its standby power
 RATE = 20.0  # simulated s per s, while leaves are measured
-LIMIT = 120.0  # s of wall time, for the node to serve what is read of it
+LIMIT = 120.0  # s of wall time, for the node to answer
 POSTURES = {'stand': 'standing', 'sit': 'sitting', 'lie': 'lying'}
 LEAVES = ('door', 'window', 'cabinet')
 WORDS = {'motion': ('MOTION', 'still'), 'area': ('MOTION', 'still'), 'door': ('open', 'closed'),
          'item': ('pressed', 'free'), 'power': ('on', 'off')}  # as summaries have them
-TOLD = (*LEAVES, 'lamp', 'appliance', 'person')  # devices whose states the files have
+SHOWN = (*LEAVES, 'lamp', 'appliance', 'person')  # devices whose states the files have
 FIRST = ('ON', 'OPEN', 'PRESENT')
 UNITS = {'temperature': ('temperature', '°C'), 'light': ('illuminance', 'lx')}
 
 
 class Moment(NamedTuple):
-    """Where a resident is at a time; `text` and `speed` where another phase begins."""
+    """The place of a resident at a time; `text` and `speed` where another phase begins."""
 
     time: float
     rank: int
@@ -119,7 +119,7 @@ class Day(Played):
     def _truth(self) -> Iterator[dict[str, str]]:
         return rows(self._data / 'truth.csv.gz')
 
-    # --- what the node is needed for: the scene, and how far leaves open
+    # --- from the node: the scene, and the angles of open leaves
 
     def _run(self) -> None:
         self._node = self._sandbox.node(self._folder / 'home.world', RATE)
@@ -146,12 +146,12 @@ class Day(Played):
     def _on_summary(self, message: Any) -> None:
         if self._has_rows:
             return
-        told = {*TOLD, *(self._sources[sensor['name']][0] for sensor in self._layout['sensors']
-                         if sensor['kind'] in WORDS and sensor['name'] in self._sources)}
+        shown = {*SHOWN, *(self._sources[sensor['name']][0] for sensor in self._layout['sensors']
+                           if sensor['kind'] in WORDS and sensor['name'] in self._sources)}
         if (self._data / CABINS).is_file():
-            told.add('elevator')
+            shown.add('elevator')
         self.store.put_rows([  # the node's own air, light and cabins are not those of the day
-            (*row[:4], 0.0, row[5]) if row[0] in told else (*row[:2], '', False, 0.0, [])
+            (*row[:4], 0.0, row[5]) if row[0] in shown else (*row[:2], '', False, 0.0, [])
             for row in map(row_of, message.entries)], True)
         self._has_rows = bool(message.complete)
 
@@ -169,7 +169,7 @@ class Day(Played):
         until = self._now + 6.0
         wait(lambda: self._now > until, 'the leaves do not open', LIMIT)
 
-    # --- what the files say
+    # --- from the files
 
     def _play(self, closed: dict[int, Any], opened: dict[int, Any]) -> None:
         self._links: dict[str, list[int]] = defaultdict(list)
@@ -246,7 +246,7 @@ class Day(Played):
             time = (datetime.datetime.fromisoformat(event['time']) - self._start).total_seconds()
             sensor = sensors[event['sensor']]
             kind, (source, model) = sensor['kind'], self._sources.get(sensor['name'], ('', ''))
-            # a saved world may name what was spawned on a model as the model
+            # a saved world may name a spawned sensor as the model that it is on
             name = names.get((source, sensor['name'])) or names.get((source, model))
             if name is None:
                 continue

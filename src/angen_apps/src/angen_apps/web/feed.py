@@ -210,7 +210,7 @@ def row_of(entry: Any) -> Row:
 
 
 def seed() -> int:
-    """Of the noise of the run."""
+    """The seed of the noise of the run."""
     import rospy
     return int(rospy.get_param('/angen/seed', 1))
 

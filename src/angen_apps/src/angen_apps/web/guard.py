@@ -1,4 +1,4 @@
-"""Who may speak to the server: the Host and Origin of requests, the token, and how much."""
+"""Access to the server: the Host and Origin of requests, the token, and limits."""
 from __future__ import annotations
 
 import hmac
@@ -73,7 +73,7 @@ class Guard:
 
 
 class Budget:
-    """So many messages of a browser are accepted: `burst` at once, `rate` per second."""
+    """Limits the messages of a browser: `burst` at once, `rate` per second."""
 
     def __init__(self, rate: float, burst: float) -> None:
         self._rate, self._burst = rate, burst

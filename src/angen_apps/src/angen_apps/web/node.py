@@ -10,12 +10,12 @@ from angen_apps.web.feed import master_process
 def start_node() -> None:
     """Returns when there is a master, and this process is a node of it."""
     import rospy
-    told = False
+    said = False
     while not master_process():
-        if not told:
+        if not said:
             print('angen web: waits for a ROS master; start one with ./angen run', file=sys.stderr,
                   flush=True)
-            told = True
+            said = True
         time.sleep(0.5)
     rospy.init_node('angen_web', anonymous=True, disable_signals=True, disable_rosout=True,
                     disable_rostime=True)

@@ -1,4 +1,4 @@
-"""What a page may ask of the simulator; all of it by public services and topics."""
+"""The orders of a page to the simulator, all by public services and topics."""
 from __future__ import annotations
 
 import math
@@ -33,7 +33,7 @@ class Orders:
             'delete': self._delete, 'save': self._save, 'drive': self._drive, 'goal': self._goal}
 
     def execute(self, order: dict[str, Any]) -> dict[str, Any]:
-        """The answer; ValueError where the simulator refuses it."""
+        """The answer; ValueError where the simulator rejects it."""
         do = self._known.get(str(order.get('do')))
         if do is None:
             raise ValueError('unknown order; known are ' + ', '.join(self._known))

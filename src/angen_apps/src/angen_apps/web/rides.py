@@ -39,7 +39,7 @@ class Cabin:
                    height - self.heights[0])
 
     def has(self, x: float, y: float) -> bool:
-        """Whether one who stands there, on any floor, is in the cabin or in its shaft."""
+        """Whether a place, on any floor, is in the cabin or in its shaft."""
         return math.dist((self.x, self.y), (x, y)) < IN
 
 

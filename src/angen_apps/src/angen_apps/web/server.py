@@ -27,7 +27,7 @@ log = logging.getLogger('angen.web')
 
 
 class Source(Protocol):
-    """What the pages show: a running node or a recording."""
+    """The source of the pages: a running node or a recording."""
 
     store: Store
 
@@ -38,7 +38,7 @@ class Source(Protocol):
         """Topics beyond the usual ones that some browser shows; None: there is no browser."""
 
     async def order(self, order: dict[str, Any]) -> dict[str, Any]:
-        """Executes an order of a browser, which gets the answer; ValueError refuses it."""
+        """Executes an order of a browser, which gets the answer; ValueError rejects it."""
 
     def close(self) -> None:
         """Ends threads."""
@@ -171,7 +171,7 @@ class Server:
     async def _feed(self, browser: Browser) -> None:
         try:
             await browser.feed(self._source.store)
-        except (ConnectionError, RuntimeError):  # it went away meanwhile
+        except (ConnectionError, RuntimeError):  # it disconnected in the meantime
             await browser.socket.close()
 
     async def _listen(self, browser: Browser) -> None:
@@ -205,7 +205,7 @@ class Server:
             answer = {'ok': True, **await self._source.order(order)}
         except ValueError as error:
             answer = {'ok': False, 'text': str(error)}
-        except Exception as error:  # a mistake of ours: the browser does not wait for ever
+        except Exception as error:  # an error of the server: the browser gets an answer
             log.error('angen web: %s: %r', order.get('do'), error)
             answer = {'ok': False, 'text': 'the server failed; its output says why'}
         finally:

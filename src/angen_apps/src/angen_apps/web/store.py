@@ -21,7 +21,7 @@ Row = tuple[str, str, str, bool, float, list[float | None]]  # kind name text al
 
 @dataclass
 class Update:
-    """What one browser gets next: parts of a JSON message, and binary messages."""
+    """The next messages of a browser: parts of a JSON message, and binary messages."""
 
     version: int
     parts: dict[str, Any] = field(default_factory=dict)
@@ -172,7 +172,7 @@ class Store:
             return self._parts.get(name, (0, None))[1]
 
     def since(self, seen: int, named: Iterable[str] = (), hidden: Iterable[str] = ()) -> Update:
-        """What changed after version `seen`: parts but the hidden ones, named pictures, scans."""
+        """Changes after version `seen`: parts but the hidden ones, named pictures, scans."""
         with self._lock:
             update = Update(self._version)
             update.parts = {name: value for name, (version, value) in self._parts.items()

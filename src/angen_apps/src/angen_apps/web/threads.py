@@ -8,7 +8,7 @@ from typing import Any, Callable
 
 
 async def in_thread(call: Callable[..., Any], *arguments: Any) -> Any:
-    """What `call` returns or raises."""
+    """The result or exception of `call`."""
     loop = asyncio.get_running_loop()
     done: asyncio.Future[Any] = loop.create_future()
 
@@ -24,7 +24,7 @@ async def in_thread(call: Callable[..., Any], *arguments: Any) -> Any:
         result, error = None, None
         try:
             result = call(*arguments)
-        except Exception as failure:  # whatever it is, the awaiting task gets it
+        except Exception as failure:  # the awaiting task gets it
             error = failure
         with contextlib.suppress(RuntimeError):  # the loop has ended
             loop.call_soon_threadsafe(settle, result, error)

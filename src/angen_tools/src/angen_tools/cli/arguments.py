@@ -1,5 +1,5 @@
 """Values of the command line: each function returns the meaning of a word, or a ValueError with the
-error and what would be right.
+error and its fix.
 """
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def _within(text: str, low: float, high: float, otherwise: str,
 
 
 def _in_seconds(text: str) -> float:
-    """Of '90', '90s', '10m', '1h 30min', s; else NaN."""
+    """The seconds of '90', '90s', '10m', '1h 30min'; else NaN."""
     try:
         return clock.duration(text)
     except ValueError:
@@ -75,7 +75,7 @@ def _in_seconds(text: str) -> float:
 
 
 def window(text: str) -> float:
-    """How long to measure: 1 to 3600 s."""
+    """A time to measure: 1 to 3600 s."""
     return _within(text, 1.0, 3600.0, 'time; give 1 to 3600 s', _in_seconds)
 
 

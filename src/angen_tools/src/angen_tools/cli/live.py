@@ -64,11 +64,11 @@ def run_save(args: argparse.Namespace) -> int:
 def run_watch(args: argparse.Namespace) -> int:
     from angen_tools.live import watch
     from angen_tools.live.summary import Filter
-    wanted = Filter(args.names, args.kind, args.room, args.active)
+    shown_rows = Filter(args.names, args.kind, args.room, args.active)
     if not args.once and not args.json:
-        watch.watch(wanted)
+        watch.watch(shown_rows)
         return 0
-    shown, missing = watch.watch_once(wanted, args.json)
+    shown, missing = watch.watch_once(shown_rows, args.json)
     show(shown)
     if missing:
         print(f'angen: {missing}', file=sys.stderr)
@@ -168,7 +168,7 @@ def add_name(parser: Parser) -> None:
 
 
 def add_delete(commands: Any) -> None:
-    delete = command(commands, 'delete', run_delete, 'takes models and sensors out of the world',
+    delete = command(commands, 'delete', run_delete, 'deletes models and sensors from the world',
                      'delete p1 chair1')
     complete.completed_by(delete.add_argument('names', metavar='NAME', nargs='+'),
                           complete.names_to_delete)

@@ -66,7 +66,7 @@ class Parser(argparse.ArgumentParser):
             raise argparse.ArgumentError(action, f"'{value}' is not known; {question}")
 
     def _other_role(self, kind: str) -> str:
-        """What to do with a device that is spawned, or a sensor that is set."""
+        """The fix for spawning a device or setting a sensor."""
         if self.prog == 'angen spawn' and kind in kinds('device'):
             models = [entry['model'] for entry in kinds()[kind]['models']] or ['MODEL']
             return f'a {kind} comes with its model: angen spawn model {models[0]} NAME'

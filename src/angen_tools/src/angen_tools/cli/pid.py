@@ -24,7 +24,7 @@ def run_pid(args: argparse.Namespace) -> int:
 def add_pid(commands: Any) -> None:
     """angen pid."""
     parser = command(commands, 'pid', run_pid,
-                     'draws how a door or an elevator answers a step with P, P + I, PID and its '
+                     'draws the step response of a door or an elevator with P, P + I, PID and its '
                      'own controller; needs no simulator', 'pid door', 'pid elevator -o out')
     parser.add_argument('kind', metavar='KIND', choices=('door', 'elevator'),
                         help='door or elevator')

@@ -1,6 +1,6 @@
 """The catalog of kinds of sensors and devices, which the plug-ins describe; no simulator needed.
 
-Beside each plug-in library libX.so lies libX.json, written when it was built: read here without
+Beside each plug-in library libX.so is libX.json, written when it was built: read here without
 loading the library, so that --help stays quick.
 """
 from __future__ import annotations
@@ -23,7 +23,7 @@ KEYS = ('library', 'kind', 'doc', 'role', 'rate', 'models', 'sensor_type', 'exam
 # in the file of a library that registers a plug-in with class_loader
 MARKS = (b'N12class_loader4impl10MetaObjectI', b'N5angen6PluginE')
 SCRIPT = b'angen.register('  # in a file of Python that registers one
-LOADER = 'libangen_plugin.so'  # holds these words as it searches for them
+LOADER = 'libangen_plugin.so'  # contains these words as it searches for them
 
 
 def angen_module() -> Any:
@@ -47,7 +47,7 @@ def simulator(where: str = '') -> Iterator[Any]:
 
 
 def directories() -> list[Path]:
-    """Where plug-in libraries are, in the order in which the simulator searches."""
+    """The folders of plug-in libraries, in the order in which the simulator searches."""
     def entries(variable: str) -> list[Path]:
         return [Path(entry) for entry in os.environ.get(variable, '').split(':') if entry]
     found = [*entries('ANGEN_PLUGIN_PATH'), *entries('GAZEBO_PLUGIN_PATH'),
@@ -86,7 +86,7 @@ def _libraries() -> list[Path]:
 
 
 def _is_alias(library: Path) -> bool:
-    """Whether a file is a second name of a library that lies beside it; libX.so of libX.so.1 is
+    """Whether a file is a second name of a library beside it; libX.so of libX.so.1 is
     none.
     """
     target = library.resolve()
@@ -109,7 +109,7 @@ def _read(library: Path) -> list[Plugin] | None:
 
 
 def _registers_plugins(library: Path) -> bool:
-    """Whether a library holds plug-ins, by the words in its file: loading it would run its code."""
+    """Whether a library has plug-ins, by the words in its file: loading it would run its code."""
     if library.name == LOADER:
         return False
     try:

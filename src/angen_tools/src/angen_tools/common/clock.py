@@ -9,7 +9,7 @@ PART = re.compile(r'(\d+(?:\.\d+)?)\s*(s|min|m|h|d)')
 
 
 def duration(text: str) -> float:
-    """Of '10 min' or '1 h 30 min', s; ValueError says what would be right."""
+    """The seconds of '10 min' or '1 h 30 min'; ValueError has the right form."""
     rest = PART.sub('', text).strip()
     parts = PART.findall(text)
     if rest or not parts:
@@ -26,7 +26,7 @@ def in_seconds(word: str) -> str:
 
 
 def time_of_day(text: str) -> float:
-    """Of '22:30' or '6:05:30', s since midnight; ValueError says what would be right."""
+    """The seconds since midnight of '22:30' or '6:05:30'; ValueError has the right form."""
     found = re.fullmatch(r'(\d{1,2}):(\d{2})(?::(\d{2}))?', text)
     hour, minute, second = (int(part or 0) for part in found.groups()) if found else (99, 0, 0)
     if minute > 59 or second > 59 or hour * HOUR + minute * MINUTE + second > DAY:
@@ -46,7 +46,7 @@ def show_duration(seconds: float) -> str:
 
 
 def show_time(seconds: float) -> str:
-    """Of s since the first midnight: '22:30:05', after that day '+1 d 06:00:00'."""
+    """The text of s since the first midnight: '22:30:05', after that day '+1 d 06:00:00'."""
     days, rest = divmod(int(seconds + 1e-6), int(DAY))
     text = f'{rest // 3600:02}:{rest // 60 % 60:02}:{rest % 60:02}'
     return f'+{days} d {text}' if days else text

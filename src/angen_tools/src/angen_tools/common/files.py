@@ -57,7 +57,7 @@ def _in_part(target: Path, binary: bool, log: bool) -> Iterator[IO[Any]]:
             raise
         _finish(file, part, target)
     except BaseException:
-        with suppress(OSError):  # of what could not be written
+        with suppress(OSError):  # of data that could not be written
             file.close()
         with suppress(FileNotFoundError):  # it is finished
             _cut(part) if log and not binary else part.unlink()
@@ -77,7 +77,7 @@ def _locked(part: Path) -> int:
         made = os.open(part, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW, 0o666)
         try:
             fcntl.flock(made, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            if os.path.samestat(os.fstat(made), os.stat(part)):  # it is not finished meanwhile
+            if os.path.samestat(os.fstat(made), os.stat(part)):  # it is not finished yet
                 os.ftruncate(made, 0)
                 return made
         except (BlockingIOError, FileNotFoundError):

@@ -138,7 +138,7 @@ class Home:
 
     @staticmethod
     def of_dict(home: Mapping[str, Any]) -> Home:
-        """Of a dict as `world.home` is."""
+        """The home of a dict such as `world.home`."""
         def corners(polygon: Sequence[Sequence[float]]) -> list[Point]:
             return [(x, y) for x, y in polygon]
 
@@ -159,12 +159,12 @@ class Home:
 
     @staticmethod
     def of_world(world: Any) -> Home:
-        """Of an `angen.World`."""
+        """The home of an `angen.World`."""
         return Home.of_dict(world.home)
 
     @staticmethod
     def of_message(message: Any) -> Home:
-        """Of an angen_msgs/Home."""
+        """The home of an angen_msgs/Home."""
         return Home(
             message.entrance, message.north,
             None if math.isnan(message.latitude) else message.latitude, message.start,

@@ -1,4 +1,4 @@
-"""How the scripts start."""
+"""The start of the scripts."""
 from __future__ import annotations
 
 import signal
@@ -16,7 +16,7 @@ def run_main(module: str) -> None:
 
 
 def run_node(module: str) -> None:
-    """run_main() of a node. What fails once rospy has shut down is the end of the node: a signal
+    """run_main() of a node. A failure after rospy has shut down is the end of the node: a signal
     ends the calls that it is in, and closes its topics."""
     try:
         run_main(module)

@@ -1,4 +1,4 @@
-"""How far a command is, on stderr."""
+"""The progress of a command, on stderr."""
 from __future__ import annotations
 
 import sys

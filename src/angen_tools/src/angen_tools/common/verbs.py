@@ -58,7 +58,7 @@ def _misspelled(kind: Plugin, given: Sequence[str]) -> str:
 
 
 def _counted(kind: Plugin, given: Sequence[str]) -> Order | None:
-    """Of "Floor1": an integer may follow its verb without a blank."""
+    """The parts of "Floor1": an integer may follow its verb without a blank."""
     for verb in kind['verbs']:
         if len(given) == 1 and verb['type'] == 'integer' \
                 and given[0].lower().startswith(verb['name'].lower()):
@@ -70,7 +70,7 @@ def _with_verb(kind: Plugin, verb: dict[str, Any], rest: Sequence[str]) -> Order
     takes = f'{article(kind["kind"])} takes {forms_in_words(kind)}'
     if not verb['argument']:
         if rest:
-            raise ValueError(f"'{' '.join(rest)}' is too much after {verb['name'].lower()}; "
+            raise ValueError(f"'{' '.join(rest)}' is unexpected after {verb['name'].lower()}; "
                              f'{takes}')
         return Order(verb['name'], verb)
     count = verb.get('count', 1)

@@ -17,7 +17,7 @@ from typing import Iterator
 VARIABLE = 'ANGEN_STARTED_BY'
 GRACE = 2.0  # s between SIGTERM and SIGKILL
 TURN = 0.1  # s between two searches
-LIMIT = 10.0  # s after SIGKILL, for what cannot be ended
+LIMIT = 10.0  # s after SIGKILL, for processes that do not end
 QUIET = 3  # searches in a row that find nothing: a process that is being started has no mark yet
 PR_SET_PDEATHSIG = 1
 
@@ -54,7 +54,7 @@ def end_with_parent(parent: int) -> None:
     """Lets the kernel kill this process, which a thread of `parent` forked, when that ends."""
     import ctypes
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-    if os.getppid() != parent:  # it has ended meanwhile
+    if os.getppid() != parent:  # it has ended in the meantime
         os._exit(1)
 
 

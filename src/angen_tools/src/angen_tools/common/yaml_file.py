@@ -1,4 +1,4 @@
-"""YAML files that people write: each error names file, line, and what would be right."""
+"""YAML files that people write: each error has file, line, and its fix."""
 from __future__ import annotations
 
 import math
@@ -24,10 +24,10 @@ class YamlFile:
             deepest = _deeper_than(text, DEEPEST)
             self.root = None if deepest else yaml.compose(text, yaml.CSafeLoader)
         except yaml.YAMLError as short:
-            told = _explained(text, short)
-            mark = getattr(told, 'problem_mark', None)
+            explained = _explained(text, short)
+            mark = getattr(explained, 'problem_mark', None)
             line = mark.line + 1 if mark else 1
-            raise Failure(f'{path}:{line}: is not YAML: {getattr(told, "problem", told)}'
+            raise Failure(f'{path}:{line}: is not YAML: {getattr(explained, "problem", explained)}'
                           ) from None
         if deepest:
             raise Failure(f'{path}:{deepest}: is nested deeper than {DEEPEST} levels')
@@ -50,7 +50,7 @@ class YamlFile:
                 raise self.fail(key, f"'{name}' is not known in {what}; "
                                 f'{did_you_mean(name, known)}')
             if name in found:
-                raise self.fail(key, f"'{name}' is there twice in {what}")
+                raise self.fail(key, f"'{name}' is given twice in {what}")
             found[name] = value
         for key in required:
             if key not in found:
@@ -90,7 +90,7 @@ class YamlFile:
 
 
 def _explained(text: str, error: yaml.YAMLError) -> yaml.YAMLError:
-    """The same error by the parser that tells it best."""
+    """The same error by the parser with the clearest message."""
     try:
         for _ in yaml.parse(text, yaml.SafeLoader):
             pass

@@ -52,7 +52,7 @@ class Rescue:
         """After a Failure the world stays, and its path is printed."""
         for path in (self.path, self._world):
             if kind is not None and issubclass(kind, Failure) and path.exists():
-                print(f'angen: the world as it was is in {path}', file=sys.stderr, flush=True)
+                print(f'angen: the world is saved in {path}', file=sys.stderr, flush=True)
             else:
                 path.unlink(missing_ok=True)
 

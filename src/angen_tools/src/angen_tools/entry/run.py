@@ -44,7 +44,7 @@ BUILDING = (  # of the world without world:=
     'rostopic pub -1 /gazebo/Light_controller std_msgs/String "On, kitchen0"',
     'rostopic pub -1 /gazebo/Elevator_controller std_msgs/String "Floor1"')
 ANY = ('angen list', 'angen watch', 'angen set KIND NAME VALUE')
-# A shell's exit codes of what these signals have ended.
+# A shell's exit codes of programs that these signals ended.
 CODES = {signal.SIGINT: 130, signal.SIGQUIT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
 
 
@@ -123,7 +123,7 @@ def require_no_other(uri: str) -> None:
     if process:
         host, _, port = uri.rstrip('/').rpartition(':')
         beside = f'{host}:{int(port) + 1}' if port.isdigit() else 'another'
-        raise Failure(f'already running at {uri} ({process}); it is left alone. To end it: Ctrl-C '
+        raise Failure(f'already running at {uri} ({process}); it is not changed. To end it: Ctrl-C '
                       'where it was started, or rosnode kill /angen; to start another beside it: '
                       f'ROS_MASTER_URI={beside} ./angen run')
 
@@ -176,7 +176,7 @@ def run(launch: Path, words: list[str]) -> int:
     hidden = 'gui' not in kinds(launch) or {'gui:=false', 'headless:=true'} & set(words)
     hints = [help_text(launch.parent.parent / 'angen', words)]
     if not hidden and not has_display():
-        hints.insert(0, 'no display, so no rviz; the building runs all the same')
+        hints.insert(0, 'no display: the building runs without rviz')
         words.append('gui:=false')
     now, count = words, 1
     with watchdog(), Rescue() as rescue, Session(uri, hints) as session:
@@ -184,12 +184,12 @@ def run(launch: Path, words: list[str]) -> int:
             code = session.launch(launch, [*now, f'rescue:={rescue.path}'])
             world = rescue.take()
             if world is None and count > 1:
-                raise Failure('the simulator ended by itself after it was started again')
+                raise Failure('the simulator ended unexpectedly after it was started again')
             if world is None:
                 if session.ran:
-                    say('the simulator ended by itself')
+                    say('the simulator ended unexpectedly')
                 return code or 1  # roslaunch ends with 0 where a node has failed
-            say('the ROS master was lost: starting again with the world as it was')
+            say('the ROS master was lost: starting again with the saved world')
             count += 1
             now = with_world(words, world)
 

@@ -57,7 +57,7 @@ class Client:
         def request() -> None:
             try:
                 done.put(rospy.ServiceProxy(service, kind)(**fields))
-            except Exception as error:  # whatever it is, the waiting thread reports it
+            except Exception as error:  # the waiting thread reports it
                 done.put(error)
 
         threading.Thread(target=request, daemon=True).start()

@@ -21,7 +21,7 @@ STEP = 1.25  # faster or slower by one key
 SPEED, TURN = 0.2, 1.0  # m/s and rad/s to begin with
 MOST_SPEED, MOST_TURN = 0.7, 3.1  # the limits of the drive
 ARROWS = {b'A': (1, 0), b'B': (-1, 0), b'C': (0, -1), b'D': (0, 1)}  # ahead, to the left
-STARTS = (b'\x1b[', b'\x1bO')  # of what an arrow key sends, in either mode of the keypad
+STARTS = (b'\x1b[', b'\x1bO')  # of the bytes of an arrow key, in either mode of the keypad
 HELP = 'arrows drive and turn, + and - change the speed, space or s stops, q quits'
 
 

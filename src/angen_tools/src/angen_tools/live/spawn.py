@@ -42,7 +42,7 @@ def model_source(what: str) -> str:
                           + did_you_mean(f'model://{path.stem}', known))
     if path.is_dir():
         if not any((path / name).exists() for name in ('model.config', 'model.sdf')):
-            raise Failure(f'{what}: holds no model.config and no model.sdf')
+            raise Failure(f'{what}: has no model.config and no model.sdf')
     elif sdf.read(path).tag not in ('sdf', 'model', 'include', 'robot'):
         raise Failure(f'{what}:1: is not a model; its root must be <sdf> (or <robot>, URDF)')
     return str(path)
@@ -61,7 +61,7 @@ def spawn_model(source: str, name: str, pose: Sequence[float] | None) -> dict[st
 
 
 def _in_order(source: str, name: str) -> str:
-    """What to spawn; Failure where source and name are given the wrong way round."""
+    """The model to spawn; Failure where source and name are swapped."""
     try:
         return model_source(source)
     except Failure:
@@ -115,7 +115,7 @@ def seat_sitter(name: str, chair: str) -> dict[str, Any]:
 
 
 def delete(names: Sequence[str]) -> list[str]:
-    """Takes models or sensors out of the world, in order; stops at the first that cannot be."""
+    """Deletes models or sensors from the world, in order; stops at the first that cannot be."""
     from angen_msgs.srv import Delete
     client = Client()
     done: list[str] = []

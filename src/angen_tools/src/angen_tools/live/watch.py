@@ -115,7 +115,7 @@ def _receive(board: Board) -> None:
 
 
 def title(board: Board, rows: Sequence[Row]) -> str:
-    """How much is shown, of what moment."""
+    """The number of rows, and their time."""
     alarms = sum(row.alarm for row in rows)
     parts = [f'{len(rows)} of {len(board.rows)} sensors and devices', f'{alarms} detecting',
              f'{board.time:.1f} s simulated']

@@ -127,7 +127,7 @@ def _right(path: str, found: str, world: Any, around: Collection[str] = ()) -> C
     """`around`: the ignored elements of the world that a model was loaded into."""
     wrong = [meant for line in world.warnings if (meant := misspelled(line))]
     warnings = [line for line in world.warnings if not misspelled(line)]
-    state = f'loads with {_counted(len(warnings), "warning")}' if warnings else 'nothing is wrong'
+    state = f'loads with {_counted(len(warnings), "warning")}' if warnings else 'no errors'
     found_here = [line for line in world.ignored if line not in around]
     ignored = [line for line in found_here if not OUR_OWN.search(line)]
     wrong += [f'{line} is not known; docs/home.md lists the elements of angen'

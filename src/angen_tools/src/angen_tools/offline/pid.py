@@ -61,7 +61,7 @@ class Answer:
 
     @property
     def settles(self) -> float:
-        """From when on it stays within the band, s; infinite where it does not."""
+        """The time from which it stays within the band, s; infinite where it does not."""
         outside = np.nonzero(np.abs(self.x - self.target) > self.band)[0]
         last = int(outside[-1]) + 1 if len(outside) else 0
         return float(self.t[last]) if last < len(self.t) else math.inf
@@ -150,7 +150,7 @@ def answer(plant: Plant, controller: str, terms: str) -> Answer:
 
 
 def answers(kind: str) -> list[Answer]:
-    """Of all four controllers."""
+    """The traces of all four controllers."""
     plant = PLANTS[kind]
     found = [answer(plant, ' + '.join(terms), terms) for terms in ('P', 'PI', 'PID')]
     t, x = simulate(plant, '', SPAN)

@@ -20,17 +20,17 @@ def apartment(floors: int, counts: Mapping[str, int], seed: int, elevator: bool 
               ) -> list[Placement]:
     """The sensors of such a world; `counts` by kind. Failure where there is no room for them.
 
-    The elevator holds a contact sensor, which counts.
+    The contact sensor of the elevator is one of `contact`.
     """
     if elevator and not counts.get('contact'):
-        raise Failure('the elevator holds a contact sensor: give --contact 1 or more with it')
+        raise Failure('the elevator has a contact sensor: give --contact 1 or more with it')
     return [placement for kind in KINDS
             for placement in placements(kind, counts.get(kind, 0), floors, seed, elevator)]
 
 
 def write_apartment(path: Path, floors: int, counts: Mapping[str, int], seed: int,
                     elevator: bool = False, mover: str = 'person', one_link: bool = False) -> int:
-    """Writes the world to a file; returns how many sensors it holds.
+    """Writes the world to a file; returns the number of its sensors.
 
     Flats with doors, lamps, furniture and, on floor 0, the `mover`: person, robot or nobody. Chairs
     and tables hold the contact sensors, so there are only as many as `counts` has. With

@@ -34,7 +34,7 @@ def free_place(world: etree._Element) -> tuple[float, ...]:
 
 
 def _middle(world: Any) -> tuple[float, float]:
-    """Of the models on the lowest floor, m; the origin where there are none."""
+    """The middle of the models on the lowest floor, m; the origin where there are none."""
     places = [place for name in world.models if -1.0 < (place := world.motion(name)[0])[2] < 3.0]
     if not places:
         return 0.0, 0.0

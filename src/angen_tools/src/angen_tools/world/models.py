@@ -28,7 +28,7 @@ def building() -> Path:
 
 
 def folders() -> list[Path]:
-    """Where models are searched for."""
+    """The folders in which models are searched."""
     return [*(Path(folder) for variable in ('ANGEN_MODEL_PATH', 'GAZEBO_MODEL_PATH')
               for folder in os.environ.get(variable, '').split(':') if folder), worlds_models()]
 

@@ -51,7 +51,7 @@ def generator(part: str) -> ModuleType:
         spec = importlib.util.spec_from_file_location(
             package, folder / '__init__.py', submodule_search_locations=[str(folder)])
         if spec is None or not folder.is_dir():
-            raise Failure(f'{folder} is missing; it holds the building')
+            raise Failure(f'{folder} is missing; it contains the building')
         sys.modules[package] = importlib.util.module_from_spec(spec)
     return importlib.import_module(f'{package}.{part}')
 
@@ -60,18 +60,18 @@ def placements(kind: str, count: int, floors: int, seed: int, elevator: bool = F
                ) -> list[Placement]:
     """The first `count` sensors of a kind; Failure where there is no room for them.
 
-    Sensors go from room to room: first to the places where the building has them, then, again from
-    room to room, to free places.
+    Sensors are added room by room: first at the places where the building has them, then, again
+    room by room, at free places.
     """
     found = list(islice(_all(kind, floors, seed, elevator), count))
     if len(found) < count:
-        flats = 'a flat holds' if floors == 1 else f'{floors} flats hold'
+        flats = 'a flat has room for' if floors == 1 else f'{floors} flats have room for'
         raise Failure(f'{flats} {len(found)} {kind} sensors, not {count}; give more --floors')
     return found
 
 
 def floors_for(kind: str, count: int, least: int) -> int:
-    """How many floors, at least `least`, `count` sensors of a kind need."""
+    """The number of floors, at least `least`, that `count` sensors of a kind need."""
     floors = least
     while sum(1 for _ in islice(_all(kind, floors, 0, False), count)) < count:
         floors += 1
@@ -198,14 +198,14 @@ def _footprint(model: str, _name: str, pose: Pose) -> tuple[float, float, float,
 
 
 def _outside(point: tuple[float, float], box: tuple[float, float, float, float]) -> float:
-    """How far a point is from a box, 0 inside."""
+    """The distance of a point from a box, 0 inside."""
     return hypot(max(box[0] - point[0], 0.0, point[0] - box[2]),
                  max(box[1] - point[1], 0.0, point[1] - box[3]))
 
 
 def _from_line(point: tuple[float, float], a: tuple[float, float], b: tuple[float, float]
                ) -> float:
-    """How far a point is from the stretch a to b."""
+    """The distance of a point from the line from a to b."""
     (x, y), (dx, dy) = (point[0] - a[0], point[1] - a[1]), (b[0] - a[0], b[1] - a[1])
     along = min(1.0, max(0.0, (x * dx + y * dy) / (dx * dx + dy * dy)))
     return hypot(x - along * dx, y - along * dy)

@@ -24,7 +24,7 @@ def parse_pose(text: str) -> tuple[float, ...]:
         numbers.append(number(word) if place < 3 else radians(word))
         if not math.isfinite(numbers[-1]):
             what = 'a number' if math.isnan(numbers[-1]) else 'finite'
-            raise ValueError(f"the pose holds '{word}', which is not {what}")
+            raise ValueError(f"the pose contains '{word}', which is not {what}")
     return tuple(numbers + [0.0] * (6 - len(numbers)))
 
 
@@ -42,7 +42,7 @@ def parse_settings(items: list[str]) -> list[tuple[str, str]]:
     for item in items:
         key, equals, value = item.partition('=')
         if not equals or not key.strip():
-            raise ValueError(f"'{item}' sets nothing; give it as KEY=VALUE")
+            raise ValueError(f"'{item}' is not a setting; give it as KEY=VALUE")
         pairs.append((key.strip().strip('/'), value.strip()))
     return pairs
 

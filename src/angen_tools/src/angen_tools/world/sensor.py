@@ -25,7 +25,7 @@ def senses_contacts(kind: Plugin) -> bool:
 
 
 def needs_link(kind: Plugin) -> bool:
-    """Whether a kind sits on a link of something else and has no model of its own."""
+    """Whether a kind is mounted on a link of another model and has no model of its own."""
     return bool(kind['sensor_type']) and not kind['models']
 
 
@@ -38,7 +38,7 @@ def build(kind_name: str, name: str, settings: Sequence[Setting], lone: bool) ->
     """
     kind = kind_of(kind_name)
     if needs_link(kind) and not lone:
-        raise Failure(f'a {kind_name} sensor sits on a link: give --on MODEL::LINK')
+        raise Failure(f'a {kind_name} sensor needs a link: give --on MODEL::LINK')
     root = _from_model(kind, settings) if kind['models'] else _made(kind)
     sensor = root.find('.//sensor')
     if lone:
@@ -60,10 +60,10 @@ def _from_model(kind: Plugin, settings: Sequence[Setting]) -> etree._Element:
     path = models.find(f'model://{chosen["model"]}')
     if path is None:
         raise Failure(f'model://{chosen["model"]}, the model of a {kind["kind"]}, is not found; '
-                      'set ANGEN_MODEL_PATH to the folder that holds it')
+                      'set ANGEN_MODEL_PATH to the folder that contains it')
     root = sdf.read(path)
     if root.find('model') is None or root.find('.//sensor') is None:
-        raise Failure(f'{path}: holds no <model> with a <sensor>')
+        raise Failure(f'{path}: has no <model> with a <sensor>')
     return root
 
 
@@ -99,7 +99,7 @@ def _apply(sensor: etree._Element, kind: str, settings: Sequence[Setting]) -> No
         try:
             _write(at, key, value, many and key in written)
         except ValueError:
-            raise Failure(f"the value of '{given}' holds characters that XML cannot") from None
+            raise Failure(f"the value of '{given}' has characters that XML forbids") from None
         written.add(key)
 
 
