@@ -74,7 +74,7 @@ def test_wrong_days(code: int, part: str, mistake: str, tmp_path: Path,
 @mistakes('files')
 def test_wrong_files(code: int, part: str, mistake: str, tmp_path: Path,
                      capsys: pytest.CaptureFixture[str]) -> None:
-    # latin-1: what is typed has no other letters, and bytes in it are no UTF-8
+    # latin-1: the arguments have no other letters, and their bytes are not UTF-8
     text, words = mistake.split(' | ')
     (tmp_path / 'file.csv').write_bytes(text.encode('latin-1'))
     found, line = answer(shlex.split(words.replace('FILE', str(tmp_path / 'file.csv'))), capsys)

@@ -38,14 +38,14 @@ def play(contest: Played) -> list[tuple[str, int]]:
     return [(row.simulator, row.repeats) for row in rows]
 
 
-def test_where_gazebo_stops_the_bench_goes_on(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_bench_continues_where_gazebo_stops(capsys: pytest.CaptureFixture[str]) -> None:
     assert play(Played(2, Failure('Gazebo has stopped'))) == [(ANGEN, 2), (EACH, 1), (ONE_LINK, 2)]
     assert 'angen: pir 5: Gazebo has stopped\n' in capsys.readouterr().err
     with pytest.raises(Failure, match='the node ended'):
         play(Played(4, Failure('the node ended')))
 
 
-def test_ctrl_c_keeps_what_is_measured() -> None:
+def test_ctrl_c_keeps_the_measurements() -> None:
     assert play(Played(5, KeyboardInterrupt())) == [(ANGEN, 2), (EACH, 1), (ONE_LINK, 1)]
     assert play(Played(1, KeyboardInterrupt())) == []
 

@@ -15,7 +15,7 @@ def row(simulator: str, count: int, **figures: float) -> Row:
     return Row(kind='pir', count=count, simulator=simulator, **figures)
 
 
-def test_a_row_has_the_median_of_what_was_measured() -> None:
+def test_a_row_has_the_median_of_the_measurements() -> None:
     made = bench_report.combine([Session(cpu=1.0), Session(cpu=5.0, gone_ms=7.0), Session(cpu=2.0)],
                                 Row, kind='pir', count=3, simulator=EACH)
     assert (made.cpu, made.gone_ms, made.rtf, made.repeats) == (2.0, 7.0, None, 3)
@@ -42,7 +42,7 @@ def test_less_processor_time_a_simulated_second_is_better() -> None:
     assert found['100'] == ['22', '12', '3', '66', '36']
 
 
-def test_what_sensors_add_is_told_apart_from_the_world() -> None:
+def test_the_cost_of_sensors_is_separated_from_that_of_the_world() -> None:
     assert cells(ROWS, 'the same, above 0 sensors') == {'100': ['50', '20', '1', '50', '20']}
     assert cells(ROWS, 'memory a sensor, MB') == {'100': ['100', '50', '0.1', '10', '5']}
 
@@ -55,8 +55,8 @@ def test_readings_that_were_not_made_count_against_the_speed() -> None:
 
 
 @pytest.mark.parametrize('angen,peer', [(None, 1.0), (1.0, None), (0.0, 1.0), (1.0, -1.0)])
-def test_no_ratio_of_what_is_missing_or_lost_in_noise(angen: float | None, peer: float | None
-                                                      ) -> None:
+def test_no_ratio_of_missing_values_or_of_noise(angen: float | None, peer: float | None
+                                                ) -> None:
     assert bench_vs.ratio(bench_vs.QUESTIONS[0], angen, peer) is None
 
 

@@ -15,7 +15,7 @@ def report(*runs: tuple[str, float, str]) -> str:
         for name, time, unit in runs]})
 
 
-def test_times_are_told_in_ns_whatever_their_unit() -> None:
+def test_times_are_reported_in_ns_whatever_their_unit() -> None:
     cases = bench_core.cases_of(report(('a', 2.0, 'us'), ('b/iterations:5', 3.0, 'ms')))
     assert [(case.name, case.cpu_ns) for case in cases] == [('a', 2e3), ('b', 3e6)]
     assert cases[0].counters == {'bytes': 12.0}
@@ -38,7 +38,7 @@ def test_a_case_whose_rival_was_not_run_has_no_ratio() -> None:
     assert bench_core.rows_of(cases, 'abc')[0]['ratio'] == ''
 
 
-def test_says_how_to_build_what_is_not_there(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_program_is_reported_with_its_build(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv('CMAKE_PREFIX_PATH', '/nowhere')
     with pytest.raises(Failure, match='benches'):
         bench_core.program('core_bench')

@@ -18,8 +18,8 @@ SCRIPT = Path(__file__).resolve().parents[2] / 'bench/gazebo/make_chroot'
     ('probe first 12.5', ('first', [12.5])),
     ('[Wrn] a probe of something', None), ('probe', None), ('probe gone', None),
     ('probe first soon', None), ('', None)])
-def test_lines_of_the_probe_are_told_from_others(line: str, said: tuple[str, list[float]] | None
-                                                 ) -> None:
+def test_lines_of_the_probe_are_recognized(line: str, said: tuple[str, list[float]] | None
+                                           ) -> None:
     assert parse(line) == said
 
 
@@ -63,8 +63,8 @@ def test_without_a_mirror_nothing_is_left_but_the_log(tmp_path: Path) -> None:
     assert 'no net for http://archive.debian.org' in (tmp_path / 'chroot.log').read_text()
 
 
-def test_the_bench_says_the_refusal_in_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
-                                                capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_bench_says_the_rejection_in_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+                                                  capsys: pytest.CaptureFixture[str]) -> None:
     script = tmp_path / 'make_chroot'
     script.write_text('#!/bin/sh\necho "it cannot be made"\nexit 1\n')
     script.chmod(0o755)

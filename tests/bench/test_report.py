@@ -31,7 +31,7 @@ def test_one_count_has_no_line(values: list[float | None]) -> None:
     assert bench_report.fit([5, 5], [1.0, 2.0]) is None
 
 
-def test_a_row_has_the_median_of_what_was_measured() -> None:
+def test_a_row_has_the_median_of_the_measurements() -> None:
     made = bench_report.combine([Session(server_cpu=1.0, client_cpu=9.0), Session(server_cpu=7.0),
                                  Session(server_cpu=2.0)], mode='added', kind='pir', count=3)
     assert (made.server_cpu, made.client_cpu, made.rtf) == (2.0, 9.0, None)
@@ -46,7 +46,7 @@ def test_real_time_needs_time_and_readings(rtf: float | None, delivered: float |
     assert row(1, 1.0, rtf=rtf, delivered=delivered).real_time is verdict
 
 
-def test_csv_has_a_line_a_count_and_blanks_for_what_is_missing(tmp_path: Path) -> None:
+def test_csv_has_a_line_a_count_and_blanks_for_missing_values(tmp_path: Path) -> None:
     path = tmp_path / 'new/a.csv'
     bench_report.write_csv(path, [row(0, 1.23456), row(10, 2.0, 50.0)])
     with path.open() as file:

@@ -1,4 +1,4 @@
-"""What a row of the tasks in imported homes says."""
+"""The rows of the tasks in imported homes."""
 from __future__ import annotations
 
 import json

@@ -35,7 +35,7 @@ LEFT_OUT = re.compile('|'.join((
     r'\./angen shell -c "python3 (-m pytest|examples)',  # minutes, or they write into the checkout
     r'.*(\bNAME\b|\bKIND\b)',  # usage
 )))
-# What a page has the reader export in the shell that starts the simulator.
+# Variables that a page exports in the shell that starts the simulator.
 SCRIPTS = re.compile(r'`export ANGEN_PLUGIN_PATH=\$PWD/(\S+)`')
 
 
@@ -87,8 +87,8 @@ class Terminal:
     def simulate(self, arguments: str) -> None:
         """A simulator with these arguments of ./angen run; that which runs, if it has them and the
         paths of plug-ins."""
-        wanted = (arguments, self.environment['ANGEN_PLUGIN_PATH'])
-        if wanted == self.started:
+        needed = (arguments, self.environment['ANGEN_PLUGIN_PATH'])
+        if needed == self.started:
             return
         self.end()
         log = (self.folder / 'home/run.log').open('w')
@@ -100,7 +100,7 @@ class Terminal:
             assert time.monotonic() < end, (self.folder / 'home/run.log').read_text()
             time.sleep(0.1)
         self.first = {entity['name'] for entity in self.entities()}
-        self.started = wanted
+        self.started = needed
 
     def is_ready(self) -> bool:
         """Whether the simulator serves."""

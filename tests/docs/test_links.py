@@ -38,7 +38,7 @@ def test_each_page_is_linked_from_the_readme() -> None:
 
 @pytest.mark.parametrize('page', [page for page in PAGES if page.parent != ROOT],
                          ids=lambda page: str(page.relative_to(ROOT)))
-def test_it_begins_with_a_command_and_says_what_is_left_out(page: Path) -> None:
+def test_it_begins_with_a_command_and_lists_its_limitations(page: Path) -> None:
     text = page.read_text()
     assert re.match(r'# .+\n', text)
     assert blocks(page)[0].startswith('./angen ')

@@ -90,7 +90,7 @@ def unknown(span: str, own: set[str]) -> list[str]:
 
 @functools.cache
 def subcommands() -> set[str]:
-    """Of ./angen, which begin a case of the script, and of angen."""
+    """The commands of ./angen, which begin a case of the script, and of angen."""
     script = re.findall(r'^  ([a-z -|]+)\)', (ROOT / 'angen').read_text(), re.MULTILINE)
     return {word for words in script for word in re.split(r'[ |]+', words)} | set(
         cli.make_parser()._subparsers._group_actions[0].choices)

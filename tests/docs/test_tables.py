@@ -54,7 +54,7 @@ def test_parameters_of_a_variant_have_a_table_of_their_own() -> None:
     assert '| `lens` | 1 | m | of its eye |' in made
 
 
-def test_a_page_has_what_the_kind_describes() -> None:
+def test_a_page_has_the_description_of_the_kind() -> None:
     made = tables.page(kind('lamp', params=[
         {**PARAM, 'path': 'ray/range/max', 'default': '3.12413936106985', 'unit': 'm^2',
          'doc': 'farther is not seen'}],

@@ -41,7 +41,7 @@ def bare(checkout: Path, *commands: str) -> subprocess.CompletedProcess[str]:
                           env=dict(os.environ, PATH=path))
 
 
-def test_commands_run_in_a_clone_of_what_is_committed(checkout: Path) -> None:
+def test_commands_run_in_a_clone_of_the_last_commit(checkout: Path) -> None:
     result = bare(checkout, 'ls', 'touch left')
     assert result.returncode == 0, result.stderr
     lines = result.stdout.splitlines()

@@ -58,7 +58,7 @@ def test_missing_apt_is_named_in_one_line(folder):
     assert_one_line(require_installer(folder, DEBIAN_12, 0), 'needs apt-get')
 
 
-def test_neither_root_nor_sudo_says_what_root_should_run(folder):
+def test_without_root_and_sudo_the_command_for_root_is_printed(folder):
     program(folder / 'bin' / 'apt-get', 'exit 0')
     result = require_installer(folder, DEBIAN_12, 1000)
     assert_one_line(result, '7 packages', 'sudo', 'apt-get install')

@@ -56,7 +56,7 @@ def machine(tmp_path: Path) -> Path:
 
 
 def prepare(machine: Path, level: str = 'run') -> subprocess.CompletedProcess[str]:
-    """What every command does first; it leaves the real /usr/sbin alone."""
+    """The first steps of every command; the real /usr/sbin is left alone."""
     return subprocess.run(
         ['/bin/bash', '-c', 'source "$1"; PATH=$2:$PATH; '
          'install_script=${install_script//\\/usr\\/sbin/$2}; prepare "$3"; echo ready',
@@ -127,7 +127,7 @@ def build_again(machine: Path, output: str) -> subprocess.CompletedProcess[str]:
     return prepare(machine)
 
 
-def test_a_mistake_in_an_edited_source_is_told_at_once(machine: Path) -> None:
+def test_an_error_in_an_edited_source_is_reported_at_once(machine: Path) -> None:
     result = build_again(machine, 'edited.cpp:1:1: error: expected unqualified-id\n')
     assert result.returncode == 1 and 'once more' not in result.stderr
     assert 'edited.cpp:1:1' in result.stderr
@@ -155,7 +155,7 @@ def test_progress_counts_sources_and_other_commands(machine: Path) -> None:
 @pytest.mark.parametrize('seconds, done, text', [
     (4, 50, ''), (10, 0, ''), (10, 50, ', 10 s left'), (30, 25, ', 2 min left'),
     (60, 10, ', 9 min left'), (60, 100, ', 0 s left')])
-def test_the_time_left_is_computed_from_what_is_done(seconds: int, done: int, text: str) -> None:
+def test_the_time_left_is_computed_from_the_progress(seconds: int, done: int, text: str) -> None:
     result = subprocess.run(
         ['/bin/bash', '-c', 'source "$1"; time_left "$2" "$3" 100; echo "$left"', 'test',
          ROOT / 'angen', str(seconds), str(done)], capture_output=True, text=True)

@@ -86,7 +86,7 @@ def test_master_and_node_start_anew_with_the_world(environment, fake):  # noqa: 
     printed = until(process, 'node 1 runs')
     said = [line for line in printed if line.startswith('angen: ')]
     assert ['another one is started' in line for line in said] == [True, False], said
-    assert 'starting again with the world as it was' in said[1]
+    assert 'starting again with the saved world' in said[1]
     assert 'Traceback' not in ''.join(first + printed)
     assert str(fake.parent / f'angen/rescued-{process.pid}.world') in printed[-1]
     process.send_signal(signal.SIGINT)
@@ -105,7 +105,7 @@ def test_not_for_ever(environment, fake):  # noqa: F811
     assert process.returncode == 1
     assert 'angen: the ROS master was lost 4 times within 60 s' in rest
     saved = fake.parent / f'angen/rescue-{process.pid}.world'
-    assert f'the world as it was is in {saved}' in rest and saved.read_text() == '4'
+    assert f'the world is saved in {saved}' in rest and saved.read_text() == '4'
 
 
 def test_a_node_that_saves_nothing_ends_it(environment, fake):  # noqa: F811
@@ -113,4 +113,4 @@ def test_a_node_that_saves_nothing_ends_it(environment, fake):  # noqa: F811
     until(process, NODE_RUNS)
     os.kill(master_of(environment), signal.SIGKILL)
     rest = process.communicate(timeout=60)[0]
-    assert process.returncode == 1 and 'the simulator ended by itself' in rest
+    assert process.returncode == 1 and 'the simulator ended unexpectedly' in rest

@@ -26,7 +26,7 @@ def workspace(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_two_are_refused_and_one_is_not(workspace: Path) -> None:
+def test_two_are_rejected_and_one_is_not(workspace: Path) -> None:
     with pytest.raises(RuntimeError, match="gazebo_msgs"):
         topological_order(str(workspace / "src"))
     ignored = re.search(r"touch (src/\S+/gazebo_msgs/CATKIN_IGNORE)", PAGE)

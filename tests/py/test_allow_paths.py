@@ -16,7 +16,7 @@ endloop
 endfacet
 endsolid s
 '''
-REJECTED = 'lies neither on the model or resource path'
+REJECTED = 'is neither on the model or resource path'
 
 
 def model(inside: str) -> str:
@@ -29,7 +29,7 @@ def in_world(content: str) -> str:
 
 @pytest.fixture
 def outside(tmp_path: Path) -> Path:
-    """A model that lies neither beside the world nor on a path."""
+    """A model that is neither beside the world nor on a path."""
     (tmp_path / 'outside').mkdir()
     path = tmp_path / 'outside/model.sdf'
     path.write_text(f'<sdf version="1.6">{model("")}</sdf>')
@@ -67,7 +67,7 @@ def test_a_plug_in_elsewhere_is_not_loaded(tmp_path: Path) -> None:
     library = tmp_path / 'libx.so'
     library.write_text('')
     text = in_world(model(f'<plugin name="p" filename="{library}"/>'))
-    with pytest.raises(angen.Error, match='does not lie on the plug-in path'):
+    with pytest.raises(angen.Error, match='is not on the plug-in path'):
         angen.World.from_text(text)
     with pytest.raises(angen.Error, match='is not a shared library'):
         angen.World.from_text(text, allow_paths=True)

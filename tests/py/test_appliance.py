@@ -59,7 +59,7 @@ def test_a_plug_measures_a_television_and_its_energy(world):
     assert reading['energy'] == pytest.approx(0.5 * 10 + 90 * 20, rel=0.01)
 
 
-def test_a_television_lights_what_is_before_it(world):
+def test_a_television_lights_the_things_before_it(world):
     """A screen of 200 lm and area A seen from 2 m, small against that: E = 200 / (pi r^2)."""
     w = world('<model name="tv"><static>true</static><link name="l"><light name="screen" '
               'type="point"><direction>1 0 0</direction>'
@@ -79,7 +79,7 @@ def test_a_television_lights_what_is_before_it(world):
     assert w.sensor('luminosity', 'lux')['illuminance'] == 0
 
 
-def test_it_heats_its_room_by_what_it_takes(world):
+def test_it_heats_its_room_by_its_power(world):
     w = world('<model name="flat"><static>true</static><link name="l"/>'
               + rooms('-2 -2 0 2 2 2.5')
               + '<plugin name="air" filename="libroom_climate.so"><heat_loss>0</heat_loss>'
@@ -91,7 +91,7 @@ def test_it_heats_its_room_by_what_it_takes(world):
     assert warmer == pytest.approx(heat / (1.204 * 1006 * 40), rel=0.01)
 
 
-def test_commands_that_do_not_fit_are_refused(world):
+def test_commands_that_do_not_fit_are_rejected(world):
     w = world(block('fan', 'fan') + block('tv', 'tv')
               + '<model name="radio"><static>true</static><link name="l"/>'
               '<plugin name="a" filename="libappliance.so"/></model>')

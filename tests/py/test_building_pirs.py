@@ -38,7 +38,7 @@ def test_the_nodding_one_reports_a_departure_and_no_motion_once_a_person_has_lef
     assert departures and departures[-1] <= left + NOD + SAMPLE
 
 
-def test_the_nodding_one_reports_no_motion_of_who_has_stopped():
+def test_the_nodding_one_reports_no_motion_of_a_person_who_has_stopped():
     w = angen.World(str(BUILDING))
     for _ in range(6):
         w.command('person', 'person', 'Go')

@@ -23,7 +23,7 @@ def weight(world: angen.World) -> float:
     return -float(forces[:, 2].sum())
 
 
-def test_a_sitter_weighs_what_it_weighs_also_asleep(world):
+def test_a_sitter_has_its_weight_also_asleep(world):
     w = world(CHAIR)
     w.run(1)
     w.spawn('model://sitter', 'ann', [0, 0, SEAT + 0.001, 0, 0, 0])
@@ -70,12 +70,12 @@ def events_of(world: angen.World) -> list[tuple[float, str]]:
 
 
 def flights() -> list[float]:
-    """How long the ball is in the air between two touches, s; nothing bounces below 0.05 m/s."""
+    """The times of the ball in the air between touches, s; nothing bounces below 0.05 m/s."""
     speeds = [RESTITUTION ** k * math.sqrt(2 * G * FALL) for k in range(1, 20)]
     return [2 * speed / G for speed in speeds if RESTITUTION * speed > 0.05]
 
 
-def test_without_a_debounce_each_bounce_is_told(world):
+def test_without_a_debounce_each_bounce_is_reported(world):
     w = world(BALL + plate(0))
     w.run(4)
     events = events_of(w)

@@ -1,4 +1,4 @@
-"""What large worlds take in memory and time; too large ones are rejected before they take it."""
+"""Memory and time of large worlds; too large ones are rejected before they take it."""
 import multiprocessing
 import os
 import resource
@@ -110,7 +110,7 @@ def test_what_would_take_too_much_is_rejected_before_it_is_allocated(limit) -> N
 
 
 def test_the_limit_may_be_an_argument(limit) -> None:
-    """Of a world, for the whole process from then on."""
+    """The limit of a world, for the whole process from then on."""
     with pytest.raises(angen.Error, match='the limit is 20 MB'):
         angen.World.from_text(sdf_world(links(9000)), memory_limit=20)
     assert angen.memory_limit() == 20

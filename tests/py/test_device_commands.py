@@ -17,7 +17,7 @@ def door(name: str, x: float, lower: float) -> str:
       </plugin></model>'''
 
 
-def test_where_one_refuses_none_moves(world):
+def test_where_one_rejects_none_moves(world):
     w = world(door('wide', 0, -1.57) + door('narrow', 3, -0.8))
     w.run(0.1)
     before = w.joint_positions.copy()

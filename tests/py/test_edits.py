@@ -12,7 +12,7 @@ SLIDE = '''<model name="slide"><pose>0 5 1 0 0 0</pose><link name="rail"/>
   <xyz>1 0 0</xyz><limit><lower>-3</lower><upper>3</upper></limit></axis></joint></model>'''
 
 
-def test_a_state_is_read_back_and_goes_on(world):
+def test_a_state_is_read_back_and_continues(world):
     w = world(box('crate', '0 0 5 0 0 0', '0.2 0.2 0.2') + SLIDE)
     w.set_state('crate', [1, 2, 0, 0, 0, 0], linear=[1, 0, 0], angular=[0, 0, 1], frame='slide')
     pose, linear, angular = w.motion('crate')

@@ -1,4 +1,4 @@
-"""Faults of sensors: as often as they are asked for, and each of them is told."""
+"""Faults of sensors: as often as requested, and each of them is reported."""
 from __future__ import annotations
 
 from math import log
@@ -22,7 +22,7 @@ def plug(name: str = 'p', fault: str = '') -> str:
 
 
 def switched(w: angen.World, turns: int = TURNS) -> tuple[list[Event], list[Event]]:
-    """A fan is switched on and off each second: what its plug reports, and what faults did."""
+    """A fan is switched on and off each second: reports of its plug, and effects of faults."""
     w.command('appliance', 'fan', 'Speed 50')
     w.events()
     for i in range(turns):
@@ -44,11 +44,11 @@ def made(world, fault: str) -> angen.World:
     return w
 
 
-def test_dropouts_are_binomial_and_each_is_told(world):
+def test_dropouts_are_binomial_and_each_is_reported(world):
     right, none = switched(made(world, ''))
     assert len(right) == TURNS and not none
-    got, told = switched(made(world, 'dropout share=0.2'))
-    lost = [line for _, line in told if line != 'dropout plug: reading lost']
+    got, reported = switched(made(world, 'dropout share=0.2'))
+    lost = [line for _, line in reported if line != 'dropout plug: reading lost']
     assert len(got) + len(lost) == TURNS and set(got) < set(right)
     assert abs(len(lost) - 0.2 * TURNS) < 2.58 * (TURNS * 0.2 * 0.8) ** 0.5  # 99 %
     again, _ = switched(made(world, 'dropout share=0.2'))
@@ -57,8 +57,8 @@ def test_dropouts_are_binomial_and_each_is_told(world):
 
 def test_delays_duplicates_and_a_fast_clock_move_events_by_as_much(world):
     right, _ = switched(made(world, ''), 100)
-    got, told = switched(made(world, 'delay by=5'), 100)
-    assert got == [(pytest.approx(time + 5.0), event) for time, event in right] and told
+    got, reported = switched(made(world, 'delay by=5'), 100)
+    assert got == [(pytest.approx(time + 5.0), event) for time, event in right] and reported
     got, _ = switched(made(world, 'duplicate share=1'), 100)
     assert len(got) == 200 and sorted(got)[::2] == right
     got, _ = switched(made(world, 'clock seconds_per_day=8640'), 100)
@@ -95,8 +95,9 @@ def test_false_alarms_are_a_poisson_process_with_an_end_each(world):
     every = w.events()
     alarms = [time for time, _, kind, event, _ in every if (kind, event) == ('contact', 'pressed')]
     ends = [time for time, _, kind, event, _ in every if (kind, event) == ('contact', 'released')]
-    told = [time for time, _, kind, event, _ in every if (kind, event) == ('fault', 'false_alarm')]
-    assert told == alarms and len(ends) in (len(alarms), len(alarms) - 1)
+    faults = [time for time, _, kind, event, _ in every
+              if (kind, event) == ('fault', 'false_alarm')]
+    assert faults == alarms and len(ends) in (len(alarms), len(alarms) - 1)
     assert abs(len(alarms) - 1000) < 100
     gaps = sorted(b - a for a, b in zip(alarms, alarms[1:]))
     assert gaps[len(gaps) // 2] == pytest.approx(43.2 * log(2), rel=0.2)

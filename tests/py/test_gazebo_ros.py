@@ -27,7 +27,7 @@ def test_gzserver_starts_the_node_with_the_world_below_the_resource_path(
                         '_seed:=7', '_record:=', '__name:=gazebo']
 
 
-def test_gzserver_overrides_what_one_before_left_on_the_master() -> None:
+def test_gzserver_overrides_the_parameters_of_an_earlier_one() -> None:
     assert words()[4:] == ['_paused:=false', '_seed:=1', '_record:=']
 
 
@@ -43,8 +43,8 @@ def test_gzserver_has_an_empty_world_also_in_place_of_one_that_is_missing(
 
 def test_an_unknown_option_and_engine_are_left_out(capsys: pytest.CaptureFixture[str]) -> None:
     assert words('--warp', '-e', 'bullet')[1].endswith('empty.world')
-    told = capsys.readouterr().err
-    assert '--warp is not known' in told and 'ODE is the one engine' in told
+    printed = capsys.readouterr().err
+    assert '--warp is not known' in printed and 'ODE is the one engine' in printed
 
 
 def options(*given: str) -> object:
@@ -80,7 +80,7 @@ def test_spawn_model_reads_files_the_model_path_and_stdin(
 
 
 @pytest.mark.parametrize('text, said', [('', 'empty'), ('<a>', 'not well-formed')])
-def test_spawn_model_says_what_is_wrong_with_a_file(tmp_path: Path, text: str, said: str) -> None:
+def test_spawn_model_reports_the_error_of_a_file(tmp_path: Path, text: str, said: str) -> None:
     file = tmp_path / 'a.sdf'
     file.write_text(text)
     with pytest.raises(spawn.Failure, match=said):

@@ -46,7 +46,7 @@ def place(world: angen.World, model: str) -> np.ndarray:
 
 
 def heights(side: int) -> np.ndarray:
-    """Of 16 bit pixels: slopes that end in a cliff, with a flat middle."""
+    """A heightmap of 16 bit pixels: slopes that end in a cliff, with a flat middle."""
     y, x = np.mgrid[0:side, 0:side]
     pixels = (x * 31 + y * 17) % 65536
     middle = slice(side // 2 - side // 20, side // 2 + side // 20)

@@ -61,7 +61,7 @@ def test_what_a_person_gives_is_in_the_air_of_the_room(world):
     assert given == pytest.approx(70 * 1.8 * seconds, rel=0.02)
 
 
-def test_a_walking_person_gives_what_iso_7730_says(world):
+def test_a_walking_person_gives_the_heat_of_iso_7730(world):
     """At 4 km/h 165 W/m^2."""
     w = world(flat(20.0) + walker('ann', '0 -4 0', '7.2 4 0'))
     w.run(4.0)
@@ -124,7 +124,7 @@ RAMP, LENGTH = 6 * pi / 180, 6.0
 
 
 def ramp() -> str:
-    """From x = 0 up to a landing at 6 m cos 6 degrees."""
+    """A ramp from x = 0 up to a landing at 6 m cos 6 degrees."""
     thick = 0.2
     middle = (LENGTH / 2 * cos(RAMP) + thick / 2 * sin(RAMP),
               LENGTH / 2 * sin(RAMP) - thick / 2 * cos(RAMP))

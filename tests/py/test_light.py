@@ -76,7 +76,7 @@ def test_the_one_pixel_view_is_the_mean_of_a_cameras_picture():
     np.testing.assert_allclose(seen, shown, rtol=0.05)
 
 
-def test_in_a_room_pictures_show_what_walls_reflect():
+def test_in_a_room_pictures_show_the_light_of_walls():
     content = room() + CAMERA.replace('0 0 1 0', '0.2 1.2 1.1 0') \
         + LAMP.replace('0 0.3 2.6', '1 2.5 2.2')
     shown = []

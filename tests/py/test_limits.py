@@ -106,7 +106,7 @@ def test_the_representative_world_itself_is_sound() -> None:
 
 @pytest.mark.parametrize('pose', [[1e19, 0, 0, 0, 0, 0], [0, 0, -1e308, 0, 0, 0],
                                   [0, 0, float('nan'), 0, 0, 0]])
-def test_a_spawn_beyond_the_limits_is_refused(world, pose) -> None:
+def test_a_spawn_beyond_the_limits_is_rejected(world, pose) -> None:
     """A pose of Python has the limits that one of a file has."""
     there = world('')
     sphere = ('<model name="m"><link name="l"><collision name="c"><geometry><sphere>'
@@ -127,7 +127,7 @@ def test_commands_have_limits_by_their_unit(world) -> None:
     there.step(100)
 
 
-def test_what_flies_off_is_stopped_and_told(world) -> None:
+def test_what_flies_off_is_stopped_and_warnings(world) -> None:
     """A body that falls sideways for ever ends as an event, and then moves no more."""
     text = ('<model name="hangs"><pose>0 0 1 0 0 0</pose><link name="l"><gravity>0</gravity></link>'
             '</model><model name="falls"><pose>3 0 1 0 0 0</pose><link name="l"/></model>')
@@ -161,9 +161,9 @@ def test_a_solver_constant_that_is_too_large_is_a_warning() -> None:
     """It is clamped, and the world runs."""
     text = representative().replace('<cfm>1e-9</cfm>', '<cfm>1e300</cfm>')
     there = angen.World.from_text(text.replace('<kp>1e5</kp>', '<kp>1e30</kp>'))
-    told = '\n'.join(there.warnings)
-    assert re.search(r'<text>:\d+: <cfm> is 1e\+300; it is taken as 1e\+06', told), told
-    assert re.search(r'<text>:\d+: <kp> is 1e\+30; it is taken as 1e\+16', told), told
+    warnings = '\n'.join(there.warnings)
+    assert re.search(r'<text>:\d+: <cfm> is 1e\+300; it is taken as 1e\+06', warnings), warnings
+    assert re.search(r'<text>:\d+: <kp> is 1e\+30; it is taken as 1e\+16', warnings), warnings
     there.step(100)
 
 
@@ -203,15 +203,15 @@ def test_names_of_100000_characters(world) -> None:
 
 
 def test_two_names_in_an_include_defeat_nothing(world) -> None:
-    """The name that was asked for holds, and the rule for names."""
+    """Spawning uses the requested name, and checks names."""
     there = world('')
     text = '<include><uri>model://chair</uri><name>good</name><name>b/c d</name></include>'
     with pytest.raises(angen.Error, match='a second <name> in one <include>'):
         there.spawn(text, 'asked')
-    with pytest.raises(angen.Error, match="holds '/'"):
+    with pytest.raises(angen.Error, match="contains '/'"):
         there.spawn('<include><uri>model://chair</uri><name>b/c d</name></include>')
     nested = '<include><uri>model://chair</uri><name>b/c d</name></include>'
-    with pytest.raises(angen.Error, match="holds '/'"):
+    with pytest.raises(angen.Error, match="contains '/'"):
         there.spawn(f'<model name="m">{nested}</model>', 'asked')
     with pytest.raises(angen.Error, match='a second <name> in one <include>'):
         there.spawn(f'<model name="m">{text}</model>', 'asked')

@@ -67,7 +67,7 @@ def test_a_wall_is_as_its_reduction_index_says(world):
     assert level(w) == pytest.approx(80 + 10 * log10(between(joined)), abs=0.001)
 
 
-def test_a_door_lets_through_what_its_angle_leaves_open(world):
+def test_a_door_lets_through_the_share_of_its_open_width(world):
     w = world(air(*ROOMS) + source('1 1.5 1 0 0 0') + microphone('1 -1.5 1 0 0 0')
               + '<include><uri>model://kitchen_door</uri><name>hall_door0</name>'
               '<pose>1.5 0 0 0 0 0</pose></include>', DOORS)

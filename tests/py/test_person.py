@@ -41,7 +41,7 @@ CRATE = '''<model name="crate"><pose>2 0 0.301 0 0 0</pose><link name="l">
 <actor name="person"><pose>0 0 0 0 0 0</pose></actor>'''
 
 
-def test_person_goes_where_it_is_sent_round_a_crate(world):
+def test_a_person_walks_to_its_goal_round_a_crate(world):
     w = world(CRATE)
     w.run(1.0)
     w.command('person', 'person', 'GoTo 4 0.5')

@@ -1,4 +1,4 @@
-"""Ways of a person who is sent: through rooms and doors, or told that no way leads there."""
+"""Ways of a commanded person: through rooms and doors, or an event where there is none."""
 from __future__ import annotations
 
 from math import hypot
@@ -39,7 +39,7 @@ def watch(w: angen.World, seconds: float, period: float = 0.1) -> Iterator[dict]
         yield state(w)
 
 
-def told(w: angen.World) -> dict[str, list[str]]:
+def events_of(w: angen.World) -> dict[str, list[str]]:
     """Details of the person's events since the last call, by event."""
     events: dict[str, list[str]] = {}
     for _, source, _, event, detail in w.events():
@@ -53,7 +53,7 @@ def told(w: angen.World) -> dict[str, list[str]]:
     ('-4 4', 0.2),     # in a closet without a door
     ('8 -8', 60.0),    # in a wardrobe, which could be moved
 ])
-def test_a_person_stands_and_tells_that_no_way_leads_there(world, goal, told_within):
+def test_a_person_stops_and_reports_that_no_way_leads_there(world, goal, told_within):
     closet = (box('c1', '-4 3 1.2 0 0 0', '2.1 0.1 2.4', True)
               + box('c2', '-4 5 1.2 0 0 0', '2.1 0.1 2.4', True)
               + box('c3', '-5 4 1.2 0 0 0', '0.1 2.1 2.4', True)
@@ -73,7 +73,7 @@ def test_a_person_stands_and_tells_that_no_way_leads_there(world, goal, told_wit
         assert now['mode'] == 'STANDING' and now['unreachable']
         walked = max(walked, float(np.linalg.norm(place(w) - here)))
     assert walked < 0.1
-    assert told(w)['unreachable'] == [goal]
+    assert events_of(w)['unreachable'] == [goal]
     w.command('person', 'ann', 'GoTo -1 -1')
     for now in watch(w, 20.0):
         assert not now['unreachable']
@@ -116,7 +116,7 @@ def test_a_person_opens_a_shut_door_by_hand(world, start, goal, closes):
     assert np.linalg.norm(place(w) - goal) < 0.1
     assert 0.0 < far < 1.15  # an arm's length
     assert w.device('door', 'kitchen0')['mode'] == ('CLOSED' if closes else 'OPEN')
-    events = told(w)
+    events = events_of(w)
     assert events['opens'] == ['kitchen0']
     assert events.get('closes', []) == (['kitchen0'] if closes else [])
 
@@ -131,14 +131,14 @@ def test_a_person_in_a_narrow_corridor_is_not_in_the_way_of_the_door_that_it_pul
     assert w.device('door', 'kitchen0')['mode'] == 'OPEN'
 
 
-def test_a_person_who_opens_no_doors_waits_and_tells_it_once(world):
+def test_a_person_who_opens_no_doors_waits_and_reports_it_once(world):
     w = world(WALL + DOOR + person('0.5 -2 0 0 0 0', '<opens_doors>false</opens_doors>'), DOORS)
     w.run(0.5)
     w.command('person', 'ann', 'GoTo 0.5 2')
     w.run(3600.0)
     assert state(w)['mode'] == 'BLOCKED' and not state(w)['unreachable']
     assert place(w)[1] < 0
-    events = told(w)
+    events = events_of(w)
     assert len(events['blocked']) == len(events['walks']) == 1
     w.command('door', 'kitchen0', 'Open')
     w.run(15.0)
@@ -150,7 +150,7 @@ def test_a_person_on_a_path_behind_a_shut_door_does_not_pace(world):
     w = world(WALL + DOOR + person('0.5 -3 0 0 0 0', f'<opens_doors>false</opens_doors>{path}'),
               DOORS)
     w.run(3600.0)
-    assert len(told(w)['blocked']) == 1
+    assert len(events_of(w)['blocked']) == 1
     w.command('door', 'kitchen0', 'Open')
     w.run(60.0)
     assert state(w)['mode'] == 'WALKING'
@@ -174,7 +174,7 @@ ROOM = '''<model name="hall" xmlns:angen="angen"><static>true</static><link name
 
 @pytest.mark.parametrize('order, right', [
     ('GoTo 6 3', True), ('GoTo -20 25', True), ('GoTo 500 3', False), ('PushTo 6 -21', False)])
-def test_nobody_is_sent_out_of_the_world(world: World, order: str, right: bool) -> None:
+def test_no_person_is_sent_out_of_the_world(world: World, order: str, right: bool) -> None:
     w = world(ROOM + person('1 1 0 0 0 0'))
     w.run(0.1)
     if right:

@@ -82,7 +82,7 @@ def test_two_joints_on_one_link_are_one_leaf_and_a_warning(doors):
 
 
 def test_a_pose_of_three_numbers_is_a_warning(doors):
-    assert sum('<pose> holds 3 numbers' in text for text in doors.warnings) == 3
+    assert sum('<pose> contains 3 numbers' in text for text in doors.warnings) == 3
 
 
 def test_a_door_that_nothing_drives_is_a_warning(tmp_path):
@@ -102,7 +102,7 @@ def test_a_door_that_nothing_drives_is_a_warning(tmp_path):
     ('flat', 'joint3', 'kitchen_door_block', '0 0 4', 'kitchen1'),
     ('flat', 'hall_f2_door_joint', 'block', '0 0 0', 'hall2'),
     ('flat', 'joint3', 'leaf', '0 0 0', 'flat0')])
-def test_a_door_is_named_after_what_says_door(world, name, joint, child, place, called):
+def test_a_door_is_named_after_the_part_called_door(world, name, joint, child, place, called):
     made = world(GROUND + hung(name, joint, child, place=place), DOORS)
     assert made.devices('door') == [called]
 
@@ -172,7 +172,7 @@ def test_doors_on_their_way_are_saved(doors, tmp_path):
     assert after.device('door', 'kitchen0')['position'] == pytest.approx(-0.5, abs=0.004)
 
 
-def test_the_elevator_of_one_body_goes_up_and_down(elevator):
+def test_the_elevator_of_one_body_rides_up_and_down(elevator):
     assert elevator.devices('elevator') == ['my_elevator']
     for floor in (1, 0):
         elevator.command('elevator', 'my_elevator', f'Floor{floor}')
@@ -182,7 +182,7 @@ def test_the_elevator_of_one_body_goes_up_and_down(elevator):
             4.0 * floor, abs=0.002)
 
 
-def test_an_elevator_without_doors_stands_open_everywhere(elevator):
+def test_an_elevator_without_doors_is_open_everywhere(elevator):
     """The way in is free: who waits for open doors would wait for good."""
     elevator.run(0.1)
     assert elevator.device('elevator', 'my_elevator')['door_mode'] == 'OPEN'
@@ -195,13 +195,13 @@ def test_an_elevator_without_doors_stands_open_everywhere(elevator):
 
 
 def test_the_elevators_collision_is_smaller_than_its_visual(elevator):
-    """A ray meets the collision, 2.5 m times 0.5 wide, not the visual, 2.5 m times 0.6."""
+    """A ray hits the collision, 2.5 m times 0.5 wide, not the visual, 2.5 m times 0.6."""
     elevator.spawn('model://proximity', 'eye', [1.352694 - 3, 1.202178, 0.5, 0, 0, 0])
     elevator.run(0.2)
     assert elevator.sensor('proximity', 'eye')['range'] == pytest.approx(3 - 0.625, abs=0.1)
 
 
-def test_an_error_says_what_an_elevator_needs(world):
+def test_an_error_lists_the_needs_of_an_elevator(world):
     with pytest.raises(angen.Error, match='elevator needs a prismatic joint along z'):
         world(hung('lift', 'j', 'body', plugin='<plugin name="p" filename="libros_plugin.so"/>'))
 

@@ -47,7 +47,7 @@ def test_power_gain_and_frequency_count(world):
 
 @pytest.mark.parametrize('size, loss', [
     ('0.005 3 4', 0), ('0.04 3 4', 3.4), ('0.1 3 4', 3.4), ('0.24 3 4', 6.9), ('0.6 3 4', 3.4)])
-def test_a_wall_costs_what_its_thickness_says(world, size, loss):
+def test_a_wall_weakens_by_its_thickness(world, size, loss):
     w = world(beacon('0 0 1 0 0 0') + receiver('5 0.4 1 0 0 0')
               + box('wall', '2 0 1 0 0 0', size, static=True))
     distance = (25 + 0.16) ** 0.5
@@ -154,7 +154,7 @@ def test_a_transmitter_is_lost_after_a_time_without_reception(world, silence, lo
     w.run(1.25)  # steady for two samples
     w.command('transmitter', 'b_transmitter', 'Off')
     w.run(0.5)
-    assert w.sensor('receiver', 'r')['ids'] == [], 'the reading says what is received now'
+    assert w.sensor('receiver', 'r')['ids'] == [], 'the reading has the present transmitters'
     w.run(silence - 0.5)
     w.command('transmitter', 'b_transmitter', 'On')
     w.run(2.0)
@@ -174,7 +174,7 @@ def test_each_transmitter_has_its_events_when_one_is_lost_as_another_comes(world
 
 
 def test_a_person_who_walks_through_the_building_is_seldom_lost(building):
-    """Counted again from the readings, which say what is received at each second."""
+    """Counted again from the readings, which list the transmitters of each second."""
     w = angen.World(building, seed=3)
     reported: set[tuple[str, str]] = set()
     silent: dict[tuple[str, str], int] = {}

@@ -37,7 +37,7 @@ class Solid:
           </link></model>'''
 
     def crossings(self, origin: np.ndarray, ways: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Where lines enter and leave, in lengths of `ways`; nan where they miss."""
+        """The points where lines enter and leave, in lengths of `ways`; nan where they miss."""
         turn = rotation(self.pose[3:])
         o, d = (origin - self.pose[:3]) @ turn, ways @ turn
         with np.errstate(divide='ignore', invalid='ignore'):
@@ -99,7 +99,7 @@ def some_solids(rng: np.random.Generator, kinds: tuple[str, ...], count: int) ->
 
 
 def compare(measured: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
-    """Median error (m) of the rays that meet something, and the share of all that disagree.
+    """Median error (m) of the rays that hit something, and the share of all that disagree.
 
     A ray that grazes an edge may hit in one and miss in the other.
     """

@@ -45,7 +45,7 @@ def test_its_fingerprints_are_equal(log: Path, leap: bool) -> None:
     assert replay.seed == 3 and replay.path.endswith('angen.world')
 
 
-def test_its_world_goes_on(log: Path) -> None:
+def test_its_world_continues(log: Path) -> None:
     replay = angen.Replay(str(log))
     while replay.advance(1.0) and replay.time < 5.0:
         pass

@@ -71,7 +71,7 @@ def spend(text: str, queue) -> None:
 
 
 @pytest.mark.parametrize('what', TEXTS)
-def test_too_much_is_refused_at_once(what: str) -> None:
+def test_too_much_is_rejected_at_once(what: str) -> None:
     text, reason = TEXTS[what]
     context = multiprocessing.get_context('spawn')
     queue = context.Queue()
@@ -101,7 +101,7 @@ print(sum(event[3] == 'crowded' for event in world.events()))
 
 @pytest.mark.parametrize('model', ['chair'])
 def test_meshes_in_one_place_do_not_take_all_time(model: str) -> None:
-    """Each pair takes 0.5 ms and more in each step: not all 780 are computed, and that is told."""
+    """Each pair takes 0.5 ms and more in each step: an event reports that some are left out."""
     done = subprocess.run([sys.executable, '-c', PILE.format(world=sdf_world(''), model=model)],
                           capture_output=True, text=True, timeout=300, check=True)
     assert done.stdout == '1\n'

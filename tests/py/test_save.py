@@ -8,7 +8,7 @@ COMMANDS = [('lamp', 'kitchen0', 'Dim 40'), ('door', 'bathroom0', 'Open'),
             ('elevator', 'elevator', 'Floor1')]
 
 
-def test_the_building_goes_on_as_it_was(building: str) -> None:
+def test_the_building_continues_as_it_was(building: str) -> None:
     before = angen.World(building)
     names = {(kind, name) for kind, name, _ in COMMANDS if name in before.devices(kind)}
     assert len(names) == len(COMMANDS)

@@ -65,7 +65,7 @@ def test_the_catalog_lists_it(folder):
     ('none.py', 'x = 1\n', r"no Angen plug-in in .*none.py; .* angen.register\('none.py', 'KIND'"),
     ('again.py', "import angen\nangen.World.from_text('''<sdf version='1.6'><world name='w'>"
      + MODEL.format(file='again.py', extra='') + "</world></sdf>''')  # angen.register(\n",
-     "asks for itself while it is loaded; put .* below if __name__"),
+     "requests itself while it is loaded; put .* below if __name__"),
 ])
 def test_what_is_wrong_with_a_file_is_one_line(world, folder, name, text, message):
     if text:
@@ -91,7 +91,7 @@ def test_a_method_that_raises_is_named_with_its_line(world, folder):
 def test_a_file_elsewhere_is_not_run(world, folder, tmp_path_factory):
     other = tmp_path_factory.mktemp('elsewhere')
     script(other, 'elsewhere.py')
-    with pytest.raises(angen.Error, match='does not lie on the plug-in path'):
+    with pytest.raises(angen.Error, match='is not on the plug-in path'):
         world(MODEL.format(file=other / 'elsewhere.py', extra=''))
 
 

@@ -72,7 +72,7 @@ def test_he_is_found_behind_a_door(tmp_path: Path) -> None:
                      (found['x_m'], found['y_m'])) < 0.4
 
 
-def test_a_world_without_people_has_nobody_to_find(tmp_path: Path) -> None:
+def test_a_world_without_people_has_no_person_to_find(tmp_path: Path) -> None:
     done = seek(tmp_path, '--limit', '40', person=False)
     assert done.returncode == 1, done.stdout + done.stderr
     assert done.stdout.startswith('no person was found within 40 s; most probable is ')

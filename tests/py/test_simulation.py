@@ -19,7 +19,7 @@ def test_time_is_ticks_times_step(world):
     assert w.tick == 507
 
 
-def test_a_summary_says_in_words_what_the_dict_says(world):
+def test_a_summary_has_the_words_of_the_dict(world):
     w = world(pir('p1', '0 0 1 0 0 0'))
     assert w.summary('pir', 'p1') == ''
     w.run(1.0)
@@ -54,7 +54,7 @@ def test_deleted_name_is_free_at_once(world):
     assert w.sensors() == []
 
 
-def test_name_that_is_taken_is_refused_and_changes_nothing(world):
+def test_name_that_is_taken_is_rejected_and_changes_nothing(world):
     w = world(box('crate', '0 0 0.5 0 0 0', '1 1 1'))
     with pytest.raises(angen.Error, match="'crate' exists already"):
         w.spawn(box('crate', '0 0 0 0 0 0', '1 1 1'), pose=[3, 0, 1, 0, 0, 0])
@@ -81,7 +81,7 @@ def test_sensor_on_a_link_sees_from_where_the_link_is(world):
     assert w.sensors('pir') == []
 
 
-def test_sensor_on_an_unknown_link_is_refused(world):
+def test_sensor_on_an_unknown_link_is_rejected(world):
     w = world('')
     sensor = pir('', '0 0 0 0 0 0').split('<link name="link">')[1].split('</link>')[0]
     with pytest.raises(angen.Error, match="no link 'roof'; known are link"):

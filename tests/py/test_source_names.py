@@ -28,7 +28,7 @@ def test_each_door_opens_under_the_name_of_its_room_and_floor(world: angen.World
     assert {world.device('door', name)['mode'] for name in world.devices('door')} == {'OPEN'}
 
 
-def test_the_elevator_goes_up(world: angen.World) -> None:
+def test_the_elevator_moves_up(world: angen.World) -> None:
     world.command('elevator', 'my_elevator', 'Floor1')
     world.run(15)
     assert world.device('elevator', 'my_elevator')['floor'] == 1
@@ -48,7 +48,7 @@ def test_warnings_of_worlds_and_models_are_kept() -> None:
     world.spawn('<model name="m"><link name="l"><pose>0 \u22121 0 0 0 0</pose></link></model>')
     bullet, minus = world.warnings
     assert bullet.startswith('<text>:1: ') and 'ODE is used' in bullet
-    assert minus.startswith('(text):1: <pose> holds') and 'U+2212' in minus
+    assert minus.startswith('(text):1: <pose> contains') and 'U+2212' in minus
 
 
 def test_the_second_name_of_the_luminosity_sensors_library() -> None:

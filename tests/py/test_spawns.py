@@ -7,7 +7,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / 'bench'))
 import spawns  # noqa: E402
 
 
-def test_no_model_is_thrown_out_of_what_it_overlaps() -> None:
+def test_no_model_is_thrown_out_of_an_overlap() -> None:
     results = spawns.spawns(30)
     worst = max(results, key=lambda result: result.excess)
     assert worst.excess < spawns.FASTEST, worst

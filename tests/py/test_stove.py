@@ -107,12 +107,12 @@ def test_without_a_climate_the_air_is_the_worlds(world):
     ('<plate>1 1 1</plate>' * 5, 'four plates at most'),
     ('<plate>1 1 1</plate><start>10 20</start><start>10 20</start>', 'one <start> for each plate'),
     ('<plate>1 1 1</plate><start>110 20</start>', 'outside 0 to 100 %')])
-def test_bad_plates_are_refused(world, extra, problem):
+def test_bad_plates_are_rejected(world, extra, problem):
     with pytest.raises(angen.Error, match=problem):
         world(stove(extra))
 
 
-def test_a_plate_that_it_has_not_is_refused(world):
+def test_a_plate_that_it_has_not_is_rejected(world):
     w = world(stove('<plate>1000 600 2</plate>'))
     with pytest.raises(angen.Error, match='this stove has 1 plates only, and no RearLeft'):
         w.command('stove', 'kitchen0', 'RearLeft 10')
@@ -120,7 +120,7 @@ def test_a_plate_that_it_has_not_is_refused(world):
         w.command('stove', 'kitchen0', 'Ignite')
 
 
-def test_a_saved_stove_goes_on_warming(world):
+def test_a_saved_stove_continues_to_warm(world):
     w = world(stove() + STEADY_AIR)
     w.command('stove', 'kitchen0', 'FrontRight 100')
     w.run(100)

@@ -48,7 +48,7 @@ class Pusher(angen.Device):
 
 
 class Tracker(angen.Sensor):
-    """Where the sliders are that report a position, m along the world's x."""
+    """The places of the sliders that report a position, m along the world's x."""
 
     rate = 10.0
 
@@ -127,7 +127,7 @@ def declared(field: str) -> str:
             .replace('rangefinder', 'declared'))
 
 
-def test_an_integer_and_an_empty_list_become_what_is_declared(world):
+def test_an_integer_and_an_empty_list_get_the_declared_type(world):
     w = world(declared('distance'))
     w.run(1.0)
     reading = w.sensor('declared', 'ranger')
@@ -160,7 +160,7 @@ SLED = '''<model name="sled"><pose>0 0 1 0 0 0</pose><link name="rail"/>
       <plugin name="p" filename="pusher.py"/></model>'''
 
 
-def test_python_sensor_sees_what_devices_tell(world):
+def test_a_python_sensor_sees_the_states_of_devices(world):
     tracker = '''<model name="eye"><static>true</static><link name="link">
       <sensor name="s" type="ray"><plugin name="p" filename="tracker.py"/></sensor>
       </link></model>'''

@@ -21,7 +21,7 @@ def strip_of(door: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def entry(origin: np.ndarray, way: np.ndarray, low: np.ndarray, high: np.ndarray) -> float:
-    """Where a ray enters a box, m; infinite where it does not. By the box's six planes."""
+    """The distance to a box along a ray, m; infinite where it misses. By the box's planes."""
     with np.errstate(divide='ignore'):
         a, b = (low - origin) / way, (high - origin) / way
     near, far = np.minimum(a, b).max(), np.maximum(a, b).min()

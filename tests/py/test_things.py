@@ -49,14 +49,14 @@ def test_an_empty_cup_starts_as_warm_as_its_room(world, first):
 
 
 def held(tilt: float) -> float:
-    """ml that the tilted cylinder holds, by adding up columns of its bottom."""
+    """ml that fit into the tilted cylinder, by adding up columns of its bottom."""
     x = np.linspace(-RADIUS, RADIUS, 20001)
     depth = np.clip(HEIGHT - (RADIUS + x) * tan(tilt), 0.0, None)
     return 1e6 * float(np.sum(2 * np.sqrt(RADIUS ** 2 - x ** 2) * depth) * (x[1] - x[0]))
 
 
 @pytest.mark.parametrize('tilt', [0.3, 0.8, 1.0, 1.3])
-def test_a_tilted_cup_keeps_what_is_under_its_lip(world, tilt):
+def test_a_tilted_cup_keeps_the_drink_under_its_lip(world, tilt):
     w = world(block('cup', 'c', '0 0 0 0 0 0'))
     w.command('cup', 'c', 'Fill 350')
     w.command('cup', 'c', 'Lift 0.3')
@@ -80,13 +80,13 @@ def test_a_cup_that_is_knocked_over_runs_out(world):
 def test_a_cup_says_why_it_does_not(world):
     import angen
     w = world(block('cup', 'c', '0 0 0 0 0 0'))
-    with pytest.raises(angen.Error, match='it holds 365.6 ml and has 0 ml in it'):
+    with pytest.raises(angen.Error, match='it takes 365.6 ml and has 0 ml in it'):
         w.command('cup', 'c', 'Fill 400')
     with pytest.raises(angen.Error, match='lift it first'):
         w.command('cup', 'c', 'Tilt 1')
 
 
-def test_a_pour_is_told_once_when_it_begins_and_once_when_it_has_ended(world):
+def test_a_pour_is_reported_once_when_it_begins_and_once_when_it_has_ended(world):
     w = world(block('cup', 'c', '0 0 0 0 0 0'))
     w.command('cup', 'c', 'Fill 250')
     w.command('cup', 'c', 'Lift 0.3')
@@ -95,12 +95,12 @@ def test_a_pour_is_told_once_when_it_begins_and_once_when_it_has_ended(world):
     w.command('cup', 'c', 'Tilt 1.2')
     w.run(4)
     state = w.device('cup', 'c')
-    told = [(event, detail) for _, _, kind, event, detail in w.events() if kind == 'cup']
-    assert told == [('pours', ''), ('poured', f"{state['poured']:.1f} ml in all")]
+    reported = [(event, detail) for _, _, kind, event, detail in w.events() if kind == 'cup']
+    assert reported == [('pours', ''), ('poured', f"{state['poured']:.1f} ml in all")]
 
 
 @pytest.mark.parametrize('height', [0.3, 0.5, 1.0, 2.0])
-def test_a_lift_that_goes_on_evenly_is_one_movement(world, height):
+def test_an_even_lift_is_one_movement(world, height):
     """Between its start and its end nothing is felt of it."""
     w = world(block('cup', 'c', '0 0 0 0 0 0'))
     w.run(1)
@@ -108,8 +108,8 @@ def test_a_lift_that_goes_on_evenly_is_one_movement(world, height):
     for text, said, lifted in ((f'Lift {height}', 'lifted', True), ('Put', 'put_down', False)):
         w.command('cup', 'c', text)
         w.run(8)
-        told = [event for _, _, kind, event, _ in w.events() if kind == 'accelerometer']
-        assert told == ['moved', said]
+        reported = [event for _, _, kind, event, _ in w.events() if kind == 'accelerometer']
+        assert reported == ['moved', said]
         reading = w.sensor('accelerometer', 'c')
         assert reading['lifted'] == lifted and not reading['moving']
         assert reading['height'] == pytest.approx(height if lifted else 0.0, abs=0.03)

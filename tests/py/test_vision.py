@@ -37,7 +37,7 @@ LAMP = '''<include><uri>model://ceiling_lamp</uri><name>hall_lamp0</name>
   <pose>1 0 2.5 0 0 0</pose></include>'''
 
 
-def test_one_that_nobody_wants_does_not_look(world):
+def test_an_unsubscribed_camera_does_not_sample(world):
     w = world(lidar('l', '0 0 1 0 0 0') + box('wall', '4 0 1 0 0 0', '1 9 2', static=True))
     w.step(500)
     assert w.readings == 0
@@ -52,7 +52,7 @@ def test_one_that_nobody_wants_does_not_look(world):
     assert w.readings == 5
 
 
-def test_wanting_one_that_is_not_there_is_refused(world):
+def test_a_request_of_an_unknown_sensor_is_rejected(world):
     with pytest.raises(angen.Error, match="no lidar named 'x'"):
         world('').request('lidar', 'x')
 

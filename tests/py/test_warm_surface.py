@@ -133,7 +133,7 @@ def test_a_hot_plate_that_stays_hot_is_not_motion_and_a_fast_one_is(world):
     assert words[0] == [] and 'motion' in words[1]
 
 
-def test_what_leaps_sees_what_takes_every_tick(world):
+def test_a_leaping_run_has_the_readings_of_one_that_takes_every_tick(world):
     """Readings, states and events of two worlds, of which one leaps."""
     text = (pir() + plate('<time_constant>2</time_constant>')
             + plate('<time_constant>0</time_constant>', 'other', '3 -0.4 1 0 0 0')
@@ -156,7 +156,7 @@ def test_what_leaps_sees_what_takes_every_tick(world):
         assert walks.events() == leaps.events()
 
 
-def test_a_saved_world_goes_on(world):
+def test_a_saved_world_continues(world):
     w = world(pir() + plate('<time_constant>10</time_constant>')
               + include('heater', 'heater', '2.5 -1 0 0 0 3.14'))
     w.command('warm_surface', 'plate', 'Temperature 340')
@@ -170,7 +170,7 @@ def test_a_saved_world_goes_on(world):
     assert eye(again)['flux'] == pytest.approx(eye(w)['flux'], rel=2e-3)
 
 
-def test_a_heater_and_a_stove_warm_what_the_pir_sees(world):
+def test_a_pir_sees_the_warmth_of_a_heater_and_a_stove(world):
     """The flux follows the temperatures that the devices have by their own closed forms."""
     wide = pir(zone_row='1 -0.8 0.8 -1.2 0.2')  # not a lens, whose zones might miss them
     w = world(wide + include('heater', 'heater', '2.5 -0.9 0 0 0 3.14159')
@@ -238,12 +238,12 @@ def test_a_device_in_python_warms_a_surface(world):
     ('<surface>lid</surface>', "no visual with a collision of its name 'lid'; known are face"),
     ('<temperature>0</temperature>', '<temperature>'),
     ('<time_constant>-1</time_constant>', '<time_constant>')])
-def test_bad_parameters_are_refused(world, extra, problem):
+def test_bad_parameters_are_rejected(world, extra, problem):
     with pytest.raises(angen.Error, match=problem):
         world(plate(extra))
 
 
-def test_bad_commands_are_refused(world):
+def test_bad_commands_are_rejected(world):
     w = world(plate())
     for text in ('Temperature', 'Temperature 0', 'Temperature warm', 'Melt'):
         with pytest.raises(angen.Error, match='a warm_surface takes'):

@@ -1,5 +1,5 @@
-// Texts that are shown, with the ratio of their contrast to what is behind them (WCAG 2.2, 1.4.3), and controls, with
-// that of their border, or of their face, to what is around them (1.4.11).
+// Texts that are shown, with the ratio of their contrast to their background (WCAG 2.2, 1.4.3), and controls, with
+// that of their border, or of their face, to their surroundings (1.4.11).
 const rgba = (text) => {
   const found = /rgba?\(([^)]+)\)/.exec(text);
   if (!found) return null;

@@ -62,7 +62,7 @@ def test_a_small_bench_measures_and_leaves_nothing_behind(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_ends_all_and_keeps_what_is_measured(tmp_path: Path, number: int) -> None:
+def test_a_signal_ends_all_and_keeps_the_measurements(tmp_path: Path, number: int) -> None:
     bench = start(tmp_path, '--kind', 'switch', '--counts', '1,10', '--repeats', '1')
     table = tmp_path / 'sensors_switch_added.csv'
     end = time.monotonic() + 300

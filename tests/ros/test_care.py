@@ -96,7 +96,7 @@ def test_what_holds_when_it_starts_counts(care: subprocess.Popen[str], angen: An
     assert 'door_open raised, degree 1.00: The door is open. (door open since ' in line
 
 
-def test_what_the_world_has_not_is_told(cli: Cli, tmp_path: Path) -> None:
+def test_entities_that_the_world_lacks_are_reported(cli: Cli, tmp_path: Path) -> None:
     rules = tmp_path / 'wrong.yaml'
     rules.write_text(RULES.replace('lamp/kitchen0', 'lamp/kichen0'))
     assert cli.fails('care', str(rules)) == (

@@ -31,7 +31,7 @@ def spawned(angen: Angen) -> Iterator[list[str]]:
         angen.call('/angen/delete', Delete, name=name)
 
 
-def test_a_sensor_comes_and_goes(cli: Cli, angen: Angen, spawned: list[str]) -> None:
+def test_a_sensor_is_added_and_deleted(cli: Cli, angen: Angen, spawned: list[str]) -> None:
     spawned.append('cli_pir')
     said = cli.does('spawn', 'pir', 'cli_pir', '--pose', '-1 1 1.2 0 0 1.5',
                     '--set', 'ray/range/max=4')
@@ -153,7 +153,7 @@ def test_no_command_stays_with_the_master(cli: Cli, angen: Angen) -> None:
 def test_save_writes_a_world_that_loads(cli: Cli, tmp_path: Path) -> None:
     out = tmp_path / 'out.world'
     assert cli.does('save', str(out)) == f'saved {len(cli.listed("model"))} models to {out}'
-    assert 'nothing is wrong' in cli.does('check', str(out))
+    assert 'no errors' in cli.does('check', str(out))
     assert [path.name for path in tmp_path.iterdir()] == ['out.world']
     assert 'cannot be written' in cli.fails('save', str(tmp_path / 'no/out.world'))
 

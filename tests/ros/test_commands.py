@@ -46,7 +46,7 @@ def rests(door: Inbox) -> bool:
     return len(door.messages) == count
 
 
-def test_what_is_rejected_changes_nothing_and_is_told(angen: Angen) -> None:
+def test_what_is_rejected_changes_nothing_and_is_reported(angen: Angen) -> None:
     wrong = {
         "/gazebo/Door_controller": ["Open", "Opn, bathroom0", "Set, bathroom0, soon",
                                     "Open, cellar8", ""],

@@ -101,7 +101,7 @@ def test_the_terminal_is_put_back_and_the_robot_stands(angen: Angen, driver: Dri
         until(lambda: inbox.messages[-1].twist.twist.linear.x == 0.0, 'it has stopped')
 
 
-def test_what_is_wrong_is_told(cli: Cli) -> None:
+def test_what_is_wrong_is_reported(cli: Cli) -> None:
     assert 'needs a terminal' in cli.fails('drive')
     driver = Driver(cli, '--robot', 'missing')
     assert driver.process.wait(30) == 1

@@ -124,7 +124,7 @@ def test_a_second_node_of_the_name_leaves_the_first_alone(tmp_path: Path) -> Non
         assert "_replace:=true" in line
         assert first.poll() is None and "/angen/ready" in master.topics()
         replacing = second("_replace:=true")
-        assert first.wait(60) == 0  # the master has told it to end
+        assert first.wait(60) == 0  # the master ended it
         first = master.node(world, tmp_path / "log", replace="true")  # and it was replaced in turn
         assert replacing.wait(60) == 0
         killed = master.api.lookupNode("/test", "/angen")[2]

@@ -1,4 +1,4 @@
-"""What amcl and move_base need of the simulator: frames, maps, open doors; and what their launch
+"""The interface of amcl and move_base: frames, maps, open doors; and the nodes that their launch
 file gives them. The run itself is in docs/navigation.md: CI has no navigation stack."""
 from __future__ import annotations
 

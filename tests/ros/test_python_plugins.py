@@ -74,7 +74,7 @@ def test_its_readings_are_a_topic(node: tuple[Master, Any, Path]) -> None:
     assert 'range' in text and '2.9' in text
 
 
-def test_a_file_with_an_error_is_refused_with_its_line(node: tuple[Master, Any, Path]) -> None:
+def test_a_file_with_an_error_is_rejected_with_its_line(node: tuple[Master, Any, Path]) -> None:
     master, process, folder = node
     xml = (WORLD[WORLD.index('<model name="eye">'):WORLD.index('</world>')]
            .replace('eye', 'eye2').replace('rangefinder.py', 'typo.py'))

@@ -1,4 +1,4 @@
-"""What several clients do over ROS is recorded, and gives the same fingerprints again.
+"""Actions of several clients over ROS are recorded, and give the same fingerprints again.
 
 ANGEN_REPLAY_SECONDS says how long the session is, in simulated seconds.
 """
@@ -129,8 +129,8 @@ def test_a_node_replays_with_listeners_at_another_rate(own_master: Master, recor
         end(node)
 
 
-def test_until_stops_there_and_goes_on_live(own_master: Master, recorded: Path, tmp_path: Path
-                                            ) -> None:
+def test_until_stops_there_and_continues_live(own_master: Master, recorded: Path, tmp_path: Path
+                                              ) -> None:
     log, second = tmp_path / "node", tmp_path / "second.log"
     with log.open("w") as out:
         node = subprocess.Popen(

@@ -31,7 +31,7 @@ def rmf(angen: Angen, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path
     try:
         until(lambda: 'serving' in log.read_text(), 'the node serves')
         pose = Pose()
-        pose.position.x, pose.position.z = -6.0, 0.3  # its cabin's floor lies below its origin
+        pose.position.x, pose.position.z = -6.0, 0.3  # its cabin's floor is below its origin
         spawned = angen.call('/angen/spawn', Spawn, name='lift', xml='model://elevator', pose=pose)
         assert spawned.success, spawned.message
         yield log

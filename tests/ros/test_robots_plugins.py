@@ -25,7 +25,7 @@ WORLD = """<sdf version="1.6"><world name="default">
 </world></sdf>"""
 LENS = """<horizontal_fov>1.047</horizontal_fov><image><width>64</width><height>48</height>
   <format>R8G8B8</format></image><clip><near>0.05</near><far>8</far></clip>"""
-# On the front of the body, whose inside rays would meet.
+# On the front of the body: inside of it rays would hit the body.
 RAYS = """<pose>0.2 0 0 0 0 0</pose><ray><scan>
   <horizontal><samples>21</samples><min_angle>-0.2</min_angle>
   <max_angle>0.2</max_angle></horizontal><vertical><samples>3</samples><min_angle>-0.1</min_angle>
@@ -173,7 +173,7 @@ def test_cameras_see_the_wall_and_say_how(bot: Angen) -> None:
 
 
 def test_rays_measure_the_wall(bot: Angen) -> None:
-    floor = 0.15 / math.sin(0.1)  # the lowest rays meet it before the wall
+    floor = 0.15 / math.sin(0.1)  # the lowest rays hit it before the wall
     assert bot.wait('/bot/range', Range).range == pytest.approx(floor, abs=0.01)
     said = bot.wait('/bot/range', Range)
     assert said.radiation_type == Range.INFRARED and said.field_of_view == pytest.approx(0.4)
@@ -232,7 +232,7 @@ def test_a_wrench_pushes_the_third_arm(bot: Angen) -> None:
     bot.send('/bot/push', push)
     until(lambda: load() == pytest.approx(0.2 * 9.8 + 2.0, rel=0.05), 'the arm is pushed')
     bot.send('/bot/push', Wrench())
-    until(lambda: load() == pytest.approx(0.2 * 9.8, rel=0.05), 'and let go')
+    until(lambda: load() == pytest.approx(0.2 * 9.8, rel=0.05), 'and released')
 
 
 def test_joints_take_positions_and_trajectories(bot: Angen) -> None:

@@ -64,7 +64,7 @@ def test_a_click_in_rviz_opens_a_door(angen: Angen, display: str, tmp_path: Path
         for x in (MIDDLE[0] - 9, MIDDLE[0]):
             subprocess.run(['xdotool', 'mousemove', str(x), str(MIDDLE[1])], env=environment,
                            check=True)
-            time.sleep(0.3)  # until rviz has drawn and knows what is under the mouse
+            time.sleep(0.3)  # until rviz has drawn the object under the mouse
         subprocess.run(['xdotool', 'click', '1'], env=environment, check=True)
 
     started = [start('/usr/bin/python3', '-u', str(SCRIPT))]

@@ -116,7 +116,7 @@ def test_a_step_counts_commands_and_events(angen: Angen, paused: None) -> None:
     angen.send("/gazebo/Light_controller", String("Off, kitchen0"))
 
 
-def test_odometry_is_told_at_each_tenth_of_a_second(angen: Angen, paused: None) -> None:
+def test_odometry_is_reported_at_each_tenth_of_a_second(angen: Angen, paused: None) -> None:
     twist = Twist()
     twist.linear.x = 0.2
     with Inbox("/odom", Odometry) as odometry:

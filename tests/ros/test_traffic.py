@@ -146,7 +146,7 @@ def test_who_comes_later_speaks_where_the_others_do(house_of_kinds: House) -> No
     assert not any('late' in message['names'] for message in house_of_kinds.echo('/angen/pir', 4))
 
 
-def test_other_words_for_topics_are_refused(master: Master, tmp_path: Path) -> None:
+def test_other_words_for_topics_are_rejected(master: Master, tmp_path: Path) -> None:
     world = tmp_path / 'small.world'
     world.write_text(WORLD)
     done = subprocess.run([str(node_binary()), str(world), '_topics:=all', '__name:=odd_topics'],

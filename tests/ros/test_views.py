@@ -51,7 +51,7 @@ def test_every_newcomer_gets_the_whole_world(angen: Angen) -> None:
 
 
 def of_leaf(door: str) -> int:
-    """How many visuals of a door of worlds/models move when it opens: all but the frame's."""
+    """The number of a door's visuals that move when it opens: all but the frame's."""
     root = etree.parse(str(WORLDS / "models" / door / "model.sdf"))
     return len(root.xpath("//link[@name!='base']/visual"))
 

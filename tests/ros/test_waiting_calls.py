@@ -140,7 +140,7 @@ def test_a_slow_subscriber_of_events_holds_little(angen: Angen) -> None:
 
 @pytest.mark.parametrize("topic", ["/clock", "/tf", "/angen/events", "/angen/door/bathroom0",
                                    "/cmd_vel", "/gazebo/Door_controller"])
-def test_a_topic_that_carries_something_else_is_refused(angen: Angen, topic: str) -> None:
+def test_a_topic_that_carries_something_else_is_rejected(angen: Angen, topic: str) -> None:
     before = [e.name for e in angen.call("/angen/list", List, kind="").entities]
     xml = PIR_ON.replace("TOPIC", topic)
     answer = angen.call("/angen/spawn", Spawn, name="loud", xml=xml)

@@ -81,7 +81,7 @@ def page(server: Server, tmp_path_factory: pytest.TempPathFactory) -> Iterator[P
 
 
 def place(page: Page, model: str) -> list[float]:
-    """Where the middle of the largest moving part of a model is on the screen."""
+    """The middle of the largest moving part of a model on the screen."""
     page.first_view()
     return page.until('''const {home, view} = angen, links = home.linksOf(arguments[0]);
         const parts = home.scene.shapes.filter((s) => links.includes(s.link));
@@ -122,7 +122,7 @@ def test_light_is_seen_in_its_sensors_plot(home: Angen, page: Page) -> None:
     assert not page.run('return angen.view.glows.meshes.get("hall0").visible')
 
 
-def test_the_clock_pauses_and_goes_on(home: Angen, page: Page) -> None:
+def test_the_clock_pauses_and_continues(home: Angen, page: Page) -> None:
     with Inbox('/angen/stats', Stats) as stats:
         for paused in (True, False):
             page.press('#play', '❚❚' if paused else '▶')
@@ -145,7 +145,7 @@ def test_hostile_names_are_text(home: Angen, page: Page) -> None:
     answer = home.call('/angen/spawn', Spawn, name=HOSTILE, xml='model://pir',
                        pose=Pose(position=Point(1.0, -1.0, 2.0)))
     if not answer.success:
-        pytest.fail(f'the simulator refuses the name: {answer.message}')
+        pytest.fail(f'the simulator rejects the name: {answer.message}')
     page.until('return angen.home.entities.some((e) => e.name === arguments[0])', HOSTILE)
     page.run('angen.panels.open("sensors")')
     page.until('return document.querySelector("#panel").textContent.includes(arguments[0])',
@@ -237,7 +237,7 @@ def status(url: str, **headers: str) -> int:
         return error.code
 
 
-def test_strangers_are_refused(home: Angen, server: Server, tmp_path: Path) -> None:
+def test_strangers_are_rejected(home: Angen, server: Server, tmp_path: Path) -> None:
     assert status(server.url) == 200
     assert status(server.url, Origin='http://evil.example') == 403
     assert status(server.url, Host='evil.example') == 403

@@ -54,7 +54,7 @@ def press(page: Page, key: str) -> None:
 
 
 def low(page: Page) -> tuple[int, list[dict[str, Any]]]:
-    """How many texts and controls there are, and those with too little contrast."""
+    """The number of texts and controls, and those with too little contrast."""
     found = page.run(CONTRAST)
     return len(found), [one for one in found if one['ratio'] < one['needed']]
 

@@ -29,7 +29,7 @@ def test_the_ratio_is_that_of_wcag() -> None:
     assert ratio('#777777', '#ffffff') == pytest.approx(4.48, abs=0.01)
 
 
-def test_activities_are_told_from_what_is_behind_them_and_their_names_are_read() -> None:
+def test_activities_are_reported_from_what_is_behind_them_and_their_names_are_read() -> None:
     line, = re.findall(r'COLORS = \[(.*?)\]', (PAGE / 'js/player.js').read_text())
     colors = re.findall('#[0-9a-f]{6}', line)
     assert len(colors) == len(set(colors)) >= 12
@@ -40,7 +40,7 @@ def test_activities_are_told_from_what_is_behind_them_and_their_names_are_read()
 
 
 @pytest.mark.parametrize('theme', THEMES)
-def test_what_is_drawn_is_told_from_what_is_behind_it(theme: dict[str, str]) -> None:
+def test_what_is_drawn_is_reported_from_what_is_behind_it(theme: dict[str, str]) -> None:
     scan, = re.findall(r"fillStyle = '(#[0-9a-f]{6})'", (PAGE / 'js/robotmap.js').read_text())
     for drawn, behind in (('edge', 'surface'), ('edge', 'bg'), ('edge', 'lamp-soft'),
                           ('soft', 'room'), ('wall', 'room'), ('accent', 'room'),

@@ -161,7 +161,7 @@ def test_a_cabin_rides_with_who_is_in_it(master: Master, tmp_path: Path, day: Pa
 
 
 def apart(page: Page, selector: str) -> int:
-    """How many elements are seen, of which none covers another."""
+    """The number of visible elements, of which none covers another."""
     boxes = page.run('''return [...document.querySelectorAll(arguments[0])].filter(
         (e) => getComputedStyle(e).visibility === "visible").map((e) => e.getBoundingClientRect())
         .filter((r) => r.width).map((r) => [r.left, r.right, r.top, r.bottom])''', selector)
@@ -210,7 +210,7 @@ def test_a_link_opens_at_its_time(server: Server, tmp_path: Path) -> None:
         page.close()
 
 
-def test_folders_without_a_day_are_refused(master: Master, tmp_path: Path, day: Path) -> None:
+def test_folders_without_a_day_are_rejected(master: Master, tmp_path: Path, day: Path) -> None:
     cli = Cli(master)
     empty = tmp_path / 'empty'
     empty.mkdir()

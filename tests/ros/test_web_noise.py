@@ -1,4 +1,4 @@
-"""Hostile browsers on a running building: all refused messages are answered, all goes on."""
+"""Hostile browsers on a running building: rejected messages are answered, the node continues."""
 from __future__ import annotations
 
 import asyncio
@@ -51,10 +51,10 @@ def order(rng: random.Random, number: int) -> tuple[str, int]:
 
 
 async def attack(session: ClientSession, url: str, seed: int) -> list[str]:
-    """Sends noise and reads all; the texts of refusals."""
+    """Sends noise and reads all; the texts of rejections."""
     rng = random.Random(seed)
     browser = await connect(session, url)
-    due, refusals, mistakes = set(), [], 0
+    due, rejections, mistakes = set(), [], 0
     for number in range(1, MESSAGES + 1):
         text, answered = order(rng, number)
         await browser.send_str(text)
@@ -70,9 +70,9 @@ async def attack(session: ClientSession, url: str, seed: int) -> list[str]:
             mistakes -= answer['id'] == 0
             due.discard(answer['id'])
             if not answer['ok']:
-                refusals.append(answer['text'])
+                rejections.append(answer['text'])
     await browser.close()
-    return refusals
+    return rejections
 
 
 async def connect(session: ClientSession, url: str) -> ClientWebSocketResponse:
@@ -81,7 +81,7 @@ async def connect(session: ClientSession, url: str) -> ClientWebSocketResponse:
 
 
 async def sleeper(port: int) -> socket.socket:
-    """A browser that opens the socket, asks for everything, and never reads."""
+    """A browser that opens the socket, requests everything, and never reads."""
     lazy = socket.create_connection(('127.0.0.1', port))
     lazy.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 2048)
     lazy.sendall((f'GET /socket HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\n'
@@ -106,7 +106,7 @@ async def all_at_once(server: Server) -> list[str]:
     finally:
         for one in lazy:
             one.close()
-    return [text for refusals in found for text in refusals]
+    return [text for rejections in found for text in rejections]
 
 
 async def open_the_door(server: Server) -> None:
@@ -128,10 +128,10 @@ def test_noise_of_several_browsers_ends_neither_node_nor_server(angen: Angen, tm
                                                                 ) -> None:
     server = Server(angen.master, tmp_path)
     try:
-        refusals = asyncio.run(all_at_once(server))
-        assert any('must be' in text for text in refusals)
-        assert any('JSON' in text for text in refusals)
-        assert not [text for text in refusals if 'server failed' in text], server.log()
+        rejections = asyncio.run(all_at_once(server))
+        assert any('must be' in text for text in rejections)
+        assert any('JSON' in text for text in rejections)
+        assert not [text for text in rejections if 'server failed' in text], server.log()
         assert angen.process.poll() is None, angen.log()
         angen.call('/gazebo/reset_simulation', Empty)
         angen.call('/gazebo/unpause_physics', Empty)

@@ -224,10 +224,10 @@ def test_the_clock_steps_changes_its_rate_and_resets(home: Angen, page: Page) ->
             rate.value = "0"; rate.dispatchEvent(new Event("change"))''')
         until(lambda: home.call('/gazebo/get_physics_properties',
                                 GetPhysicsProperties).max_update_rate == 0.0,
-              'as fast as it goes', LIMIT)
+              'as fast as possible', LIMIT)
         page.press('#play', '▶')
         stats.wait(lambda message: message.sim_time.to_sec() > before + 2.0,
-                   'a clock that goes on', LIMIT)
+                   'a running clock', LIMIT)
         late = stats.messages[-1].sim_time.to_sec()
         page.press('#clock button', 'Reset')
         stats.wait(lambda message: message.sim_time.to_sec() < late, 'a reset', LIMIT)
@@ -236,7 +236,7 @@ def test_the_clock_steps_changes_its_rate_and_resets(home: Angen, page: Page) ->
 def test_the_changed_world_is_saved(page: Page, tmp_path_factory: pytest.TempPathFactory) -> None:
     page.press('#tab-sensors')
     page.run('''[...document.querySelectorAll("#panel button")].find(
-        (e) => e.textContent === "Save world").click()''')  # the list may be made anew meanwhile
+        (e) => e.textContent === "Save world").click()''')  # the list may be made again
     folder = tmp_path_factory.getbasetemp()
     saved = until(lambda: next((path for path in folder.glob('saved*.world')
                                 if path.stat().st_size), None), 'a saved world', LIMIT)

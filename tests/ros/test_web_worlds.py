@@ -27,7 +27,7 @@ ON_PLAN = '''(() => { const p = new DOMPoint(x, -y).matrixTransform(angen.plan.r
 
 
 def add_pir(page: Page, place: tuple[float, float, float]) -> None:
-    """From the card of a place in no room; it is deleted again."""
+    """Spawns from the card of a place in no room, and deletes again."""
     page.until('return document.querySelector("#card h2")?.textContent === "Outside of all rooms"')
     page.press('#add')
     made = page.until('return angen.home.entities.find((e) => e.kind === "pir")')

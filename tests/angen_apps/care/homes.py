@@ -37,7 +37,7 @@ class Home:
     def until(self, time: float) -> None:
         self.changes += self.engine.advance(time)
 
-    def told(self) -> list[tuple[float, str, str]]:
+    def events(self) -> list[tuple[float, str, str]]:
         """Time, rule and event of all changes until now."""
         return [(c.time, c.warning.rule.name, c.event) for c in self.changes]
 

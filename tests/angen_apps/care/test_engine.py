@@ -14,16 +14,16 @@ STOVE = rule('stove', 'stove on', '{not: kitchen used, for: 10 min}')
 def test_both_conditions_have_to_hold(tmp_path: Path) -> None:
     home = Home(tmp_path, STOVE)
     home.until(20 * MIN)
-    assert home.told() == []  # no person there, but the stove is off
+    assert home.events() == []  # no person there, but the stove is off
     home.at(20 * MIN, 'pir/kitchen_a', 'motion')
     home.at(21 * MIN, 'plug/stove0', 'on')
     home.at(22 * MIN, 'pir/kitchen_b', 'motion')
     home.at(23 * MIN, 'pir/kitchen_a', 'still')
     home.at(24 * MIN, 'pir/kitchen_b', 'still')
     home.until(33.9 * MIN)
-    assert home.told() == []
+    assert home.events() == []
     home.until(40 * MIN)
-    assert home.told() == [(34 * MIN, 'stove', RAISED)]
+    assert home.events() == [(34 * MIN, 'stove', RAISED)]
 
 
 def test_a_warning_ends_with_its_condition_and_comes_again(tmp_path: Path) -> None:
@@ -33,11 +33,11 @@ def test_a_warning_ends_with_its_condition_and_comes_again(tmp_path: Path) -> No
     home.at(12 * MIN, 'pir/kitchen_a', 'motion')
     home.at(13 * MIN, 'pir/kitchen_a', 'still')
     home.until(30 * MIN)
-    assert home.told() == [(10 * MIN, 'stove', RAISED), (12 * MIN, 'stove', ENDED),
-                           (23 * MIN, 'stove', RAISED)]
+    assert home.events() == [(10 * MIN, 'stove', RAISED), (12 * MIN, 'stove', ENDED),
+                             (23 * MIN, 'stove', RAISED)]
 
 
-def test_acknowledged_it_is_told_once_and_ends(tmp_path: Path) -> None:
+def test_an_acknowledged_warning_is_reported_once_and_ends(tmp_path: Path) -> None:
     home = Home(tmp_path, STOVE)
     assert home.engine.acknowledge('stove') == []
     home.at(1.0, 'plug/stove0', 'on')
@@ -47,7 +47,7 @@ def test_acknowledged_it_is_told_once_and_ends(tmp_path: Path) -> None:
     assert home.engine.acknowledge('stove') == []
     home.until(12 * MIN)
     home.at(12 * MIN, 'plug/stove0', 'off')
-    assert [event for _, _, event in home.told()] == [RAISED, ENDED]
+    assert [event for _, _, event in home.events()] == [RAISED, ENDED]
     assert home.engine.past[0].acknowledged == 11 * MIN
 
 
@@ -55,11 +55,11 @@ def test_it_matters_when_something_began(tmp_path: Path) -> None:
     home = Home(tmp_path, rule('night', '{is: door open, began: 0:00 to 6:00}'), starts='22:00')
     home.at(1 * H, 'door/entrance0', 'opening')  # 23:00
     home.until(5 * H)
-    assert home.told() == []
+    assert home.events() == []
     home.at(5 * H, 'door/entrance0', 'closed')
     home.at(5.5 * H, 'door/entrance0', 'opening')
     home.at(5.5 * H + 3, 'door/entrance0', 'opened')
-    assert home.told() == [(5.5 * H, 'night', RAISED)]
+    assert home.events() == [(5.5 * H, 'night', RAISED)]
 
 
 @pytest.mark.parametrize('way, degree', [('min', 0.5), ('product', 0.25)])
@@ -81,7 +81,7 @@ def test_the_threshold_decides(tmp_path: Path) -> None:
                 + rule('high', condition, more='    threshold: 0.9\n'))
     home.at(10.0, 'door/entrance0', 'opened')
     home.until(200.0)
-    assert home.told() == [(30.0, 'low', RAISED), (100.0, 'high', RAISED)]
+    assert home.events() == [(30.0, 'low', RAISED), (100.0, 'high', RAISED)]
     assert home.changes[0].degree == pytest.approx(0.2)
     assert home.changes[0].warning.detail == 'door open since 00:00:10, 20 s (0.20)'
 
@@ -90,12 +90,12 @@ def test_a_warning_is_on_time_between_two_steps(tmp_path: Path) -> None:
     home = Home(tmp_path, rule('open', '{is: door open, for: 1 min}'))
     home.at(0.3, 'door/entrance0', 'opened')
     home.until(100.0)
-    (time, *_), = home.told()
+    (time, *_), = home.events()
     assert time == pytest.approx(60.3, abs=1e-5)
 
 
 def test_it_does_not_matter_how_time_is_cut(tmp_path: Path) -> None:
-    told = []
+    lists = []
     for cut in (0.3, 7.0, 1e6):
         home = Home(tmp_path, STOVE)
         home.at(1.25, 'plug/stove0', 'on')
@@ -104,17 +104,17 @@ def test_it_does_not_matter_how_time_is_cut(tmp_path: Path) -> None:
             time += cut
             home.until(min(time, 900.0))
         home.at(901.5, 'pir/kitchen_a', 'motion')
-        told.append(home.told())
-    assert told[0] == told[1] == told[2] == [(600.0, 'stove', RAISED), (901.5, 'stove', ENDED)]
+        lists.append(home.events())
+    assert lists[0] == lists[1] == lists[2] == [(600.0, 'stove', RAISED), (901.5, 'stove', ENDED)]
 
 
 def test_an_event_that_comes_late_counts_from_its_own_time(tmp_path: Path) -> None:
     home = Home(tmp_path, rule('open', '{is: door open, for: 1 min}'))
     home.until(100.0)
     home.at(50.0, 'door/entrance0', 'opened')
-    assert home.told() == []
+    assert home.events() == []
     home.until(120.0)
-    assert home.told() == [(110.0, 'open', RAISED)]
+    assert home.events() == [(110.0, 'open', RAISED)]
 
 
 def test_the_curve_keeps_every_corner(tmp_path: Path) -> None:

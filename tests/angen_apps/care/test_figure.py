@@ -21,8 +21,8 @@ signals:
   motion: {of: pir/*, in: kitchen, is: motion}
 rules:
   - {name: dark, reason: It is dark., when: [{not: lamp on, for: 1 min}]}
-  - {name: seen, reason: Somebody is here., when: [motion]}
-  - {name: seen_long, reason: Somebody is here., when: [{is: motion, for: 1 h}]}
+  - {name: seen, reason: Someone is here., when: [motion]}
+  - {name: seen_long, reason: Someone is here., when: [{is: motion, for: 1 h}]}
   - {name: night, reason: It is night., when: [{time: 0:00 to 0:01}]}
 '''
 

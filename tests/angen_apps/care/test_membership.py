@@ -24,7 +24,7 @@ def test_upright_edges_belong_to_it() -> None:
 
 @pytest.mark.parametrize('hour, degree', [
     (21.0, 0.0), (22.0, 0.5), (22.5, 1.0), (0.0, 1.0), (5.5, 1.0), (6.25, 0.25), (12.0, 0.0)])
-def test_a_night_goes_round_midnight(hour: float, degree: float) -> None:
+def test_a_night_includes_midnight(hour: float, degree: float) -> None:
     night = around([21.5 * H, 22.5 * H, 5.5 * H, 6.5 * H], 24 * H)
     assert night.degree(hour * H) == pytest.approx(degree)
 
@@ -40,12 +40,12 @@ def test_times_are_read_as_they_are_written() -> None:
 
 
 @pytest.mark.parametrize('text', ['10', 'ten min', '10 min or so', '', '-5 s'])
-def test_what_is_no_duration_is_told(text: str) -> None:
+def test_a_wrong_duration_is_reported(text: str) -> None:
     with pytest.raises(ValueError, match='write it as 90 s, 10 min or 1 h 30 min'):
         duration(text)
 
 
 @pytest.mark.parametrize('text', ['6', '25:00', '24:01', '6:60', '6.30', 'noon'])
-def test_what_is_no_time_of_day_is_told(text: str) -> None:
+def test_a_wrong_time_of_day_is_reported(text: str) -> None:
     with pytest.raises(ValueError, match='write it as 22:30'):
         time_of_day(text)

@@ -37,7 +37,7 @@ def of_day(watched: Watched, clock: str) -> float:
     return (time_of_day(clock) - watched.rules.starts) % DAY
 
 
-def test_each_rule_warns_of_what_goes_wrong(wrong: Watched) -> None:
+def test_each_rule_warns_of_its_fault(wrong: Watched) -> None:
     raised = {warning.rule.name: warning for warning in warnings_of(wrong.engine)}
     expected = {'fridge_left_open': ('7:28', '7:40'), 'forbidden_zone': ('9:00', '9:05'),
                 'stove_left_on': ('12:25', '12:50'), 'no_motion': ('1:00', '2:10'),
@@ -49,7 +49,7 @@ def test_each_rule_warns_of_what_goes_wrong(wrong: Watched) -> None:
     assert raised['stove_left_on'].degree == pytest.approx(0.5, abs=0.01)
 
 
-def test_nobody_is_there_when_the_sensors_see_nobody(wrong: Watched) -> None:
+def test_a_room_is_empty_when_its_sensors_detect_no_one(wrong: Watched) -> None:
     stove = next(w for w in warnings_of(wrong.engine) if w.rule.name == 'stove_left_on')
     still = max(event.time for event in wrong.events if event.event == 'still'
                 and event.source.startswith('kitchen_pir0') and event.time < stove.raised)

@@ -1,4 +1,4 @@
-"""What care leaves, and the commands of a day."""
+"""The output of care, and the commands of a day."""
 from __future__ import annotations
 
 import csv
@@ -30,7 +30,7 @@ def rows(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def test_a_line_says_when_what_and_why(home: Home) -> None:
+def test_a_line_has_time_rule_and_reason(home: Home) -> None:
     assert [line_of(change, 23 * H) for change in home.changes] == [
         '23:11:30  open raised, degree 0.50: so it is (door open since 23:10:00, 1 min 30 s '
         '(0.50))', '+1 d 00:00:00  open acknowledged', '+1 d 01:00:00  open ended']
@@ -73,7 +73,7 @@ def test_commands_come_in_the_order_of_the_day(tmp_path: Path) -> None:
     ('time,target,command\n6:00,door/a\n', 2, 'has 2 values'),
     ('time,target,command\n6:00,a,Open\n', 2, "'a' is not KIND/NAME"),
     ('time,target,command\n\n6 h,door/a,Open\n', 3, "'6 h' is not a time of day")])
-def test_a_wrong_day_is_told_by_line(text: str, line: int, part: str, tmp_path: Path) -> None:
+def test_a_wrong_day_is_reported_by_line(text: str, line: int, part: str, tmp_path: Path) -> None:
     path = tmp_path / 'day.csv'
     path.write_text(text)
     with pytest.raises(Failure) as caught:

@@ -38,7 +38,7 @@ def rules_of(folder: Path, text: str) -> Rules:
     return read_rules(file)
 
 
-def test_a_file_says_what_it_means(tmp_path: Path) -> None:
+def test_a_file_is_read_as_written(tmp_path: Path) -> None:
     rules = rules_of(tmp_path, RIGHT)
     assert rules.starts == 6 * 3600
     assert rules.signals['moves'].of == ('pir/a_*', 'pir/b')
@@ -70,14 +70,14 @@ def test_a_file_says_what_it_means(tmp_path: Path) -> None:
     ('[1 h, 90 min]', '[1 h]', 11, 'for has 1 corners, must have 2 or 4'),
     ('[1 h, 90 min]', '1 hour', 11, "'1 hour' is not a duration; write it as 90 s"),
     ('22:00 to 6:00', '22:00', 12, "began is '22:00'; write it as 22:00 to 6:00"),
-    ('[21:30, 22:30, 5:30, 6:30]', '[21:30, 22:30, 5:30, 22:00]', 13, 'more than once'),
+    ('[21:30, 22:30, 5:30, 6:30]', '[21:30, 22:30, 5:30, 22:00]', 13, 'more than 24 hours'),
     ('{time: [', '{is: moves, time: [', 13, "one of 'is', 'not' and 'time'"),
     ('    at: sofa\n', '    threshold: 2\n', 8, 'threshold is 2, must be 0.01 to 1'),
     ('    at: sofa\n', '    and: mean\n', 8, "and is 'mean'; did you mean"),
     ('rules:', 'rules: [', 6, 'is not YAML'),
 ])
-def test_a_wrong_file_is_told_by_line(old: str, new: str, line: int, part: str, tmp_path: Path
-                                      ) -> None:
+def test_a_wrong_file_is_reported_by_line(old: str, new: str, line: int, part: str, tmp_path: Path
+                                          ) -> None:
     assert RIGHT.count(old) == 1
     with pytest.raises(Failure) as caught:
         rules_of(tmp_path, RIGHT.replace(old, new))
@@ -87,17 +87,17 @@ def test_a_wrong_file_is_told_by_line(old: str, new: str, line: int, part: str, 
 
 def test_a_rule_has_one_name(tmp_path: Path) -> None:
     twice = RIGHT + RIGHT[RIGHT.index('  - name'):]
-    with pytest.raises(Failure, match="my.yaml:14: rule 'quiet' is there twice; .* in line 6"):
+    with pytest.raises(Failure, match="my.yaml:14: rule 'quiet' is given twice; .* in line 6"):
         rules_of(tmp_path, twice)
 
 
-def test_what_does_not_exist_is_told(tmp_path: Path) -> None:
+def test_unknown_names_are_reported(tmp_path: Path) -> None:
     rules = rules_of(tmp_path, RIGHT)
     check_sources(rules, {'pir/a_1', 'pir/b'}, {'sofa'})
     with pytest.raises(Failure, match=r"my.yaml:3: signal 'moves': the world has no pir/a_\*; "
                                       'did you mean pir/ab or pir/b'):
         check_sources(rules, {'pir/ab', 'pir/b', 'door/x'}, {'sofa'})
-    with pytest.raises(Failure, match="my.yaml:6: rule 'quiet': nothing is named 'sofa'; did you "
+    with pytest.raises(Failure, match="my.yaml:6: rule 'quiet': no source is named 'sofa'; did you "
                                       'mean sofa0'):
         check_sources(rules, {'pir/a_1', 'pir/b'}, {'sofa0'})
 
@@ -157,6 +157,6 @@ def test_the_entrance_and_a_place_by_its_type(tmp_path: Path) -> None:
     assert 'rule r is left out: the main entrance front is no device' in archway.left_out[0]
 
 
-def test_a_room_that_there_is_not_is_refused(tmp_path: Path) -> None:
+def test_an_unknown_room_is_rejected(tmp_path: Path) -> None:
     with pytest.raises(Failure, match="my.yaml:2: .*no room 'kitchn'; did you mean kitchen"):
         by_room(tmp_path, 'kitchn')

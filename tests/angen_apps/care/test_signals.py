@@ -34,7 +34,7 @@ def test_somebody_is_where_the_last_motion_was(tmp_path: Path) -> None:
     assert not there.on
 
 
-def test_a_tag_is_told_from_others(tmp_path: Path) -> None:
+def test_a_tag_is_distinguished_from_others(tmp_path: Path) -> None:
     home = Home(tmp_path, RULES)
     read = home.engine.signals['anna read']
     home.at(1.0, 'rfid/gate', 'read', 'bob')
@@ -46,7 +46,7 @@ def test_a_tag_is_told_from_others(tmp_path: Path) -> None:
     assert not read.on
 
 
-def test_it_begins_with_what_summaries_show(tmp_path: Path) -> None:
+def test_it_begins_with_the_summaries(tmp_path: Path) -> None:
     home = Home(tmp_path, RULES, {
         'plug/stove0': 'heater/stove0  1200.0 W  0 J', 'pir/kitchen_a': 'MOTION',
         'pir/kitchen_b': 'still', 'door/entrance0': 'AJAR  -0.30 rad',

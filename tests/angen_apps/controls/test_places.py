@@ -44,7 +44,7 @@ DOOR = Door('door', 'door', ('west', 'east'), 0.9, 2.0, (2.0, 2.0, 0.0, math.pi 
     ([stove(SIT, BESIDE_SEAT, STAND)], [DOOR], (0.3, 1.0, 0.0, -1.57)),
     ([stove(THROUGH_WALL)], [WINDOW, DOOR], (2.0 - INSIDE, 2.0, 0.0, math.pi)),
     ([stove(SIT)], [], (1.0, 1.5, 0.0, 0.0))])
-def test_one_stands_at_a_thing_or_inside_a_door_or_in_the_middle(
+def test_places_are_at_a_thing_or_inside_a_door_or_in_the_middle(
         found: list[Thing], doors: list[Door], expected: FloorPose) -> None:
     assert placed(home(found, doors), 'west') == pytest.approx(expected)
 
@@ -59,7 +59,7 @@ def test_the_rooms_are_those_of_the_storey() -> None:
     assert rooms(Home(), 0.0) == []
 
 
-def test_one_does_not_go_where_another_stands() -> None:
+def test_a_mover_is_not_sent_to_the_place_of_another() -> None:
     found = home([stove(STAND)], [DOOR])
     at = placed(found, 'west', Taken(movers=[(0.3, 1.2)]))
     assert at == pytest.approx((2.0 - INSIDE, 2.0, 0.0, math.pi))
@@ -74,7 +74,7 @@ def test_one_does_not_go_into_things() -> None:
     assert placed(home([], []), 'west', Taken([Box(1.0, 1.5, 0.0, (0.9, 1.4))])) is None
 
 
-def test_things_are_what_stands_on_the_floor() -> None:
+def test_things_are_models_on_the_floor() -> None:
     def pose(x: float, z: float, yaw: float = 0.0) -> Any:
         return SimpleNamespace(position=SimpleNamespace(x=x, y=0.0, z=z), orientation=(
             SimpleNamespace(x=0.0, y=0.0, z=math.sin(yaw / 2), w=math.cos(yaw / 2))))

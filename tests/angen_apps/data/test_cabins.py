@@ -11,7 +11,7 @@ WORLD = """<sdf version="1.6"><world name="w">
 
 
 def ride(world: angen.World, cabins: Cabins, seconds: float) -> list[Slide]:
-    """What is recorded of some time, looked at every half a second."""
+    """A recording of some time, sampled every half a second."""
     before = len(cabins.slides)
     end = world.time + seconds
     while world.time < end:

@@ -25,7 +25,7 @@ def home_site(tmp_path):
 
 
 def recorded(site, seconds):
-    """What is recorded while nobody is at home and the doors of two rooms move."""
+    """A recording while no one is at home and the doors of two rooms move."""
     household = Household(site.simulator, site.ground, 7, 'home', datetime.date(2026, 3, 23))
     recorder = Recorder(site, household)
     recorder.start()

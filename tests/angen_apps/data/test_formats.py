@@ -105,7 +105,7 @@ def test_xes_is_xml_whose_starts_complete(tmp_path):
     assert turns == {name: ['start', 'complete'] for name in ('sleep', 'eat', 'leave')}
 
 
-def test_parquet_says_what_it_lacks_or_is_read_again(tmp_path):
+def test_parquet_reports_a_missing_package_or_is_read_again(tmp_path):
     try:
         import pyarrow.parquet
     except ImportError:

@@ -1,5 +1,5 @@
 """Homes by one process, by two of which one dies, and by a cluster one of whose workers dies: the
-same bytes. A carer visits each for a part of a day, and nobody else lives there; few sensors."""
+same bytes. A carer visits each for a part of a day, and no one else lives there; few sensors."""
 from __future__ import annotations
 
 import json
@@ -34,7 +34,7 @@ def job(folder: Path, world: Path) -> Job:
 
 
 def hashes(folder: Path) -> dict[str, Any]:
-    """Of each file, by home."""
+    """The hash of each file, by home."""
     manifest = json.loads((folder / MANIFEST).read_text())
     return {home['name']: home['files'] for home in manifest['homes']}
 
@@ -50,10 +50,10 @@ def world(tmp_path_factory) -> Path:
 def made(tmp_path_factory, world) -> Path:
     """Homes by one process of the command."""
     folder = tmp_path_factory.mktemp('made')
-    wanted = job(folder, world)
+    given = job(folder, world)
     subprocess.run([sys.executable, str(SCRIPT), 'generate', '--homes', str(HOMES), '--days', '1',
-                    '--residents', *wanted.residents, '--seed', str(wanted.seed), '--processes',
-                    '1', '--format', ','.join(wanted.formats), '--world', str(world),
+                    '--residents', *given.residents, '--seed', str(given.seed), '--processes',
+                    '1', '--format', ','.join(given.formats), '--world', str(world),
                     '--own-sensors', '-o', str(folder)], check=True)
     return folder
 
@@ -77,22 +77,22 @@ def test_each_home_is_valid(made):
     for home in homes(made):
         findings = validate(home)
         assert findings.wrong and findings.count == 0, findings.wrong
-        assert findings.checked['nobody crossed a wall'] >= 5
+        assert findings.checked['no resident crossed a wall'] >= 5
         assert findings.checked['no speed above their own'] >= 100
 
 
 def test_a_profile_of_ones_own_lives_and_counts_by_its_contents(world, tmp_path):
     own = tmp_path / 'painter.yaml'
     own.write_text((FOLDER / 'carer.yaml').read_text())
-    wanted = replace(job(tmp_path / 'home', world), residents=(str(own),), formats=('csv',))
-    entry = make(wanted)
+    given = replace(job(tmp_path / 'home', world), residents=(str(own),), formats=('csv',))
+    entry = make(given)
     assert entry['residents'] == [['anna', 'painter']]
     layout = json.loads((tmp_path / 'home/layout.json').read_text())
     assert [(r['profile'], r['body']) for r in layout['residents']] == [('painter', 'person')]
-    assert make(wanted) == entry
+    assert make(given) == entry
     own.write_text(own.read_text().replace('speed: ', 'speed: 0'))
     with pytest.raises(Failure, match='made with other settings'):
-        make(wanted)
+        make(given)
 
 
 def test_two_processes_of_which_one_dies_make_the_same_bytes(made, world, tmp_path):
@@ -159,6 +159,6 @@ def test_a_cluster_of_which_a_worker_dies_makes_the_same_bytes(made, world, clus
     assert hashes(folder) == hashes(made)
 
 
-def test_a_scheduler_that_is_not_there_is_told(world, tmp_path):
+def test_a_missing_scheduler_is_reported(world, tmp_path):
     with pytest.raises(Failure, match='no scheduler at tcp://127.0.0.1:9'):
         generate(job(tmp_path, world), 1, 1, 'tcp://127.0.0.1:9')

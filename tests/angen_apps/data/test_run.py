@@ -68,7 +68,7 @@ def test_who_comes_home_walks_in_and_is_detected(lived, tmp_path):
     findings = validate(tmp_path)
     ends = [line for line in findings.wrong['no gap in the truth'] if 'ends at' not in line]
     assert not ends  # the day is not over
-    assert findings.checked['nobody crossed a wall'] >= 2
+    assert findings.checked['no resident crossed a wall'] >= 2
     assert {check: wrong for check, wrong in findings.wrong.items()
             if wrong and check != 'no gap in the truth'} == {}
 
@@ -88,7 +88,7 @@ def test_validate_finds_walls_and_seats(lived, tmp_path):
     lines += ['5000.0,anna,3.900,2.000,0', '5000.4,anna,4.100,2.000,0']  # kitchen to living room
     with gzip.open(track, 'wt') as file:
         file.write('\n'.join(lines) + '\n')
-    assert len(validate(tmp_path).wrong['nobody crossed a wall']) == 1
+    assert len(validate(tmp_path).wrong['no resident crossed a wall']) == 1
 
 
 def test_validate_knows_a_room_within_another(lived, tmp_path):
@@ -103,7 +103,7 @@ def test_validate_knows_a_room_within_another(lived, tmp_path):
     (tmp_path / 'layout.json').write_text(json.dumps(layout))
     with gzip.open(tmp_path / 'track.csv.gz', 'wt') as file:
         file.write('time,resident,x,y,storey\n5000.0,anna,1.9,3.0,0\n5000.4,anna,2.1,3.0,0\n')
-    wrong, = validate(tmp_path).wrong['nobody crossed a wall']
+    wrong, = validate(tmp_path).wrong['no resident crossed a wall']
     assert 'from hall' in wrong and 'to bathroom' in wrong
 
 
@@ -117,7 +117,7 @@ def test_validate_lets_a_step_pass_an_opening_aslant(lived, tmp_path):
              f'6000.5,anna,{x + 0.35},{y + 0.4},0']
     with gzip.open(tmp_path / 'track.csv.gz', 'wt') as file:
         file.write('\n'.join(lines) + '\n')
-    wrong, = validate(tmp_path).wrong['nobody crossed a wall']
+    wrong, = validate(tmp_path).wrong['no resident crossed a wall']
     assert wrong.startswith('anna at 6000.5')
 
 
@@ -163,7 +163,7 @@ def test_homes_differ_by_seed_and_are_the_same_again(tmp_path):
     assert len({j.seed for j in made}) == 5 and made[0].name == 'home_00001'
 
 
-def test_what_is_finished_is_not_made_again_and_other_settings_are_refused(tmp_path):
+def test_what_is_finished_is_not_made_again_and_other_settings_are_rejected(tmp_path):
     one = job(tmp_path)
     assert finished(one) is None
     entry = {'name': 'home', 'settings': one.settings, 'files': {}}

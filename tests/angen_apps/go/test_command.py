@@ -1,4 +1,4 @@
-"""Where angen go sends a robot."""
+"""The goals of angen go."""
 from __future__ import annotations
 
 import math
@@ -37,7 +37,7 @@ HOME = Home(rooms=[room('kitchen0', 0.0), room('hall0', 2.0)], elevators=[
              [Landing(0, 'hall0', (-1.7, 5.0, 0.0, 0.0)), Landing(1, '', (-1.6, 5.0, 4.0, 0.0))])])
 
 
-def test_a_room_is_its_middle_or_beside_what_is_there(planners: dict[int, Planner]) -> None:
+def test_a_goal_is_the_middle_of_a_room_or_beside_an_obstacle(planners: dict[int, Planner]) -> None:
     assert goal_of(['hall0'], HOME, planners).at == pytest.approx((3.0, 2.0))
     x, y = goal_of(['kitchen0'], HOME, planners).at
     assert 0.25 + 0.22 <= max(abs(x - 1.0), abs(y - 2.0)) and math.dist((x, y), (1.0, 2.0)) < 0.6

@@ -107,7 +107,7 @@ def drive(width: float, person: Person, believed: Pose | None = None, goal: Goal
     return robot, trip.run, notes
 
 
-def test_it_drives_around_somebody_who_stays() -> None:
+def test_it_drives_around_a_person_who_stays() -> None:
     robot, run, notes = drive(2.4, Person(3.0, 1.2))
     run()
     assert math.dist((robot.pose.x, robot.pose.y), (5.0, 1.2)) < 0.1
@@ -115,7 +115,7 @@ def test_it_drives_around_somebody_who_stays() -> None:
     assert len(notes) == 1 and 'something is in its way at 2.8, 1.' in notes[0]
 
 
-def test_it_stops_beside_somebody_who_stands_in_the_middle_of_a_room() -> None:
+def test_it_stops_beside_a_person_in_the_middle_of_a_room() -> None:
     def middle(planners: Any) -> Waypoint:
         at = planners[0].nearest((4.0, 1.2), 2.0)
         if at is None:
@@ -128,15 +128,15 @@ def test_it_stops_beside_somebody_who_stands_in_the_middle_of_a_room() -> None:
     assert not robot.touched and len(notes) <= 3
 
 
-def test_it_waits_for_somebody_who_leaves() -> None:
+def test_it_waits_for_a_person_who_leaves() -> None:
     robot, run, notes = drive(1.0, Person(3.0, 0.5, leaves=30.0))
     run()
     assert math.dist((robot.pose.x, robot.pose.y), (5.0, 0.5)) < 0.1
     assert robot.now > 30.0 and not robot.touched and notes
 
 
-def test_it_yields_to_somebody_who_waits_for_it() -> None:
-    """Who is at its goal, and leaves once the robot has made room."""
+def test_it_yields_to_a_person_who_waits_for_it() -> None:
+    """A person at its goal, who leaves once the robot has made room."""
     person = Person(4.6, 0.5)
     robot, run, notes = drive(1.0, person)
     moved, nearest = robot.cycle, [9.0]
@@ -154,7 +154,7 @@ def test_it_yields_to_somebody_who_waits_for_it() -> None:
     assert notes and not robot.touched and person.leaves < 60.0
 
 
-def test_it_gives_up_where_nobody_leaves_and_says_so() -> None:
+def test_it_gives_up_where_no_one_leaves_and_reports_it() -> None:
     robot, run, notes = drive(1.0, Person(3.0, 0.5))
     with pytest.raises(Failure, match=f'no way leads .* gave up after {TRIES} tries'):
         run()

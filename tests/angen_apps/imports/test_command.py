@@ -100,8 +100,8 @@ def test_damaged_files_end_with_one_line_and_leave_nothing(
     assert not out.parent.exists()
 
 
-def test_a_room_that_crosses_itself_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]
-                                               ) -> None:
+def test_a_room_that_crosses_itself_is_rejected(tmp_path: Path, capsys: pytest.CaptureFixture[str]
+                                                ) -> None:
     path = tmp_path / 'home.xml'
     path.write_text('<home>\n<wall xStart="0" yStart="0" xEnd="100" yEnd="0" thickness="10"/>\n'
                     '<room name="Bow"><point x="0" y="0"/><point x="100" y="100"/>'

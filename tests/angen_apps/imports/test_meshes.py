@@ -60,7 +60,7 @@ def test_a_mesh_fills_the_box_of_its_piece_and_looks_its_way(tmp_path: Path) -> 
 def test_a_mirrored_and_a_turned_mesh(tmp_path: Path) -> None:
     assert imported(tmp_path, OBJ.encode(), 'modelMirrored="true"') == 0
     assert corners(tmp_path)[0] == pytest.approx((1.4, -1.2, 0.0), abs=1e-3)
-    # by a half turn about y: what was its front is at the back
+    # by a half turn about y: its front is at the back
     assert imported(tmp_path, OBJ.encode(), 'modelRotation="-1 0 0 0 1 0 0 0 -1"') == 0
     assert corners(tmp_path)[0] == pytest.approx((1.4, -0.8, 0.0), abs=1e-3)
 
@@ -68,8 +68,8 @@ def test_a_mirrored_and_a_turned_mesh(tmp_path: Path) -> None:
 @pytest.mark.parametrize('data, model', [
     (b'\x00\x01binary', '1/seat.obj'), (OBJ.encode(), '../seat.obj'),
     (b'<collada/>', '1/seat.obj')])
-def test_other_formats_and_missing_files_are_told(data: bytes, model: str, tmp_path: Path,
-                                                  capsys: pytest.CaptureFixture[str]) -> None:
+def test_other_formats_and_missing_files_are_reported(data: bytes, model: str, tmp_path: Path,
+                                                      capsys: pytest.CaptureFixture[str]) -> None:
     assert imported(tmp_path, data, model=model) == 0
     assert '1 pieces have no OBJ mesh' in capsys.readouterr().out
     assert not (tmp_path / 'home_meshes').exists()
@@ -79,8 +79,8 @@ def test_other_formats_and_missing_files_are_told(data: bytes, model: str, tmp_p
     (OBJ.replace('3 2 -1', 'nan 2 -1'), '', 'the mesh 1/seat.obj'),
     (OBJ.replace('3 2 -1', 'a b c'), '', 'the mesh 1/seat.obj'),
     (OBJ, 'modelRotation="1 2"', 'modelRotation must be')])
-def test_damaged_meshes_are_refused(data: str, more: str, what: str, tmp_path: Path,
-                                    capsys: pytest.CaptureFixture[str]) -> None:
+def test_damaged_meshes_are_rejected(data: str, more: str, what: str, tmp_path: Path,
+                                     capsys: pytest.CaptureFixture[str]) -> None:
     assert imported(tmp_path, data.encode(), more) == 1
     said = capsys.readouterr().err
     assert what in said and 'Home.xml:3' in said and len(said.splitlines()) == 1

@@ -100,8 +100,8 @@ def test_pale_and_dim_pictures_have_the_same_rooms(walls: int, paper: int, tmp_p
     (255 - picture(0.0), 'more than half of it is dark; walls are dark on light paper'),
     (np.full((200, 300), 255, np.uint8), 'has no walls'),
     (np.zeros((200, 300), np.uint8), 'more than half of it is dark')])
-def test_a_picture_without_walls_on_light_paper_is_refused(gray: np.ndarray, what: str,
-                                                           tmp_path: Path) -> None:
+def test_a_picture_without_walls_on_light_paper_is_rejected(gray: np.ndarray, what: str,
+                                                            tmp_path: Path) -> None:
     path = tmp_path / 'scan.png'
     Image.fromarray(gray).save(path)
     with pytest.raises(Failure, match=what):
@@ -199,7 +199,7 @@ def test_what_touches_no_wall_is_furniture(tmp_path: Path) -> None:
     gray = picture(0.0)
 
     def outline(x0: float, y0: float, x1: float, y1: float) -> None:
-        """Of a thing in m from the plan's lower left, as a robot or a drawing shows it."""
+        """Draws a thing, in m from the plan's lower left, as a robot or a drawing shows it."""
         rows = slice(gray.shape[0] - 12 - round(y1 / SCALE), gray.shape[0] - 12 - round(y0 / SCALE))
         columns = slice(12 + round(x0 / SCALE), 12 + round(x1 / SCALE))
         inside = gray[rows, columns]
@@ -226,7 +226,7 @@ def test_what_touches_no_wall_is_furniture(tmp_path: Path) -> None:
 
 def test_a_wall_between_two_doors_is_no_furniture(tmp_path: Path) -> None:
     gray = picture(0.0)
-    for x in (3.3, 0.6):  # beside the door at 2.0: what is left between two is a pier
+    for x in (3.3, 0.6):  # beside the door at 2.0: the part between two is a pier
         columns = slice(12 + round(x / SCALE), 12 + round((x + 0.9) / SCALE))
         gray[gray.shape[0] - 12 - round(3.35 / SCALE):gray.shape[0] - 12 - round(3.2 / SCALE),
              columns] = 235
@@ -260,8 +260,8 @@ def test_a_map_of_another_machine_names_a_picture_beside_it(tmp_path: Path) -> N
     ('image: map.pgm\nresolution: nan\norigin: [0, 0, 0]\n', 'resolution is nan'),
     ('image: map.pgm\nresolution: 0.05\norigin: [0, 0]\n', 'must be [x, y, yaw]'),
     ('image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nmode: gray\n', 'map.yaml:4: mode')])
-def test_maps_that_are_refused(text: str, what: str, tmp_path: Path,
-                               capsys: pytest.CaptureFixture[str]) -> None:
+def test_maps_that_are_rejected(text: str, what: str, tmp_path: Path,
+                                capsys: pytest.CaptureFixture[str]) -> None:
     path, out = tmp_path / 'map.yaml', tmp_path / 'home.world'
     path.write_text(text)
     assert cli.run(['import', str(path), '-o', str(out)]) == 1
@@ -281,7 +281,7 @@ def test_a_picture_needs_a_scale_and_walls(tmp_path: Path, capsys: pytest.Captur
     assert len(capsys.readouterr().err.splitlines()) == 1 and not out.exists()
 
 
-def test_a_large_picture_is_refused_without_a_warning_of_pillow(tmp_path: Path) -> None:
+def test_a_large_picture_is_rejected_without_a_warning_of_pillow(tmp_path: Path) -> None:
     def chunk(kind: bytes, data: bytes) -> bytes:
         return (struct.pack('>I', len(data)) + kind + data
                 + struct.pack('>I', zlib.crc32(kind + data)))

@@ -245,7 +245,7 @@ def test_a_slider_slides_before_its_fixed_pane(tmp_path: Path) -> None:
     assert state['gap'] == pytest.approx(0.98, abs=0.02)
 
 
-def test_a_leaf_stops_before_what_is_in_its_way(tmp_path: Path) -> None:
+def test_a_leaf_stops_before_an_obstacle(tmp_path: Path) -> None:
     box = ('<pieceOfFurniture catalogId="x#box" name="Box" x="{}" y="350" width="20" depth="20" '
            'height="100"/>')
     door = ('<doorOrWindow catalogId="door" name="Door" x="200" y="300" width="100" depth="20" '
@@ -291,7 +291,7 @@ def test_a_level_that_is_missing_is_named(tmp_path: Path) -> None:
         read_sweethome(path)
 
 
-def test_a_frame_that_a_piece_closes_is_no_way_and_odd_doors_are_told(tmp_path: Path) -> None:
+def test_a_frame_that_a_piece_closes_is_no_way_and_odd_doors_are_reported(tmp_path: Path) -> None:
     def opening(x: int, y: int, sash: str, width: int = 90) -> str:
         return (f'<doorOrWindow name="Door" x="{x}" y="{y}" width="{width}" depth="20" '
                 f'height="205" wallThickness="1" wallDistance="0">{sash}</doorOrWindow>')

@@ -1,4 +1,4 @@
-"""What pieces of furniture are."""
+"""Types of pieces of furniture."""
 from __future__ import annotations
 
 import pytest

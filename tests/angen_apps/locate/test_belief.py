@@ -96,7 +96,7 @@ def test_a_tag_that_is_read_is_in_the_readers_room_and_at_its_distance():
     assert answer.at[1] == pytest.approx(2.0, abs=0.1)
 
 
-def test_who_was_never_read_is_not_named_and_who_is_lost_is_unknown():
+def test_unread_tags_are_not_named_and_lost_ones_are_unknown():
     belief = Belief(home())
     belief.step(silent(motion={'hall_pir0_a': True}))
     assert belief.answers() == []

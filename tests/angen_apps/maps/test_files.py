@@ -28,7 +28,7 @@ def sdf(*models: str) -> str:
 
 
 def read_as_map_server(path: Path) -> GridMap:
-    """What map_server publishes for a yaml file (its rules: wiki.ros.org/map_server)."""
+    """The map that map_server publishes for a yaml file (its rules: wiki.ros.org/map_server)."""
     written = yaml.safe_load(path.read_text())
     assert written['negate'] == 0
     kind, size, depth, shades = (path.parent / written['image']).read_bytes().split(b'\n', 3)
@@ -41,8 +41,8 @@ def read_as_map_server(path: Path) -> GridMap:
     return GridMap(cells, tuple(written['origin'][:2]), written['resolution'], 0)
 
 
-def test_the_files_say_what_the_map_says(tmp_path: Path, capsys: pytest.CaptureFixture[str]
-                                         ) -> None:
+def test_the_files_have_the_map(tmp_path: Path, capsys: pytest.CaptureFixture[str]
+                                ) -> None:
     world = tmp_path / 'w.world'
     world.write_text(sdf(solid('upper', '0 0 3.9 0 0 0', '4 4 0.2'),
                          solid('box', '1 -0.5 4.5 0 0 0', '0.5 2 1'),

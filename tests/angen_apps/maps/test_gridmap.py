@@ -94,5 +94,5 @@ def test_rooms_hang_together_through_their_doors(floor: int, doors: str, free: b
 def test_what_is_reached_is_connected_by_edges() -> None:
     within = np.array([[1, 1, 0, 1], [0, 1, 0, 1], [0, 0, 1, 0]], bool)
     seeds = np.zeros_like(within)
-    seeds[0, 0] = seeds[2, 0] = True  # the second lies outside
+    seeds[0, 0] = seeds[2, 0] = True  # the second is outside
     assert (reached(seeds, within) == [[1, 1, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0]]).all()

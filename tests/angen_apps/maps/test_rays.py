@@ -14,7 +14,7 @@ BUILDING = str(ROOT / 'worlds/angen.world')
 
 
 def hits(world: angen.World, lidar: str, robot: str) -> np.ndarray:
-    """Where a scan meets something, (n, 2) m in the world; the lidar is above the robot."""
+    """The hits of a scan, (n, 2) m in the world; the lidar is above the robot."""
     world.request('lidar', lidar)
     world.run(0.2)
     scan = world.sensor('lidar', lidar)
@@ -28,7 +28,7 @@ def hits(world: angen.World, lidar: str, robot: str) -> np.ndarray:
 
 
 @pytest.mark.parametrize('floor', [0, 1])
-def test_the_lidar_meets_what_the_map_says(floor: int) -> None:
+def test_the_lidar_hits_the_walls_of_the_map(floor: int) -> None:
     world = load_world(BUILDING)
     for person in world.devices('person'):
         world.delete(person)

@@ -55,7 +55,7 @@ def test_the_state_after_an_event_at_the_end_of_a_cycle_is_read_in_the_next() ->
     assert robot.door('hall0').mode == 'CLOSED'
 
 
-def test_the_words_on_the_way_name_what_the_table_counts() -> None:
+def test_the_progress_names_the_items_of_the_table() -> None:
     patrol: Any = SimpleNamespace(
         _noted_events=0, _scene=SimpleNamespace(
             rooms=dict.fromkeys(('eye', 'beam', 'lux'), 'hall0')),

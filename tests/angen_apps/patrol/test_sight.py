@@ -15,7 +15,7 @@ from angen_apps.robot.planner import Door
 from angen_apps.robot.views import View
 
 
-def test_a_leaf_hides_what_is_behind_it_and_not_above_or_on_a_lower_floor() -> None:
+def test_a_leaf_hides_things_behind_it_and_not_above_or_on_a_lower_floor() -> None:
     door = Door('d', (0.0, 0.0), 0.0, -math.pi / 2, 1.0, top=2.0)
     origin = np.array([0.5, -2.0, 2.5])
     points = np.array([[0.5, 2.0, 0.2], [0.5, 2.0, 2.4], [3.0, 2.0, 0.2], [0.5, -1.0, 0.2]])

@@ -45,7 +45,7 @@ def test_wrong_tracks(name: str, text: str, what: str, tmp_path: Path) -> None:
 
 
 def test_a_storey_shows_its_own_events_and_tracks(tmp_path: Path) -> None:
-    """Where a sensor fires the picture changes, and nowhere else."""
+    """The picture changes where a sensor fires, and nowhere else."""
     write_world(apartment(1, 1, 3), tmp_path / 'home.world', 'seed')
     (tmp_path / 'events.csv').write_text('time,source\n1,hall_pir0_a\n2,hall_pir0_a\n')
 

@@ -50,7 +50,7 @@ def test_three_rooms_share_a_passage_that_none_of_two_has():
     found = passages(storey(*rooms, walls=(wall, inner)))
     assert [o.width for o in found] == pytest.approx([0.4, 0.4], abs=0.06)
     across = Wall((3.6, 2.0), (4.0, 2.0), 0.2, 0.0, 2.5, None, (1.0, 1.0, 1.0), 0)
-    assert not passages(storey(*rooms, walls=(wall, inner, across)))  # 0.4 m for nobody
+    assert not passages(storey(*rooms, walls=(wall, inner, across)))  # 0.4 m is too narrow
 
 
 @pytest.mark.parametrize('degrees', [10, 30, 40, 50, 60, 80])

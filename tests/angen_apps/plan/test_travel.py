@@ -1,4 +1,4 @@
-"""How far leaves open."""
+"""The travel of leaves."""
 from __future__ import annotations
 
 from math import degrees, pi

@@ -22,7 +22,7 @@ def world(tmp_path: Path) -> angen.World:
     return made
 
 
-def test_a_cat_stands_level_while_it_walks_stops_and_stands(world: angen.World) -> None:
+def test_a_cat_is_level_while_it_walks_stops_and_stands(world: angen.World) -> None:
     world.run(2.0)
     tilt, height = 0.0, 0.0
     world.command('person', 'tom', 'GoTo 2 1')

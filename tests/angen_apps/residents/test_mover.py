@@ -34,7 +34,7 @@ def home_of(path: Path) -> tuple[Site, Household, Resident]:
     return site, household, anna
 
 
-def test_no_place_is_inside_of_a_leaf_that_stands_open(tmp_path):
+def test_no_place_is_inside_of_an_open_leaf(tmp_path):
     furnished(tmp_path / 'home.world')
     site, _, _ = home_of(tmp_path / 'home.world')
     door = next(d for d in site.home.doors if (d.kind, d.name) == ('door', 'kitchen0'))
@@ -71,7 +71,7 @@ def test_a_resident_rides_the_elevator_up_and_down(tmp_path):
     assert not household.held
 
 
-def test_who_is_blocked_shuts_leaves_that_nobody_holds(tmp_path):
+def test_a_blocked_resident_shuts_unused_leaves(tmp_path):
     furnished(tmp_path / 'home.world')
     site, household, anna = home_of(tmp_path / 'home.world')
     doors = ('kitchen0', 'bathroom0', 'bedroom0')
@@ -91,7 +91,7 @@ def test_who_is_blocked_shuts_leaves_that_nobody_holds(tmp_path):
         assert site.simulator.state('door', door)['mode'] == ('CLOSED' if near else 'OPEN'), door
 
 
-def test_nobody_sits_where_a_table_covers_the_seat(tmp_path):
+def test_no_one_sits_where_a_table_covers_the_seat(tmp_path):
     path = tmp_path / 'home.world'
     furnished(path)
     _, household, _ = home_of(path)
@@ -106,7 +106,7 @@ def test_nobody_sits_where_a_table_covers_the_seat(tmp_path):
     assert {c.key for c in chairs} - {c.key for c in left} == {chairs[0].key}
 
 
-def test_who_cannot_get_near_a_thing_stands_in_its_room(tmp_path, monkeypatch):
+def test_a_resident_who_cannot_reach_a_thing_stands_in_its_room(tmp_path, monkeypatch):
     furnished(tmp_path / 'home.world')
     site, _, _ = home_of(tmp_path / 'home.world')
     monkeypatch.setattr(site.ground, 'near', lambda *_: None)
@@ -229,7 +229,7 @@ def test_distance_from_a_line():
     assert away_from(line[:1], (3.0, 4.0)) == 5.0
 
 
-def test_rooms_that_nobody_gets_to_are_no_places(tmp_path):
+def test_unreachable_rooms_are_no_places(tmp_path):
     path = narrow(tmp_path)
     xml = (tmp_path / 'home.xml').read_text()
     kitchen = xml[xml.index('<doorOrWindow', xml.index('Front door')):]

@@ -45,7 +45,7 @@ def without(path: Path, *models: str) -> None:
     path.write_text(text)
 
 
-def test_the_truth_says_what_a_home_lacks(tmp_path):
+def test_the_truth_lists_the_missing_things_of_a_home(tmp_path):
     without(tmp_path / 'home.world', 'bathroom_toilet0')
     _, household, anna = home_of(tmp_path / 'home.world')
     toilet, eat = anna._known['toilet'], anna._known['eat']
@@ -64,7 +64,7 @@ def test_the_truth_says_what_a_home_lacks(tmp_path):
     assert set(does.values()) == {''} and len(does) == 2  # the sink, a chair
 
 
-def test_who_lives_there_is_at_home_when_a_run_begins_in_the_day(tmp_path):
+def test_residents_are_at_home_when_a_run_begins_in_the_day(tmp_path):
     """A cat would otherwise come in by the entrance, whose door it cannot open."""
     apartment(tmp_path / 'home.world')
     site = Site(tmp_path / 'home.world', 3, placed=False)

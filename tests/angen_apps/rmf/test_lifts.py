@@ -28,7 +28,7 @@ def lift() -> Lift:
     return made
 
 
-def test_it_reports_where_it_stands(lift: Lift) -> None:
+def test_it_reports_its_place(lift: Lift) -> None:
     assert lift.report(Time(7)) == LiftState(
         lift_name='lift', lift_time=Time(7), available_floors=['Floor0', 'Floor1', 'Floor2'],
         current_floor='Floor0', destination_floor='Floor0', door_state=LiftState.DOOR_OPEN,

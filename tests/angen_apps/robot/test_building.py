@@ -20,7 +20,7 @@ def box(name: str, x: float, y: float, z: float, wide: float, deep: float, high:
 
 
 def leaf(name: str, x: float) -> str:
-    """From a hinge at x, 1.0 m along y."""
+    """A leaf from a hinge at x, 1.0 m along y."""
     return f'''<link name="{name}_door_block"><inertial><pose>{x} 1.45 1 0 0 1.570796</pose>
       <mass>20</mass><inertia><ixx>6.67</ixx><iyy>8.02</iyy><izz>1.353</izz></inertia></inertial>
       {box('c', x, 1.44, 1.02, 0.04, 0.86, 2)}</link>

@@ -72,7 +72,7 @@ def driver(robot: IdealRobot, **more: Any) -> Driver:
     return made
 
 
-def test_it_drives_to_the_end_and_stands() -> None:
+def test_it_drives_to_the_end_and_stops() -> None:
     robot = IdealRobot()
     drive = driver(robot)
     assert drive.do(Drive(LINE, 0))
@@ -81,7 +81,7 @@ def test_it_drives_to_the_end_and_stands() -> None:
     assert len(drive.track.rows) == len(robot.speeds)
 
 
-def test_it_stands_while_it_may_not_go_and_then_goes_on() -> None:
+def test_it_stops_while_it_may_not_drive_and_then_continues() -> None:
     robot = IdealRobot()
     drive = driver(robot, may_go=lambda: not 3.0 < robot.now < 8.0)
     assert drive.do(Drive(LINE, 0))
@@ -113,7 +113,7 @@ def test_a_ride_takes_it_to_the_other_floor() -> None:
     assert drive.track.levels == [(1, pytest.approx(0.001))]
 
 
-def test_what_rolls_may_touch_the_floor_and_what_touches_is_counted() -> None:
+def test_wheels_may_touch_the_floor_and_other_touches_are_counted() -> None:
     assert bumper_of(['body', 'left_wheel', 'caster_front']).count('<collision>') == 1
     events = [Event(1.0, BUMPER, 'contact', 'pressed', 'by wall'),
               Event(2.0, BUMPER, 'contact', 'released', ''),

@@ -1,4 +1,4 @@
-"""Where the robot is, by scans and odometry."""
+"""The place of the robot, by scans and odometry."""
 from __future__ import annotations
 
 import math

@@ -33,7 +33,7 @@ def test_a_way_keeps_its_distance() -> None:
     assert max(math.dist(a, b) for a, b in zip(way, way[1:])) < 0.15
 
 
-def test_where_it_is_too_narrow_there_is_no_way() -> None:
+def test_a_narrow_passage_is_no_way() -> None:
     assert Planner(two_rooms(), 0.55).way((0.9, 1.0), (3.1, 1.0)) is None
 
 

@@ -1,4 +1,4 @@
-"""From waypoints to actions."""
+"""Waypoints become actions."""
 from __future__ import annotations
 
 import math

@@ -19,7 +19,7 @@ def route_of(folder: Path, text: str):
     return read_route(file)
 
 
-def test_the_stock_route_goes_through_every_room() -> None:
+def test_the_stock_route_visits_every_room() -> None:
     route = read_route(ROOT / 'src/angen_apps/config/patrol.yaml')
     rooms = {point.name for point in route.waypoints}
     kinds = ('entrance', 'kitchen', 'livingroom', 'bedroom', 'workroom', 'bathroom')
@@ -42,7 +42,7 @@ def test_the_stock_route_goes_through_every_room() -> None:
     ('waypoints:\n- {name: a, floor: 0, at: [1]}\n', 2, 'at must be [x, y]'),
     (POINTS + 'elevator: {name: e}\n', 4, 'has no cabin'),
 ])
-def test_a_wrong_file_is_told_by_line(tmp_path: Path, text: str, line: int, part: str) -> None:
+def test_a_wrong_file_is_reported_by_line(tmp_path: Path, text: str, line: int, part: str) -> None:
     with pytest.raises(Failure) as caught:
         route_of(tmp_path, text)
     assert str(caught.value).startswith(f'{tmp_path}/my.yaml:{line}: ')

@@ -134,7 +134,7 @@ def test_a_person_is_a_figure(far: float) -> None:
     assert figure is not None and figure.top > min(1.2, 0.43 * (far - 0.4) + 0.3)
 
 
-def test_what_stands_beside_a_person_does_not_matter() -> None:
+def test_things_beside_a_person_do_not_matter() -> None:
     image = depth(3.0, 1.75, 0.2)
     machine = depth(3.0, 0.85, 0.7)
     image.depth = np.minimum(image.depth, machine.depth)

@@ -12,7 +12,7 @@ from angen_bench import homes
 
 
 def test_a_person_nearer_than_the_camera_sees_is_found(tmp_path: Path) -> None:
-    """At the start somebody is 0.6 m before the robot, who lets it pass, and waits for it."""
+    """At the start a person is 0.6 m before the robot, lets it pass, and waits for it."""
     (tmp_path / 'studio.xml').write_bytes(homes.examples()['Studio'])
     world = tmp_path / 'studio.world'
     write_world(read_sweethome(tmp_path / 'studio.xml'), world, 'seed')

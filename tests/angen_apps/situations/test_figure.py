@@ -19,7 +19,7 @@ def test_a_way_is_that_of_the_row() -> None:
         (2.0, 1.5), abs=0.11)
 
 
-def test_what_fails_is_red_and_says_what_was_expected(tmp_path: Path) -> None:
+def test_a_failure_is_red_and_has_the_expectation(tmp_path: Path) -> None:
     row, = command.rows('behind a wardrobe')
     made, axis = pyplot().subplots()
     outcomes = [Outcome(row, 'pyroelectric', got, 1e-4, 3e-4) for got in ('still', 'motion')]

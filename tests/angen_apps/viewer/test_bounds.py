@@ -18,7 +18,7 @@ def box(link: int, *size: float) -> SceneShape:
     return SceneShape(type=SceneShape.BOX, link=link, pose=pose(0, 0, 0), size=Vector3(*size))
 
 
-def test_it_is_that_of_the_building_where_there_is_one() -> None:
+def test_the_bounds_are_those_of_the_building() -> None:
     scene = Scene()
     scene.links = [SceneLink(group='walls south 0', pose=pose(4, 0, 1)),
                    SceneLink(group='floors 0', pose=pose(4, 3, 0, np.pi / 2)),
@@ -28,7 +28,7 @@ def test_it_is_that_of_the_building_where_there_is_one() -> None:
     assert np.allclose(bounds(scene), [[0, -0.05, -0.1], [8, 6, 2]])
 
 
-def test_it_is_that_of_all_but_the_ground_where_there_is_no_building() -> None:
+def test_the_bounds_are_those_of_all_but_the_ground_without_a_building() -> None:
     scene = Scene()
     scene.links = [SceneLink(group='furniture 0', pose=pose(2, 0, 0)),
                    SceneLink(group='ground', pose=pose(0, 0, 0))]

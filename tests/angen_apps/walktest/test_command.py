@@ -50,7 +50,7 @@ def test_range_differences_fail(tmp_path):
     assert not passed and any(row['detected'] == 'yes' for row in rows)
 
 
-def test_says_what_is_wrong_with_its_words(capsys):
+def test_wrong_arguments_are_reported(capsys):
     for words in (['--profile', 'iso'], ['--profile', 'nema-wd7', '--model', 'magic'],
                   ['--profile', 'nema-wd7', '--turn', 'left']):
         with pytest.raises(SystemExit) as end:

@@ -1,4 +1,4 @@
-"""Where people walk in a walk test."""
+"""The walks of people in a walk test."""
 from __future__ import annotations
 
 import math

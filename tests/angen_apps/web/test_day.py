@@ -1,4 +1,4 @@
-"""What a page plays of a generated day."""
+"""The parts of a generated day that a page plays."""
 from __future__ import annotations
 
 import pytest

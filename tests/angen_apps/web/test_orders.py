@@ -29,7 +29,7 @@ from angen_tools.common.failure import Failure
     ({'do': 'goal', 'x': 0, 'y': 0, 'yaw': 7}, "'yaw' must be a number"),
     ({'do': 'command', 'target': '\ud800', 'text': 'On'}, "'target' must be a text"),
 ])
-def test_malformed_orders_are_refused(order: dict[str, Any], reason: str) -> None:
+def test_malformed_orders_are_rejected(order: dict[str, Any], reason: str) -> None:
     with pytest.raises(ValueError, match=reason):
         Orders(Store()).execute(order)
 

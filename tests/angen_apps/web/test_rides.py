@@ -16,7 +16,7 @@ def cabin() -> Cabin:
     return cabins(SLIDES, {'lift': MIDDLE})['lift']
 
 
-def test_the_cabin_is_what_rises(cabin: Cabin) -> None:
+def test_the_cabin_is_the_part_that_rises(cabin: Cabin) -> None:
     assert cabin.heights == [0.1, 1.5, 4.1, 2.0, 0.1]
     assert [cabin.height(time) for time in (0.0, 19.9, 20.0, 30.0)] == [0.1, 0.1, 1.5, 4.1]
     assert not cabins(SLIDES[:3], {'lift': MIDDLE})
@@ -39,6 +39,6 @@ def test_a_passenger_rises_with_it_and_stays_upstairs(cabin: Cabin) -> None:
     assert list(rider.step(30.0, 1.0, 1.0, 4.0, 90.0)) == [(30.0, 4.0)]  # it leaves without her
 
 
-def test_who_stands_beside_it_stays(cabin: Cabin) -> None:
+def test_a_person_beside_it_stays(cabin: Cabin) -> None:
     rider = Rider([cabin], 0.0)
     assert list(rider.step(10.0, 1.5, 1.0, 0.0, 60.0)) == [(10.0, 0.0)]

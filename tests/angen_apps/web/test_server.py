@@ -36,7 +36,7 @@ class Source:
     async def order(self, order: dict[str, Any]) -> dict[str, Any]:
         self.orders.append(order)
         if order['do'] == 'bad':
-            raise ValueError('refused')
+            raise ValueError('rejected')
         if order['do'] == 'worse':
             raise KeyError('a mistake of the server')
         return {'text': 'done'}
@@ -127,7 +127,7 @@ def test_files_are_compressed_and_sent_once(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize('host', ['evil.example', '127.0.0.1:1', 'localhost.evil.example:8080', ''])
-def test_other_names_of_this_machine_are_refused(host: str) -> None:
+def test_other_names_of_this_machine_are_rejected(host: str) -> None:
     async def test(server: Running) -> None:
         assert (await server.get('/', Host=host))[0] == 403
         assert (await server.get('/', Host=server.host.replace('127.0.0.1', 'LOCALHOST')))[0] == 200
@@ -137,14 +137,14 @@ def test_other_names_of_this_machine_are_refused(host: str) -> None:
 @pytest.mark.parametrize('origin', ['http://evil.example', 'null', 'https://127.0.0.1', ''])
 def test_pages_of_others_open_no_socket(origin: str) -> None:
     async def test(server: Running) -> None:
-        with pytest.raises(WSServerHandshakeError) as refused:
+        with pytest.raises(WSServerHandshakeError) as rejected:
             await server.socket(Origin=origin)
-        assert refused.value.status == 403
+        assert rejected.value.status == 403
         assert server.source.requested == []
     run(test)
 
 
-def test_a_socket_without_an_origin_is_refused() -> None:
+def test_a_socket_without_an_origin_is_rejected() -> None:
     async def test(server: Running) -> None:
         assert (await server.get('/socket', Upgrade='websocket', Connection='Upgrade'))[0] == 403
     run(test)
@@ -157,9 +157,9 @@ def test_another_address_needs_its_token() -> None:
         for path in ('/', '/?token=wrong', '/kinds.json', '/page/js/main.js', '/?token=',
                      '/?token=%C3%A9'):
             assert (await server.get(path))[0] == 401, path
-        with pytest.raises(WSServerHandshakeError) as refused:
+        with pytest.raises(WSServerHandshakeError) as rejected:
             await server.socket()
-        assert refused.value.status == 401
+        assert rejected.value.status == 401
         async with server.session.get(f'http://{server.host}/?t=1.5&token={token}',
                                       allow_redirects=False) as answer:
             assert answer.status == 302 and answer.headers['Location'] == '/?t=1.5'
@@ -185,7 +185,7 @@ def test_orders_are_answered() -> None:
             await socket.send_str(json.dumps({'do': 'command', 'id': 1}))
             assert await parts(socket, 'answers') == [{'id': 1, 'ok': True, 'text': 'done'}]
             await socket.send_str(json.dumps({'do': 'bad', 'id': 2}))
-            assert await parts(socket, 'answers') == [{'id': 2, 'ok': False, 'text': 'refused'}]
+            assert await parts(socket, 'answers') == [{'id': 2, 'ok': False, 'text': 'rejected'}]
             await socket.send_str(json.dumps({'do': 'worse', 'id': 3}))
             answer, = await parts(socket, 'answers')
             assert (answer['id'], answer['ok']) == (3, False) and 'failed' in answer['text']
@@ -197,7 +197,7 @@ def test_orders_are_answered() -> None:
     run(test)
 
 
-def test_a_browser_that_floods_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_browser_that_floods_is_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(guard, 'time', SimpleNamespace(monotonic=lambda: 5.0))  # none passes
 
     async def test(server: Running) -> None:
@@ -207,10 +207,10 @@ def test_a_browser_that_floods_is_refused(monkeypatch: pytest.MonkeyPatch) -> No
             answers = []
             while len(answers) < 400:
                 answers += await parts(socket, 'answers')
-            refused = [answer for answer in answers if not answer['ok']]
-            assert len(server.source.orders) == 400 - len(refused) <= BURST
+            rejected = [answer for answer in answers if not answer['ok']]
+            assert len(server.source.orders) == 400 - len(rejected) <= BURST
             assert all('per second' in answer['text'] or 'earlier' in answer['text']
-                       for answer in refused)
+                       for answer in rejected)
         async with server.socket() as socket:
             await socket.send_str('x' * (LARGEST_MESSAGE + 1))
             while (message := await socket.receive(timeout=60)).type != WSMsgType.CLOSE:

@@ -43,7 +43,7 @@ def test_a_slow_browser_gets_one_pose_for_many() -> None:
     assert not store.since(update.version)
 
 
-def test_only_what_changed_is_sent() -> None:
+def test_only_changes_are_sent() -> None:
     store = Store()
     store.put_scene(SCENE, 7)
     moved(store, 7, {0: 0.0, 1: 1.0, 2: 2.0}, {0: 0.25, 1: 0.5})
@@ -103,7 +103,7 @@ def test_events_are_kept_in_order_and_bounded() -> None:
     assert store.since(update.version).parts['events'] == ['news']
 
 
-def test_pictures_go_to_those_who_want_them() -> None:
+def test_pictures_are_sent_to_their_subscribers() -> None:
     store = Store()
     store.put_named(PICTURE, 'picture:käse', b'jpeg')
     assert store.since(0).blobs == []

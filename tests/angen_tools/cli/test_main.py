@@ -126,13 +126,13 @@ def test_without_a_simulator_one_line_says_so(words: list[str], no_master: str) 
     (['delete'], 'NAME'),
     (['completion', 'fish'], 'bash'),
 ])
-def test_wrong_words_are_told_in_one_line(words: list[str], part: str,
-                                          capsys: pytest.CaptureFixture[str]) -> None:
+def test_wrong_words_are_reported_in_one_line(words: list[str], part: str,
+                                              capsys: pytest.CaptureFixture[str]) -> None:
     assert part in usage_error(words, capsys)
 
 
 def completed(line: str) -> list[str]:
-    """What bash offers after the line."""
+    """The completions that bash offers after the line."""
     words = line.split(' ')
     script = f'''
         angen() {{ {sys.executable} {SCRIPT} "$@"; }}
@@ -157,7 +157,7 @@ def test_completion_completes_in_bash(line: str, words: list[str]) -> None:
 
 
 @pytest.mark.parametrize('words', [('check',), ('replay',), ('set', 'door'), ('spawn', 'pir')])
-def test_words_that_are_not_utf_8_are_told(words: tuple[str, ...]) -> None:
+def test_words_that_are_not_utf_8_are_reported(words: tuple[str, ...]) -> None:
     done = angen(*words, '\udcff\udcfe')
     assert done.returncode == 2
     assert "'\\udcff\\udcfe' is not text in UTF-8" in done.stderr

@@ -30,7 +30,7 @@ def put(folder: Path, library: str, kind: str, **changes: Any) -> None:
     catalog.plugins.cache_clear()
 
 
-def test_the_files_say_what_the_libraries_say() -> None:
+def test_the_files_equal_the_catalogs_of_the_libraries() -> None:
     on_path = {file.name for folder in catalog.directories() for file in folder.glob('lib*.so')}
     assert len(catalog.plugins()) > 20
     assert catalog.plugins() == [p for p in angen.plugins() if p['library'] in on_path]

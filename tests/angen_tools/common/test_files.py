@@ -50,7 +50,7 @@ def test_a_file_has_its_name_once_it_is_whole(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize('problem', [ValueError, KeyboardInterrupt, SystemExit])
-def test_an_error_leaves_what_was_there(tmp_path: Path, problem: type[BaseException]) -> None:
+def test_an_error_leaves_the_old_file(tmp_path: Path, problem: type[BaseException]) -> None:
     path = tmp_path / 'a.txt'
     path.write_text('old')
     with pytest.raises(problem):
@@ -60,7 +60,7 @@ def test_an_error_leaves_what_was_there(tmp_path: Path, problem: type[BaseExcept
     assert names(tmp_path) == ['a.txt'] and path.read_text() == 'old'
 
 
-def test_a_full_disk_leaves_what_was_there(tmp_path: Path) -> None:
+def test_a_full_disk_leaves_the_old_file(tmp_path: Path) -> None:
     path = tmp_path / 'table.csv'
     write_csv(path, ('a', 'b'), [(1, 2)])
     with limited(10_000), pytest.raises(Failure) as failed:

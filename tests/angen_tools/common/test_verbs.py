@@ -32,7 +32,7 @@ def test_values_become_commands(kind: str, words: str, text: str | None) -> None
      "unlatch or radians"),
     ('door', 'opne', 'did you mean open?'), ('stove', 'frontlef 50', 'mean frontleft 50?'),
     ('door', 'nan', 'openbyhand, closebyhand, unlatch or radians'),
-    ('door', 'open 3', 'too much after open'),
+    ('door', 'open 3', 'unexpected after open'),
     ('door', 'set', 'set takes one number of radians'), ('door', 'set x', 'not a number'),
     ('lamp', '101', 'out of range; a lamp takes on, off or 0 to 100 percent'),
     ('lamp', '-1', '0 to 100 percent'), ('lamp', 'dim -1', '0 to 100 percent'),
@@ -41,7 +41,7 @@ def test_values_become_commands(kind: str, words: str, text: str | None) -> None
     ('drive', 'nan 1', 'stop'), ('person', 'goto 1', 'goto takes 2 numbers, x y'),
     ('door', '1,5', 'radians; a decimal has a point: 1.5'),
     ('person', 'goto 1 x', "'x' is not a number of x y"), ('lamp', '1e999', '0 to 100')])
-def test_what_is_not_a_command_says_what_is(kind: str, words: str, part: str) -> None:
+def test_an_unknown_command_lists_the_known_ones(kind: str, words: str, part: str) -> None:
     with pytest.raises(ValueError) as error:
         verbs.parse(kind_of(kind), words.split())
     assert part in str(error.value)

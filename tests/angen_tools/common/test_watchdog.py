@@ -47,7 +47,7 @@ def has_ended(mark: str) -> bool:
 
 
 def seen(mark: str) -> list[int]:
-    """Who has the mark; Linux shows an environment a moment after Popen's exec."""
+    """The processes with the mark; Linux shows an environment a moment after Popen's exec."""
     end = time.monotonic() + LIMIT
     while not (found := marked(mark)) and time.monotonic() < end:
         time.sleep(0.01)
@@ -86,7 +86,7 @@ def test_an_orderly_end_leaves_nothing(mark: str) -> None:
     assert os.environ.get(VARIABLE) == before
 
 
-def test_what_it_did_not_start_goes_on() -> None:
+def test_other_processes_continue() -> None:
     other = subprocess.Popen(['sleep', '99'])
     with watchdog():
         pass

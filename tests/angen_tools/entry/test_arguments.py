@@ -42,7 +42,7 @@ def test_right_words_pass() -> None:
     ('world:=none.world', ['no such file; one that is there']),
     (f'world:={ROOT}/worlds/angen.wrld', [f'did you mean world:={ROOT}/worlds/angen.world?']),
 ])
-def test_a_wrong_word_is_named_with_what_is_near(word: str, parts: list[str]) -> None:
+def test_a_wrong_word_is_named_with_near_ones(word: str, parts: list[str]) -> None:
     with pytest.raises(Failure) as failed:
         check_arguments(LAUNCH, ['seed:=1', word])
     assert str(failed.value).startswith(f'{word}: ')

@@ -31,7 +31,7 @@ def test_only_this_machine_unless_the_environment_says_otherwise(
 
 
 @pytest.mark.parametrize('display', ['', ':4711'])
-def test_a_display_that_is_not_there_is_none(monkeypatch: pytest.MonkeyPatch,
-                                             display: str) -> None:
+def test_a_missing_display_is_none(monkeypatch: pytest.MonkeyPatch,
+                                   display: str) -> None:
     monkeypatch.setenv('DISPLAY', display)
     assert not has_display()

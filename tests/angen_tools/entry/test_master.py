@@ -1,4 +1,4 @@
-"""Who answers at the address of the ROS master."""
+"""The program at the address of the ROS master."""
 from __future__ import annotations
 
 import socket

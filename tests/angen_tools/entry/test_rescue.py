@@ -27,7 +27,7 @@ def test_the_world_is_taken_once_and_removed_at_the_end(runtime: Path) -> None:
     assert list(runtime.iterdir()) == []
 
 
-def test_nobody_else_may_read_it(runtime: Path) -> None:
+def test_no_other_user_may_read_it(runtime: Path) -> None:
     runtime.mkdir(mode=0o777)
     assert own_folder() == runtime and runtime.stat().st_mode & 0o777 == 0o700
 
@@ -49,7 +49,7 @@ def test_it_gives_up_and_keeps_the_world(runtime: Path, monkeypatch: pytest.Monk
             found.take()
             now[0] += 10.0
     assert 'lost 4 times within 60 s' in str(failed.value)
-    assert capsys.readouterr().err == f'angen: the world as it was is in {found.path}\n'
+    assert capsys.readouterr().err == f'angen: the world is saved in {found.path}\n'
     assert list(runtime.iterdir()) == [found.path]
     assert found.path.read_text() == '3'
 
@@ -61,7 +61,7 @@ def test_a_restart_that_fails_keeps_the_world(runtime: Path,
         world = found.take()
         raise Failure('no ROS master could be started')
     assert world is not None and world.read_text() == '<sdf/>'
-    assert f'the world as it was is in {world}' in capsys.readouterr().err
+    assert f'the world is saved in {world}' in capsys.readouterr().err
 
 
 def test_now_and_then_is_no_reason_to_give_up(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -30,7 +30,7 @@ class Mail:
 
 @pytest.mark.parametrize('targets, later', [([1], False), ([0, 1], False), ([0, 0], True)])
 @pytest.mark.parametrize('together', [False, True])
-def test_an_elevator_that_goes_elsewhere_comes_later(
+def test_an_elevator_with_another_target_comes_later(
         targets: list[int], later: bool, together: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(control, 'Mailbox', Mail)
     states = [ElevatorState(name='lift', target_floor=floor) for floor in targets]

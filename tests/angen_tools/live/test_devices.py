@@ -57,7 +57,7 @@ def followed(simulator: Simulator) -> Devices[Any]:
 
 
 def states(**modes: int) -> DoorStateArray:
-    """Of doors, as with topics:=kind."""
+    """The states of doors, as with topics:=kind."""
     return DoorStateArray(names=list(modes), readings=[
         DoorState(name=name, mode=mode) for name, mode in modes.items()])
 
@@ -69,7 +69,7 @@ def test_states_reach_the_thing_of_their_device(simulator: Simulator) -> None:
     assert doors.of('door')['a'] == {'name': 'a', 'mode': 3}
 
 
-def test_what_comes_goes_and_moves_is_followed(simulator: Simulator) -> None:
+def test_added_removed_and_moved_models_are_followed(simulator: Simulator) -> None:
     doors = followed(simulator)
     simulator.add('door', 'b')
     assert not doors.changed

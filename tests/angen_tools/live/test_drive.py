@@ -20,7 +20,7 @@ def test_arrows_drive_and_turn(key: bytes, expected: tuple[float, float]) -> Non
     assert keys.command(0.0) == expected
 
 
-def test_it_goes_on_while_the_key_repeats_and_stops_after() -> None:
+def test_it_drives_while_the_key_repeats_and_stops_after() -> None:
     keys = Keys()
     keys.read(UP, 10.0)
     last = 10.0 + FIRST_HOLD - 0.01  # when X begins to repeat
@@ -63,7 +63,7 @@ def test_escape_stops_and_swallows_nothing() -> None:
     assert keys.command(0.1) == (0, TURN)
 
 
-def test_speeds_change_and_stay_what_the_robot_can() -> None:
+def test_speeds_change_within_the_limits_of_the_robot() -> None:
     keys = Keys()
     keys.read(UP + b'+', 0.0)
     assert keys.command(0.0) == (SPEED * STEP, 0)

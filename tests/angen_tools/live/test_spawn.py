@@ -1,4 +1,4 @@
-"""What cannot be spawned, without a simulator."""
+"""Errors of angen spawn, without a simulator."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -10,9 +10,9 @@ from angen_tools.cli import main as cli
 
 @pytest.mark.parametrize('source, part', [
     ('http://a/b', 'model://NAME'), ('nowhere', 'neither a file nor a model'), ('', 'give a path')])
-def test_what_is_no_model_is_told(source: str, part: str, tmp_path: Path,
-                                  monkeypatch: pytest.MonkeyPatch,
-                                  capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_wrong_model_is_reported(source: str, part: str, tmp_path: Path,
+                                   monkeypatch: pytest.MonkeyPatch,
+                                   capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.chdir(tmp_path)
     assert cli.run(['spawn', 'model', source, 'm1', '--pose', '0 0 0']) == 1
     line, = capsys.readouterr().err.splitlines()

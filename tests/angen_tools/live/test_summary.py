@@ -70,7 +70,7 @@ def test_what_changes_is_active(board: Board) -> None:
     assert board.time == 2.0
 
 
-def test_a_complete_message_ends_what_was_deleted(board: Board) -> None:
+def test_a_complete_message_removes_deleted_entries(board: Board) -> None:
     board.take(summary.TOPIC, message(entry('lamp', 'kitchen0', 'off'), complete=True))
     assert names(board) == ['kitchen0']
 
@@ -79,6 +79,6 @@ def test_only_a_sensor_that_publishes_by_itself_is_waited_for(board: Board) -> N
     assert [row.name for row in board.rows.values() if row.waits] == ['kitchen_reed']
 
 
-def test_the_statistics_say_whether_time_goes_on(board: Board) -> None:
+def test_the_statistics_say_whether_time_passes(board: Board) -> None:
     board.take(summary.STATS, Stats(paused=True, sim_time=rospy.Time(9)))
     assert board.paused and board.time == 9

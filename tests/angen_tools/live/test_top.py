@@ -22,7 +22,7 @@ def test_the_most_expensive_comes_first_and_equals_by_name() -> None:
     assert top.rows(cost(process=0.0))[0][3] == '0.0 %'
 
 
-def test_the_title_has_the_whole_and_what_is_left_of_it() -> None:
+def test_the_title_has_the_sum_and_the_rest() -> None:
     title = top.title(cost())
     # 200 µs a simulated second, 2 simulated seconds a second: 0.04 % of a processor
     assert 'at 0.0 % of a processor' in title and title.endswith('network 15, the rest 5')

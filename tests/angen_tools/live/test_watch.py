@@ -47,11 +47,11 @@ def test_a_sensor_has_its_period_for_its_first_reading(monkeypatch: pytest.Monke
     assert 0.1 + watch.MARGIN < scene.time < 0.1 + watch.MARGIN + 0.2
 
 
-def test_time_that_stands_still_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_it_does_not_wait_while_time_is_paused(monkeypatch: pytest.MonkeyPatch) -> None:
     assert 'is paused' in once(monkeypatch, Scene(step=0.0, paused=True))[1]
 
 
-def test_only_what_is_chosen_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_it_waits_for_the_selection_only(monkeypatch: pytest.MonkeyPatch) -> None:
     shown, missing = once(monkeypatch, Scene(step=0.0), kinds=['lamp'])
     assert missing == '' and 'pir' not in shown
 
@@ -60,7 +60,7 @@ def test_only_what_is_chosen_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> N
     ({'names': ['kitchen']}, "no sensor or device named 'kitchen'; did you mean kitchen0"),
     ({'kinds': ['lampp']}, "no kind 'lampp'; did you mean lamp"),
     ({'kinds': ['pir,lamp']}, 'did you mean --kind pir --kind lamp')])
-def test_a_filter_must_name_what_there_is(
+def test_a_filter_must_name_existing_entries(
         monkeypatch: pytest.MonkeyPatch, words: dict[str, object], part: str) -> None:
     with pytest.raises(Failure, match=part):
         once(monkeypatch, Scene(), **words)

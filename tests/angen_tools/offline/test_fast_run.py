@@ -64,7 +64,7 @@ def test_it_leaves_the_events_that_all_ticks_would_tell(world: Path, tmp_path: P
     assert f'{walked.readings} readings, {len(expected)} events in {tmp_path}' in done.stdout
 
 
-def test_what_is_wrong_is_told_in_a_line(world: Path, tmp_path: Path) -> None:
+def test_errors_are_reported_in_a_line(world: Path, tmp_path: Path) -> None:
     world.write_text(WORLD.replace('model://pir', 'model://no_such_model'))
     done = run(world, '--for', '1', '-o', tmp_path)
     assert done.returncode == 1 and done.stdout == ''
@@ -191,7 +191,7 @@ def test_pandas_reads_the_readings_with_types(tmp_path: Path) -> None:
     ('0:01,door/bathrom0,Open', "no door is named 'bathrom0'; did you mean bathroom0"),
     ('0:01,dor/bathroom0,Open', "there is no kind 'dor'; did you mean door"),
     ('0:01,door/bathroom0,Opne', "'Opne' is not a command of a door")])
-def test_a_wrong_order_is_told_before_the_day_begins(line: str, part: str, tmp_path: Path) -> None:
+def test_a_wrong_order_is_reported_before_the_day(line: str, part: str, tmp_path: Path) -> None:
     path, day = tmp_path / 'flat.world', tmp_path / 'day.csv'
     path.write_text(FLAT)
     day.write_text(f'time,target,command\n{line}\n')
@@ -200,7 +200,7 @@ def test_a_wrong_order_is_told_before_the_day_begins(line: str, part: str, tmp_p
     assert done.returncode == 1 and said.startswith(f'angen: {day}:2: ') and part in said
 
 
-def test_ctrl_c_says_what_it_kept(world: Path, tmp_path: Path) -> None:
+def test_ctrl_c_reports_the_kept_files(world: Path, tmp_path: Path) -> None:
     readings = tmp_path / 'r.csv.gz'
     process = subprocess.Popen(
         [sys.executable, str(SCRIPT), 'run', '--fast', str(world), '--for', '100d', '--readings',

@@ -35,13 +35,13 @@ def test_plugins_of_a_library() -> None:
     assert [plugin['kind'] for plugin in found] == ['pir']
 
 
-def test_a_reader_that_goes_away_is_no_error_text() -> None:
+def test_a_reader_that_disconnects_is_no_error() -> None:
     done = subprocess.run(['bash', '-c', f'{sys.executable} {SCRIPT} plugins --json | true'],
                           text=True, capture_output=True, timeout=60)
     assert (done.returncode, done.stderr) == (0, '')
 
 
-def test_a_full_disk_is_told_in_one_line() -> None:
+def test_a_full_disk_is_reported_in_one_line() -> None:
     with open('/dev/full', 'w') as full:
         done = angen('plugins', capture_output=False, stdout=full, stderr=subprocess.PIPE)
     assert done.returncode == 1

@@ -52,7 +52,7 @@ def test_the_same_options_give_the_same_bytes(tmp_path: Path) -> None:
     assert write(tmp_path / 'c.world', COUNTS, seed=2) != first
 
 
-def test_every_pir_stands_in_a_room_and_sees_its_walls(path: Path) -> None:
+def test_every_pir_is_in_a_room_and_sees_its_walls(path: Path) -> None:
     models = geometry.load(path)
     plan = placing.generator('plan')
     building = [s for m in models.values() if m.source == 'apartment' for s in geometry.shapes(m)]
@@ -91,7 +91,7 @@ def test_sensors_on_one_link_stand_where_models_would(path: Path, tmp_path: Path
         assert np.allclose(ranges, others, atol=0.08), name  # each has noise of 0.01 m
 
 
-def test_the_robot_goes_round_by_one_order(tmp_path: Path) -> None:
+def test_the_robot_drives_the_round_by_one_order(tmp_path: Path) -> None:
     write(tmp_path / 'a.world', {}, mover='robot')
     world = angen.World(str(tmp_path / 'a.world'))
     plan = placing.generator('plan')
@@ -130,7 +130,7 @@ def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert len(angen.World(str(file)).sensors('pir')) == 3
 
 
-def test_the_command_refuses_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]
+def test_the_command_rejects_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]
                                          ) -> None:
     file = tmp_path / 'out.world'
     words = ['world', 'apartment', '--floors', '1', '-o', str(file)]

@@ -1,4 +1,4 @@
-"""Where sensors are placed."""
+"""The places of sensors."""
 from __future__ import annotations
 
 from collections import Counter
@@ -37,7 +37,7 @@ def test_the_first_sensors_stand_where_the_building_has_them() -> None:
 
 @pytest.mark.parametrize('kind', placing.KINDS)
 def test_more_than_fits_is_an_error(kind: str) -> None:
-    with pytest.raises(Failure, match=rf'a flat holds \d+ {kind} sensors, not 5000'):
+    with pytest.raises(Failure, match=rf'a flat has room for \d+ {kind} sensors, not 5000'):
         placing.placements(kind, 5000, 1, 1)
 
 

@@ -32,7 +32,7 @@ def test_what_is_no_link(link: str) -> None:
         sdf.check_link(link)
 
 
-def test_broken_xml_is_told_with_its_line(tmp_path: Path) -> None:
+def test_broken_xml_is_reported_with_its_line(tmp_path: Path) -> None:
     broken = tmp_path / 'model.sdf'
     broken.write_text('<sdf>\n<model name="a">\n</sdf>')
     with pytest.raises(Failure, match=r'model\.sdf:3: '):

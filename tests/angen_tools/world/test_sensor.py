@@ -19,7 +19,7 @@ def build(kind: str, *settings: str, lone: bool = False) -> etree._Element:
     return sensor.build(kind, 's1', sdf.parse_settings(list(settings)), lone)
 
 
-# Of a robot's joints, which these have not.
+# Kinds for a robot's joints, which these models do not have.
 JOINTED = {'wheel_states', 'odometry', 'joint_states', 'ft_sensor', 'kobuki_odometry',
            'kobuki_wheels'}
 KINDS = {name: kind for name, kind in catalog.kinds('sensor').items() if name not in JOINTED}
