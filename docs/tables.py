@@ -112,7 +112,7 @@ def fields(kind: Kind) -> str:
 
 
 def host(kind: Kind, catalog: dict[str, Kind]) -> Kind | None:
-    """Of a sensor in the library of a device: the device, whose <plugin> element makes both."""
+    """The device of a sensor in its library, whose <plugin> element makes both."""
     if kind['role'] == 'device':
         return None
     hosts = [other for other in catalog.values()

@@ -35,7 +35,7 @@ PHONE = 390, 844
 LIT = ('kitchen0', 'livingroom0', 'bedroom0')
 PLACE, AHEAD = (7.6, 3.2, 0.0), (8.6, 3.2, 0.0)  # of the goal, and where the drag ends
 LIMIT = 180.0  # s; the processor draws
-REST = 5.0  # s until what has changed is drawn
+REST = 5.0  # s until changes are drawn
 PLAIN = '''if (!angen.view) return;
     angen.view.plain = arguments[0]; angen.view.resize(); angen.view.dirty = true;'''
 HAPPENS = 20.0  # s of the day's plot
