@@ -205,8 +205,8 @@ TEST_F(Converter, ThatEndsOrAnswersBadlyIsAnError) {
   EXPECT_NE(complaint_of(program("kill -SEGV $$")).find("is damaged"), std::string::npos);
   EXPECT_NE(complaint_of(program("exit 9")).find("is damaged"), std::string::npos);
   EXPECT_NE(complaint_of(program("kill -XCPU $$")).find("20 s of CPU time"), std::string::npos);
-  EXPECT_NE(complaint_of(program("cat")).find("no whole answer"), std::string::npos);
-  EXPECT_NE(complaint_of(program("exit 0")).find("no whole answer"), std::string::npos);
+  EXPECT_NE(complaint_of(program("cat")).find("is incomplete"), std::string::npos);
+  EXPECT_NE(complaint_of(program("exit 0")).find("is incomplete"), std::string::npos);
   EXPECT_EQ(complaint_of(program("printf 'is \\001 odd'; exit 3")), "is ? odd");
   EXPECT_NE(complaint_of(program("exit 127")).find("does not start"), std::string::npos);
 }

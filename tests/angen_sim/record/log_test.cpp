@@ -246,7 +246,7 @@ TEST(Log, OfAFullDiskCanBeReplayed) {
   session.run(4.0);
   EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
   std::signal(SIGXFSZ, old);
-  EXPECT_NE(session.recorder->error().find("cannot be written any more"), std::string::npos);
+  EXPECT_NE(session.recorder->error().find("can no longer be written"), std::string::npos);
   EXPECT_EQ((*session).snapshot()->time, from_seconds(5.5)) << "the run continues";
   session.end();
   const Replay replay = replayed(folder.log());
