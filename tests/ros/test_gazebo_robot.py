@@ -80,6 +80,8 @@ ROBOT = f"""<robot name="two_wheels">
   <gazebo><plugin name="imu" filename="libgazebo_ros_imu.so"><bodyName>imu_link</bodyName>
     <frameName>imu_link</frameName><topicName>imu</topicName><updateRate>50</updateRate>
   </plugin></gazebo>
+  <gazebo><plugin name="truth" filename="libgazebo_ros_p3d.so"><bodyName>base_footprint</bodyName>
+    <topicName>truth</topicName><frameName>map</frameName></plugin></gazebo>
 </robot>"""
 
 
@@ -140,6 +142,11 @@ def test_it_drives_true_to_its_odometry_and_stands_on_its_wheels(server: Angen) 
                       place()[1] - last.pose.pose.position.y) < 0.005
     steps = [b - a for a, b in zip(stamps, stamps[1:])]
     assert sum(steps) / len(steps) == pytest.approx(1 / 30, rel=0.05)
+
+
+def test_its_truth_names_the_link(server: Angen) -> None:
+    truth = server.wait('/truth', Odometry)
+    assert (truth.header.frame_id, truth.child_frame_id) == ('map', 'base_footprint')
 
 
 def test_its_scan_goes_all_around_in_its_frame(server: Angen) -> None:

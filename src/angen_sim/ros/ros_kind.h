@@ -66,6 +66,7 @@ struct RosKind {
   Frame frame;                   // null: one of its own, or <frameName>
   bool is_camera = false;        // its frame is optical (REP 103)
   bool is_odometry = false;      // it moves <robotBaseFrame> in its frame
+  bool is_truth = false;         // of the link <bodyName> in its frame
   bool is_robot = false;         // a drive with the frames and topics of a Robot
   CommandTopicRule commands;     // of a device
   /// Whether something else publishes a sensor's messages; null: never.
@@ -142,6 +143,11 @@ class RosKindBuilder {
   }
   /// Its frame is <odometryFrame>, in which <robotBaseFrame> moves.
   RosKindBuilder& odometry();
+  /// The true pose of the link <bodyName>.
+  RosKindBuilder& truth() {
+    kind_.is_truth = true;
+    return *this;
+  }
   RosKindBuilder& published_elsewhere(std::function<bool(const sim::SensorEntry&)> where) {
     kind_.published_elsewhere = std::move(where);
     return *this;

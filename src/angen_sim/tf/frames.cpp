@@ -222,6 +222,9 @@ void FrameMaker::add_sensor(const sim::Structure& structure, std::uint32_t numbe
     }
     tree.sensors.push_back(frame);
   }
+  if (kind.is_truth) {  // as the file names it, without a prefix
+    base = value_of({&sensor.desc->plugin_element}, "bodyName", frame_of(link));
+  }
   tree.bases.push_back(std::move(base));
   mounted_.push_back(mounted);
 }

@@ -24,7 +24,7 @@ struct FrameTree {
   sim::SharedArray<FixedFrame> mounts;  // of sensors, on their links
   sim::SharedArray<MovingFrame> moving;
   sim::SharedArray<std::string> sensors;  // frame of each sensor, as Structure::sensors
-  sim::SharedArray<std::string> bases;    // the frame that an odometry among them moves, or empty
+  sim::SharedArray<std::string> bases;    // the frame whose odometry or truth it is, or empty
   sim::SharedArray<std::int32_t>
       moved_by;  // for each link the index in `moving` that carries it, or -1
 

@@ -51,8 +51,10 @@ void fill_transform(const Reading& reading, const Label& label,
   made.transform.rotation = quaternion_in(reading);
 }
 
-/// The truth of a link: velocities are along the axes of the frame.
-void fill_truth(const Reading& reading, const Label&, nav_msgs::Odometry& message) {
+/// The truth of a link: velocities are along the axes of the frame, and the label's name is that
+/// of the link.
+void fill_truth(const Reading& reading, const Label& label, nav_msgs::Odometry& message) {
+  message.child_frame_id = label.name;
   message.pose.pose.position = vector_in<geometry_msgs::Point>(reading, "position");
   message.pose.pose.orientation = quaternion_in(reading);
   message.twist.twist.linear = vector_in<geometry_msgs::Vector3>(reading, "velocity");
@@ -83,9 +85,10 @@ ANGEN_REGISTER_ROS_KIND({"skid_steer_odometry"},
                             .named_message<nav_msgs::Odometry>(&fill, "odom", "odometryTopic")
                             .transform(&fill_transform, "broadcastTF")
                             .odometry());
-ANGEN_REGISTER_ROS_KIND(
-    {"p3d"},
-    RosKindBuilder().named_message<nav_msgs::Odometry>(&fill_truth, "p3d").frame(&frame_of_truth));
+ANGEN_REGISTER_ROS_KIND({"p3d"}, RosKindBuilder()
+                                     .named_message<nav_msgs::Odometry>(&fill_truth, "p3d")
+                                     .frame(&frame_of_truth)
+                                     .truth());
 
 }  // namespace
 }  // namespace angen::node
