@@ -53,6 +53,7 @@ struct Picture {
   std::vector<std::uint8_t> colors;
   std::vector<float> depths;
 
+  std::size_t bytes() const { return colors.size() + sizeof(float) * depths.size(); }
   bool is_from(const PinholeCamera& other, const Pose& from) const {
     return equal(camera, other) && pose == from;
   }
@@ -74,22 +75,24 @@ class Pictures {
     });
     return found == all_.end() ? nullptr : &*found;
   }
-  /// Replaces that of the same camera, or else the oldest one if there are many.
+  /// Replaces that of the same camera; drops the oldest ones while all take too many bytes.
   void add(Picture picture) {
     const auto same = std::find_if(all_.begin(), all_.end(), [&](const Picture& other) {
       return other.is_from(picture.camera, picture.pose);
     });
-    if (same != all_.end()) {
-      all_.erase(same);
-    } else if (all_.size() == kMax) {
+    if (same != all_.end()) all_.erase(same);
+    all_.push_back(std::move(picture));
+    std::size_t bytes = 0;
+    for (const Picture& each : all_) bytes += each.bytes();
+    while (bytes > kMaxBytes && all_.size() > 1) {
+      bytes -= all_.front().bytes();
       all_.erase(all_.begin());
     }
-    all_.push_back(std::move(picture));
   }
   void clear() { all_.clear(); }
 
  private:
-  static constexpr std::size_t kMax = 4;
+  static constexpr std::size_t kMaxBytes = 16U << 20U;  // the newest may be larger
 
   std::vector<Picture> all_;  // in the order of their rendering
 };
