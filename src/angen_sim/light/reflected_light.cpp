@@ -154,9 +154,9 @@ void ReflectedLight::Lattice::near(const Eigen::AlignedBox3f& box, Visit&& visit
     for (int y = low.y(); y <= high.y(); ++y) {
       for (int z = low.z(); z <= high.z(); ++z) {
         const std::uint64_t key = cell_key(x, y, z);
-        const auto cell =
-            std::lower_bound(cells.begin(), cells.end(), key,
-                             [](const Cell& each, std::uint64_t key) { return each.key < key; });
+        const auto cell = std::lower_bound(
+            cells.begin(), cells.end(), key,
+            [](const Cell& each, std::uint64_t other) { return each.key < other; });
         if (cell == cells.end() || cell->key != key) continue;
         for (std::uint32_t i = cell->first; i < cell->first + cell->count; ++i) {
           if (box.contains(pieces[i].position)) visit(pieces[i]);

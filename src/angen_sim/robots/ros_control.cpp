@@ -85,7 +85,7 @@ class JointCommand : public Device {
       const double ahead = view.time() < slope_ends_ ? slope_ : 0.0;
       velocity = std::abs(left) < kThere && ahead == 0.0 ? 0.0 : ahead + left / kResponse;
     }
-    // Only changes: until its first command another drive of the robot may lead the joint.
+    // Sets only changed commands: before the first one another drive may move the joint.
     if (velocity != motor_velocity_) outputs.motor(joint_, velocity, kMax);
     motor_velocity_ = velocity;
     rests_ = interface_ == Interface::kVelocity || velocity == 0.0;
