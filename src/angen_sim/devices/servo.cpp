@@ -9,7 +9,8 @@ namespace angen::devices {
 namespace {
 
 constexpr double kPushedBack = 5.0;  // freed distances
-constexpr double kStanding = 0.25;   // of the rate: an obstacle may stop it
+constexpr double kStanding = 0.5;    // of the rate: an obstacle may stop it
+constexpr double kFlies = 0.5;       // of its greatest velocity, at which it leaves an obstacle
 constexpr double kLoadRamp = 250.0;  // per s: a blow is no load
 
 }  // namespace
@@ -78,7 +79,11 @@ double Servo::feed_forward() const {
 }
 
 void Servo::free(double position, double velocity) {
-  if (settings_.controller == Controller::kProfile) return start(position, velocity, steady_load_);
+  if (settings_.controller == Controller::kProfile) {
+    // An obstacle that gives way lets it fly off; a load that it carries by now does not.
+    const bool flies = std::abs(velocity) > kFlies * settings_.max_velocity;
+    return start(position, velocity, flies ? steady_load_ : load_);
+  }
   blocked_ = false;
   came_to_ = position;
   stalled_ = 0.0;

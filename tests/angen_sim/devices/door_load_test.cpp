@@ -77,6 +77,22 @@ TEST(DoorLoad, ArrivesAgainstALoadThatComesOnTheWay) {
   }
 }
 
+// Such a load looks like an obstacle that holds the leaf: nothing was known of it at the start.
+TEST(DoorLoad, ArrivesAgainstALoadThatComesWithTheCommand) {
+  for (const char* verb : {"Open", "Close"}) {
+    const double against = std::string(verb) == "Open" ? 1.0 : -1.0;
+    const double free = swing(verb, [](double, double) { return 0.0; }).took;
+    for (const double torque : {-100.0, 20.0, 60.0, 80.0, 100.0}) {
+      const Swing found =
+          swing(verb, [&](double, double time) { return time >= 0.0 ? against * torque : 0.0; });
+      printf("%s, at once against %.0f N m: %.2f s, rests at %.4f rad\n", verb, torque, found.took,
+             found.rests);
+      EXPECT_GT(found.took, 0.0) << verb << torque;
+      EXPECT_LT(found.took, 2.0 * free) << verb << torque;
+    }
+  }
+}
+
 TEST(DoorLoad, ArrivesAgainstAClosersSpringAndALeaningFrame) {
   const double free = swing("Open", [](double, double) { return 0.0; }).took;
   for (const double stiffness : {5.0, 20.0, 50.0}) {
