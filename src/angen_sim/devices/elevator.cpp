@@ -14,12 +14,15 @@ namespace angen::devices {
 namespace {
 
 constexpr char kTopic[] = "/gazebo/Elevator_controller";
-constexpr double kArriveError = 0.0005;  // m
-constexpr double kNearError = 0.002;     // m
-constexpr double kArriveSpeed = 0.002;   // m/s
-constexpr double kMaxLag = 0.02;         // m
-constexpr double kStallSpeed = 0.005;    // m/s
-constexpr Nanoseconds kDwell = kSecond;  // between the doors' opening and their shutting
+constexpr double kArriveError = 0.0005;            // m
+constexpr double kNearError = 0.002;               // m
+constexpr double kArriveSpeed = 0.002;             // m/s
+constexpr double kMaxLag = 0.02;                   // m
+constexpr double kStallSpeed = 0.005;              // m/s
+constexpr Nanoseconds kDwell = kSecond;            // between the doors' opening and their shutting
+constexpr double kSlips = 0.1;                     // m/s, against its way: its load is another one
+constexpr Nanoseconds kWeighs = kSecond;           // by its brake, on the way
+constexpr Nanoseconds kWeighsAgain = 3 * kSecond;  // while it is blocked
 
 // Gains and limits are times the moving mass; the limits exclude the weight.
 constexpr PidGains kGains{200.0, 200.0, 25.0, 5.0, -5.0, 5.0, -5.0};
@@ -189,6 +192,7 @@ void Elevator::update(const View& view, Outputs& outputs) {
       phase_ = Phase::kMoving;
     }
   }
+  if (phase_ == Phase::kWeighing) weigh_on_the_way(view, outputs);
   if (phase_ == Phase::kMoving) move(view, outputs);
   show(view, outputs);
 }
@@ -217,6 +221,13 @@ void Elevator::move(const View& view, Outputs& outputs) {
   const JointView lift = view.joint(lift_);
   const double command =
       servo_.update(height_of(target_), lift.position, lift.velocity, to_seconds(view.step()));
+  const bool slips = (rises_ ? -lift.velocity : lift.velocity) > kSlips;
+  if (!plain_ && (slips || (servo_.blocked() && view.time() >= weighs_at_))) {
+    outputs.motor(lift_, 0.0, brake_force_);
+    phase_ = Phase::kWeighing;
+    weighs_at_ = view.time() + kWeighs;
+    return;
+  }
   if (!servo_.arrived()) {
     outputs.force(lift_, plain_ ? command : weighing_.mass() * (command - view.gravity().z()));
     return;
@@ -225,6 +236,21 @@ void Elevator::move(const View& view, Outputs& outputs) {
   phase_ = Phase::kStanding;
   stay_at(target_, view);
   outputs.event("arrived", "floor " + std::to_string(target_));
+}
+
+// Something may have come aboard, or gone, since the doors are shut.
+void Elevator::weigh_on_the_way(const View& view, Outputs& outputs) {
+  if (view.time() < weighs_at_) return;
+  if (weighing_.overloaded()) {
+    phase_ = Phase::kStanding;
+    stops_.push_front(target_);
+    return stay_at(floor_at(view.joint(lift_).position), view);
+  }
+  outputs.motor(lift_, 0.0, 0.0);
+  const JointView lift = view.joint(lift_);
+  if (!servo_.blocked()) servo_.start(lift.position, lift.velocity);
+  weighs_at_ = view.time() + kWeighsAgain;
+  phase_ = Phase::kMoving;
 }
 
 double Elevator::weigh(const JointView& lift, const View& view) const {
@@ -256,7 +282,9 @@ int Elevator::floor_at(double position) const {
 }
 
 Elevator::Mode Elevator::mode() const {
-  if (phase_ != Phase::kMoving) return weighing_.overloaded() ? Mode::kOverloaded : Mode::kIdle;
+  if (phase_ == Phase::kStanding || phase_ == Phase::kShutting) {
+    return weighing_.overloaded() ? Mode::kOverloaded : Mode::kIdle;
+  }
   if (servo_.blocked()) return Mode::kBlocked;
   return rises_ ? Mode::kUp : Mode::kDown;
 }

@@ -30,7 +30,7 @@ class Elevator : public Device {
   Nanoseconds idle_until(const View& view) const override;
 
  private:
-  enum class Phase { kStanding, kShutting, kMoving };
+  enum class Phase { kStanding, kShutting, kMoving, kWeighing };
   enum class Mode { kIdle, kUp, kDown, kBlocked, kOverloaded };
   struct Shown {
     JointView lift;
@@ -43,6 +43,7 @@ class Elevator : public Device {
   void stand(const View& view, Outputs& outputs);
   void serve_next_stop(const View& view, Outputs& outputs);
   void move(const View& view, Outputs& outputs);
+  void weigh_on_the_way(const View& view, Outputs& outputs);
   double weigh(const JointView& lift, const View& view) const;
   std::string detail_of(Mode mode) const;
   int floors() const { return static_cast<int>(heights_.size()); }
@@ -71,9 +72,10 @@ class Elevator : public Device {
   std::deque<int> stops_;
   std::size_t queue_size_ = 1;
   bool started_ = false;
-  int target_ = 0;            // floor
-  bool rises_ = false;        // on the way there
-  Nanoseconds ready_at_ = 0;  // when the doors may shut
+  int target_ = 0;             // floor
+  bool rises_ = false;         // on the way there
+  Nanoseconds ready_at_ = 0;   // when the doors may shut
+  Nanoseconds weighs_at_ = 0;  // when it may weigh on the way, or has done so
   Mode shown_mode_ = Mode::kIdle;
   Doorway::Mode shown_door_ = Doorway::Mode::kClosed;
   Shown shown_;

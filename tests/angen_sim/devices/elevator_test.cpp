@@ -230,6 +230,39 @@ TEST(Elevator, WhoComesAboardWhileItsDoorsShutOpensThemByTheirWeight) {
   EXPECT_NEAR(height(rig), 0.0, 1e-3);
 }
 
+// What appears in the cabin on the way is weighed by the brake: the drive lifts the mass it knows.
+TEST(Elevator, ALoadThatComesOnTheWayIsLiftedOrTold) {
+  for (const double load : {600.0, 800.0}) {
+    for (const double wait : {1.2, 2.5, 4.0}) {  // s: as it leaves, and at some height
+      SCOPED_TRACE(::testing::Message() << load << " kg after " << wait << " s");
+      Bench bench;
+      Rig& rig = add_elevator(bench);
+      bench.run(3.0);
+      rig.command("Floor1");
+      bench.run(wait);
+      const physics::ModelId more =
+          bench.add(box("more", {0, 0, height(rig) + 0.21}, {0.4, 0.4, 0.4}, load));
+      double fell = 0.0;
+      const double took = bench.run_until(30.0, [&] {
+        fell = std::max(fell, -rig.at("lift").velocity);
+        return standing_open(rig, 1);
+      });
+      printf("%.0f kg after %.1f s: %s at %.3f m, fell with %.2f m/s\n", load, wait,
+             rig.mode().c_str(), height(rig), fell);
+      EXPECT_LT(fell, 0.3);
+      EXPECT_NEAR(rig.state().get<double>("load"), load, 0.01 * load);
+      if (load == 600.0) {
+        EXPECT_GT(took, 0.0);
+        continue;
+      }
+      EXPECT_EQ(rig.mode(), "OVERLOADED");
+      EXPECT_EQ(rig.count("overloaded"), 1);
+      bench.world.remove(more);
+      EXPECT_GT(bench.run_until(20.0, [&] { return standing_open(rig, 1); }), 0.0);
+    }
+  }
+}
+
 // EN 81-20, 5.3.6.2.2.1: its doors close with 150 N at most, and open again before they touch.
 TEST(Elevator, ItsLeavesDoNotHurtAPersonInTheDoor) {
   for (const double x : {0.0, 0.12, -0.16}) {
