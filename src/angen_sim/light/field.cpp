@@ -139,7 +139,7 @@ std::int64_t Field::start(Unfinished& work, std::int64_t rays) {
     scene_.cast(first, hits.data(), count, kStanding);
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t patch = link_of(first[i], hits[i]).patch;
-      cost += 1 + cost_of_making(patch);
+      cost += price_of(patch) + cost_of_making(patch);
       reach_patch(patch, work);
     }
     work.cast += count;
@@ -152,7 +152,8 @@ std::int64_t Field::spread(Unfinished& work, std::int64_t rays) {
   std::int64_t cost = 0;
   for (; work.followed < work.solution.patches.size() && cost < rays; ++work.followed) {
     const std::uint32_t patch = work.solution.patches[work.followed];
-    cost += cost_of(patch) + static_cast<std::int64_t>(surfaces_[patch].sites.size());
+    cost +=
+        cost_of(patch) + price_of(patch) * static_cast<std::int64_t>(surfaces_[patch].sites.size());
     follow_patch(work);
   }
   return cost;
@@ -162,7 +163,17 @@ std::int64_t Field::cost_of_making(std::uint32_t patch) {
   if (patch == kNoPatch) return 0;
   if (patch_links_.size() <= patch)
     patch_links_.resize(std::max<std::size_t>(patch + 1, surfaces_.size()));
-  return std::exchange(patch_links_[patch].made, true) ? 0 : kCostToMake;
+  return std::exchange(patch_links_[patch].made, true) ? 0 : kCostToMake * price_of(patch);
+}
+
+/// The cost of a ray from the patch or to it.
+std::int64_t Field::price_of(std::uint32_t patch) {
+  if (patch == kNoPatch) return 1;
+  if (patch_links_.size() <= patch)
+    patch_links_.resize(std::max<std::size_t>(patch + 1, surfaces_.size()));
+  std::int64_t& price = patch_links_[patch].price;
+  if (price == 0) price = scene_.price(surfaces_[patch].sites.front().position);
+  return price;
 }
 
 std::int64_t Field::cost_of(std::uint32_t patch) {
@@ -170,9 +181,12 @@ std::int64_t Field::cost_of(std::uint32_t patch) {
   const std::size_t count = links(patch).size();
   patch_links_[patch].counted = true;
   counted_.push_back(patch);
-  auto cost = static_cast<std::int64_t>(count);
-  for (std::size_t i = 0; i < count; ++i)
-    cost += cost_of_making(patch_links_[patch].links[i].patch);
+  const std::int64_t least = price_of(patch);
+  std::int64_t cost = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t seen = patch_links_[patch].links[i].patch;
+    cost += std::max(least, price_of(seen)) + cost_of_making(seen);
+  }
   return cost;
 }
 

@@ -132,6 +132,7 @@ class Field {
     Eigen::AlignedBox3d reach;
     bool counted = false;     // see cost_of()
     bool made = false;        // making its patch has been counted
+    std::int64_t price = 0;   // of a ray from it in ordinary rays; 0 until it is queried
     std::uint64_t scene = 0;  // the scene's revision in which they were found
   };
   using Box = Eigen::AlignedBox3d;
@@ -145,6 +146,7 @@ class Field {
   std::uint32_t place(const Solution& solution, std::uint32_t patch, bool stale) const;
   Rgb cached_indirect(const Solution& solution, std::uint32_t patch, bool stale);
   std::int64_t cost_of_making(std::uint32_t patch);
+  std::int64_t price_of(std::uint32_t patch);
   const std::vector<Link>& links(std::uint32_t patch);
   Link link_of(const rays::Ray& ray, const rays::Hit& hit);
   std::int64_t update_links(std::uint32_t patch);

@@ -166,7 +166,7 @@ std::int64_t Field::update_links(std::uint32_t patch) {
     const bool misses = known.patch == kNoPatch && !std::isfinite(known.range);
     const bool holds = misses || (known.patch != kNoPatch && surfaces_[known.patch].alive);
     if (holds && std::none_of(near.begin(), near.end(), passed)) continue;
-    cost += kCostToFind;
+    cost += kCostToFind * price_of(patch);
     rays::Hit hit;
     scene_.cast(&again, &hit, 1, kStanding);
     const Link link = link_of(again, hit);

@@ -1,6 +1,7 @@
 #include "rays/layer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "rays/query.h"
@@ -51,6 +52,28 @@ bool query_inside(RTCPointQueryFunctionArguments* args) {
   const Solid& solid = (*cover.solids)[args->primID];
   if (solid.slot == cover.except || !(cover.fixed || solid.anchored)) return false;
   cover.found = cover.found || contains(solid, cover.point);
+  return false;  // keeps the query's radius
+}
+
+struct Crowd {
+  RTCPointQueryContext context;  // first, as in SceneQuery
+  const std::vector<Solid>* solids;
+  Vec3 point;
+  bool fixed;
+  std::int64_t tenths = 0;
+};
+
+/// Measured; an integer, so that the sum is the same in any order.
+std::int64_t tenths_of(const Solid& solid) {
+  if (!solid.mesh) return 1;
+  return 4 * kTenths + std::llround(0.25 * kTenths * solid.mesh->crossed());
+}
+
+bool query_crowd(RTCPointQueryFunctionArguments* args) {
+  auto& crowd = *static_cast<Crowd*>(args->userPtr);
+  const Solid& solid = (*crowd.solids)[args->primID];
+  if (!(crowd.fixed || solid.anchored) || !solid.box.contains(crowd.point)) return false;
+  crowd.tenths += tenths_of(solid);
   return false;  // keeps the query's radius
 }
 
@@ -202,6 +225,19 @@ bool Layer::covers(const Vec3& point, std::uint32_t except) const {
   RTCPointQuery query{at.x(), at.y(), at.z(), 0.0F, 1e-5F};  // m, the rounding of floats
   rtcPointQuery(tree_.scene.get(), &query, &cover.context, query_inside, &cover);
   return cover.found;
+}
+
+std::int64_t Layer::crowd(const Vec3& point) const {
+  if (bounded.empty()) return 0;
+  Crowd crowd;
+  rtcInitPointQueryContext(&crowd.context);
+  crowd.solids = &bounded;
+  crowd.point = point;
+  crowd.fixed = fixed;
+  const Eigen::Vector3f at = point.cast<float>();
+  RTCPointQuery query{at.x(), at.y(), at.z(), 0.0F, 1e-5F};  // m, the rounding of floats
+  rtcPointQuery(tree_.scene.get(), &query, &crowd.context, query_crowd, &crowd);
+  return crowd.tenths;
 }
 
 }  // namespace angen::rays

@@ -46,6 +46,8 @@ struct SceneQuery {
   Hit hit() const;
 };
 
+constexpr std::int64_t kTenths = 10;  // of the time of an ordinary ray
+
 /// Changes of a layer, ascending: none, places of a few moving shapes, of many, any other.
 enum class Changed { kNothing, kFewMoved, kMoved, kAny };
 
@@ -89,6 +91,9 @@ class Layer {
   /// Whether a bounded static or anchored solid other than `except` contains the point (m, world).
   /// Requires prepare().
   bool covers(const Vec3& point, std::uint32_t except) const;
+  /// Tenths of the time of an ordinary ray to test a ray from the point (m, world) against the
+  /// static and anchored shapes whose boxes contain it. Requires prepare().
+  std::int64_t crowd(const Vec3& point) const;
 
  private:
   Changed changed_ = Changed::kNothing;                      // since the last commit()

@@ -31,6 +31,11 @@ void box_of_triangle(const RTCBoundsFunctionArguments* args) {
   *args->bounds_o = padded(box.extend(t.b).extend(t.c));
 }
 
+double area_of(const Eigen::AlignedBox3d& box) {
+  const Vec3 size = box.sizes();
+  return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
+}
+
 bool nearer(Query& q, std::uint32_t triangle) {
   double range = 0.0;
   const Corners t = corners(*q.mesh, triangle);
@@ -52,11 +57,17 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
 
 MeshTree::MeshTree(std::shared_ptr<const TriangleMesh> mesh)
     : mesh_(std::move(mesh)), tree_(box_of_triangle, intersect, nullptr) {
+  double area = 0.0;
   for (const auto& triangle : mesh_->triangles) {
+    Eigen::AlignedBox3d box;
     for (const std::uint32_t corner : triangle) {
-      bounds_.extend(mesh_->vertices.at(corner).cast<double>());
+      box.extend(mesh_->vertices.at(corner).cast<double>());
     }
+    bounds_.extend(box);
+    area += area_of(box);
   }
+  // The mean projected area of a convex solid is a quarter of its surface.
+  if (area > 0.0) crossed_ = area / area_of(bounds_);
   tree_.build(mesh_.get(), mesh_->triangles.size());
 }
 

@@ -303,6 +303,13 @@ bool Scene::covered(const Vec3& point, std::uint32_t except) const {
   return impl_->fixed.covers(point, except) || impl_->moving.covers(point, except);
 }
 
+std::int64_t Scene::price(const Vec3& point) const {
+  constexpr std::int64_t kUsual = 16;  // ordinary rooms have less
+  impl_->prepare(kAll & ~only(Mobility::kMoving));
+  return 1 + std::max<std::int64_t>(
+                 0, (impl_->fixed.crowd(point) + impl_->moving.crowd(point)) / kTenths - kUsual);
+}
+
 Eigen::Vector3f Scene::reflectance(std::uint32_t shape_index) const {
   return impl_->reflectances.at(shape_index);
 }

@@ -125,6 +125,11 @@ class Scene {
   /// and planes contain none.
   bool covered(const Vec3& point, std::uint32_t except) const;
 
+  /// The cost of a ray from the point (m, world) among static and anchored shapes, in ordinary
+  /// rays: more than 1 where boxes of many shapes contain it, or those of meshes that cross
+  /// themselves. Requires commit().
+  std::int64_t price(const Vec3& point) const;
+
   Eigen::Vector3f reflectance(std::uint32_t shape_index) const;
   /// In the order in which they were first warmed, as of the last commit().
   const std::vector<WarmShape>& warm_shapes() const;

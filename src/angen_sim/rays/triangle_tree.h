@@ -17,9 +17,12 @@ class TriangleTree {
                         double& range, std::uint32_t& triangle) const = 0;
   virtual Vec3 normal(std::uint32_t triangle) const = 0;
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
+  /// Triangles whose boxes a ray through `bounds` crosses, on average.
+  double crossed() const { return crossed_; }
 
  protected:
   Eigen::AlignedBox3d bounds_;
+  double crossed_ = 0.0;
 };
 
 }  // namespace angen::rays

@@ -74,6 +74,22 @@ TEST(Layer, QueriesOfAnyMobilitiesBetweenChangesMissNone) {
   EXPECT_GT(hits, 400);
 }
 
+TEST(Layer, ARayFromACrowdCostsMore) {
+  Scene scene;
+  for (int i = 0; i < 3; ++i) add(scene, octahedron(1.0F));
+  add(scene, box(20, 20, 20));
+  scene.commit();
+  EXPECT_EQ(scene.price(Vec3(0.1, 0, 0)), 1);
+  for (int i = 0; i < 20; ++i) add(scene, octahedron(1.0F), {}, Mobility::kMoving);
+  scene.commit();
+  EXPECT_EQ(scene.price(Vec3(0.1, 0, 0)), 1);
+  for (int i = 0; i < 10; ++i) add(scene, octahedron(1.0F));
+  for (int i = 0; i < 10; ++i) add(scene, octahedron(1.0F), {}, Mobility::kAnchored);
+  scene.commit();
+  EXPECT_GT(scene.price(Vec3(0.1, 0, 0)), 50);
+  EXPECT_EQ(scene.price(Vec3(1.1, 0, 0)), 1);
+}
+
 TEST(Layer, SeveralThreadsMayBeTheFirstToAsk) {
   Scene scene;
   const ShapeId id = add(scene, box(1, 1, 1), at(2, 0, 0), Mobility::kMoving);
