@@ -1,4 +1,5 @@
 """A world out of the cache runs as the one that was read from its files."""
+import os
 import random
 import resource
 import subprocess
@@ -42,6 +43,20 @@ def test_cached_world_runs_the_same(path, tmp_path, monkeypatch):
     cached = run(path)
     assert cached.fingerprint == read.fingerprint
     assert cached.save() == read.save()
+
+
+def test_a_pipe_in_place_of_a_cached_file_is_not_opened(tmp_path, monkeypatch):
+    monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path / 'cache'))
+    world = WORLDS / 'angen.world'
+    angen.World(str(world))
+    cached = list((tmp_path / 'cache' / 'angen').iterdir())
+    assert cached
+    for file in cached:
+        file.unlink()
+        os.mkfifo(file)
+    subprocess.run([sys.executable, '-c', f'import angen; angen.World({str(world)!r})'],
+                   check=True, timeout=120)
+    assert all(file.is_file() for file in cached)
 
 
 LOADER = '''

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <vector>
 
+#include "core/plain_file.h"
 #include "core/private_file.h"
 #include "core/random.h"
 
@@ -69,6 +70,7 @@ std::string cache_file(const std::string& key, const std::string& extension) {
 }
 
 std::optional<std::string> read_cache_file(const std::string& file) {
+  if (!is_plain_file(file)) return std::nullopt;
   std::ifstream stream(file, std::ios::binary);
   std::string sum(16, ' ');
   std::ostringstream rest;
