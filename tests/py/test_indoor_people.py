@@ -123,14 +123,15 @@ def test_two_people_on_their_paths_pass_each_other_in_a_corridor(world):
 RAMP, LENGTH = 6 * pi / 180, 6.0
 
 
-def ramp() -> str:
-    """A ramp from x = 0 up to a landing at 6 m cos 6 degrees."""
+def ramp(landing: float = LENGTH * sin(RAMP)) -> str:
+    """A ramp from x = 0 up to a landing, so thick (m), at 6 m cos 6 degrees."""
     thick = 0.2
     middle = (LENGTH / 2 * cos(RAMP) + thick / 2 * sin(RAMP),
               LENGTH / 2 * sin(RAMP) - thick / 2 * cos(RAMP))
     top = LENGTH * sin(RAMP)
     return (box('ramp', f'{middle[0]} 0 {middle[1]} 0 {-RAMP} 0', f'{LENGTH} 2 {thick}', True)
-            + box('landing', f'{LENGTH * cos(RAMP) + 1} 0 {top / 2} 0 0 0', f'2 2 {top}', True))
+            + box('landing', f'{LENGTH * cos(RAMP) + 1} 0 {top - landing / 2} 0 0 0',
+                  f'2 2 {landing}', True))
 
 
 @pytest.mark.parametrize('sent', [True, False])
@@ -146,3 +147,12 @@ def test_a_ramp_of_6_degrees_is_walked_up(world, sent):
     w.command('person', 'ann', 'GoTo -1 0')
     w.run(20.0)
     assert w.device('person', 'ann')['x'] == pytest.approx(-1, abs=0.1)
+
+
+def test_a_landing_with_room_below_is_reached_by_its_ramp(world):
+    w = world(ramp(0.1) + person('ann', '-1 0 0 0 0 0'))
+    w.command('person', 'ann', 'GoTo 7 0')
+    w.run(20.0)
+    state = w.device('person', 'ann')
+    assert state['x'] == pytest.approx(7, abs=0.1)
+    assert state['z'] == pytest.approx(LENGTH * sin(RAMP), abs=0.02)

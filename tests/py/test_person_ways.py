@@ -51,6 +51,7 @@ def events_of(w: angen.World) -> dict[str, list[str]]:
 @pytest.mark.parametrize('goal, told_within', [
     ('3 0', 0.2),      # in a pillar
     ('-4 4', 0.2),     # in a closet without a door
+    ('5 5', 0.2),      # in the top of a bar
     ('8 -8', 60.0),    # in a wardrobe, which could be moved
 ])
 def test_a_person_stops_and_reports_that_no_way_leads_there(world, goal, told_within):
@@ -59,7 +60,8 @@ def test_a_person_stops_and_reports_that_no_way_leads_there(world, goal, told_wi
               + box('c3', '-5 4 1.2 0 0 0', '0.1 2.1 2.4', True)
               + box('c4', '-3 4 1.2 0 0 0', '0.1 2.1 2.4', True))
     wardrobe = box('wardrobe', '8 -8 1.001 0 0 0', '1.6 1.6 2', mass=120.0)
-    w = world(closet + wardrobe + box('pillar', '3 0 1.2 0 0 0', '0.8 0.8 2.4', True)
+    bar = box('bar', '5 5 0.93 0 0 0', '1.6 1.6 0.04', True)
+    w = world(bar + closet + wardrobe + box('pillar', '3 0 1.2 0 0 0', '0.8 0.8 2.4', True)
               + person('0 0 0 0 0 0'))
     w.run(0.5)
     w.command('person', 'ann', f'GoTo {goal}')
@@ -78,6 +80,29 @@ def test_a_person_stops_and_reports_that_no_way_leads_there(world, goal, told_wi
     for now in watch(w, 20.0):
         assert not now['unreachable']
     assert np.linalg.norm(place(w) - (-1, -1)) < 0.1
+
+
+def slab_table(top: float, static: bool) -> str:
+    """A table at x = 3, 2 m wide, whose top of 4 cm is on one thin leg."""
+    return f'''<model name="table"><static>{str(static).lower()}</static><pose>3 0 0 0 0 0</pose>
+  <link name="link"><inertial><pose>0 0 0.1 0 0 0</pose><mass>600</mass><inertia><ixx>90</ixx>
+  <iyy>90</iyy><izz>90</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial>
+  <collision name="top"><pose>0 0 {top - 0.02} 0 0 0</pose><geometry><box>
+  <size>1 2 0.04</size></box></geometry></collision><collision name="leg">
+  <pose>0 0 {top / 2 - 0.02} 0 0 0</pose><geometry><box><size>0.05 0.05 {top - 0.04}</size></box>
+  </geometry></collision></link></model>'''
+
+
+@pytest.mark.parametrize('top, static', [(0.75, False), (0.75, True), (0.95, True), (0.35, True)])
+def test_a_person_walks_round_the_top_of_a_table(world, top, static):
+    w = world(slab_table(top, static) + person('0 0.5 0 0 0 0'))
+    w.run(0.5)
+    w.command('person', 'ann', 'GoTo 6 0.5')
+    before = w.motion('table')[0][:2]
+    for now in watch(w, 20.0):
+        assert now['mode'] != 'BLOCKED'
+    assert np.linalg.norm(place(w) - (6, 0.5)) < 0.1
+    assert np.linalg.norm(w.motion('table')[0][:2] - before) < 0.01
 
 
 def test_a_person_finds_the_way_through_other_rooms(world):

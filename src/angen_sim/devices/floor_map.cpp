@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -12,9 +13,12 @@ namespace angen::devices {
 namespace {
 
 constexpr rays::Mobilities kStatic = rays::only(rays::Mobility::kStatic);
-constexpr double kScanHeights[] = {0.15, 0.5, 1.2};  // m, as a person sees
-constexpr double kDetour = 20.0;                     // m around both places
-constexpr double kBorder = 1.0;                      // m around the static shapes
+constexpr double kScanHeights[] = {0.15, 0.5, 0.738, 1.2};  // m, as a person sees
+constexpr double kLow = 0.2;                                // m, of what is walked over
+constexpr double kHead = 1.6;                               // m
+constexpr double kProbeStep = 0.2;                          // m
+constexpr double kDetour = 20.0;                            // m around both places
+constexpr double kBorder = 1.0;                             // m around the static shapes
 constexpr double kMaxMapCells = 4e6;
 constexpr double kTightMap = 3.0;    // per meter nearer to something than kRoomyMap
 constexpr double kInside = 0.3;      // m from the surface: deeper places need no distances
@@ -59,7 +63,8 @@ FloorMap::FloorMap(const View& view, const Vec3& feet, const Vec2& to, Extent ex
   squares_.assign(static_cast<std::size_t>(columns_) * rows_, kRoomyMap * kRoomyMap);
   toll_.assign(squares_.size(), 0.0F);
   known_.assign(squares_.size(), 0);
-  for (const int axis : {0, 1}) scan_lines(view, axis);
+  scan({std::begin(kScanHeights), std::end(kScanHeights)}, view);
+  scan(other_heights(view), view);
 }
 
 Eigen::AlignedBox2d FloorMap::area(const View& view, const Eigen::AlignedBox2d& ends) {
@@ -79,8 +84,35 @@ bool FloorMap::serves(const View& view, const Vec3& feet, const Vec2& to) const 
   return other.min() == area_.min() && other.max() == area_.max();
 }
 
+// Of tops and boards over free places, which are between the heights of the scan.
+std::vector<double> FloorMap::other_heights(const View& view) const {
+  std::vector<double> heights;
+  const int step = static_cast<int>(kProbeStep / kCell);
+  for (int y = 0; y < rows_; y += step) {
+    for (int x = 0; x < columns_; x += step) {
+      const int cell = y * columns_ + x;
+      if (gap(cell) < kClearance) continue;
+      const Vec2 at = place(cell);
+      const auto crossed = view.crossings({at.x(), at.y(), floor_ + kHead},
+                                          {at.x(), at.y(), floor_ + kLow}, kStatic);
+      for (const rays::Crossing& c : crossed) {
+        heights.push_back(kFloorStep *
+                          std::round((kHead - 0.5 * (c.enter + c.leave)) / kFloorStep));
+      }
+    }
+  }
+  std::sort(heights.begin(), heights.end());
+  heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+  return heights;
+}
+
+void FloorMap::scan(const std::vector<double>& heights, const View& view) {
+  if (heights.empty()) return;
+  for (const int axis : {0, 1}) scan_lines(heights, view, axis);
+}
+
 // Lines along both axes, so that none of two is along a thin wall.
-void FloorMap::scan_lines(const View& view, int axis) {
+void FloorMap::scan_lines(const std::vector<double>& heights, const View& view, int axis) {
   const int lines = axis == 0 ? rows_ : columns_;
   const double length = kCell * ((axis == 0 ? columns_ : rows_) - 1);
   const Vec2 ahead = Vec2::Unit(axis);
@@ -90,7 +122,7 @@ void FloorMap::scan_lines(const View& view, int axis) {
     from[1 - axis] += line * kCell;
     const Vec2 to = from + length * ahead;
     spans.clear();
-    for (const double height : kScanHeights) {
+    for (const double height : heights) {
       const double z = floor_ + height;
       for (const rays::Crossing& c :
            view.crossings({from.x(), from.y(), z}, {to.x(), to.y(), z}, kStatic)) {

@@ -48,7 +48,9 @@ class FloorMap {
   struct Search;
 
   static Eigen::AlignedBox2d area(const View& view, const Eigen::AlignedBox2d& ends);
-  void scan_lines(const View& view, int axis);
+  void scan(const std::vector<double>& heights, const View& view);
+  void scan_lines(const std::vector<double>& heights, const View& view, int axis);
+  std::vector<double> other_heights(const View& view) const;  // m above the floor
   void add_span(const Vec2& enter, const Vec2& leave);
   void add_point(const Vec2& point);
   int column(double x) const;

@@ -16,10 +16,14 @@ namespace {
 using Vec2 = Surroundings::Vec2;
 
 constexpr int kDirections = 48;
-constexpr double kHeights[] = {0.15, 0.5, 1.2};  // m
-constexpr double kBeyond = 0.1;                  // m
-constexpr double kGraze = 1e-3;                  // m
-constexpr double kOwn = 0.255;                   // m, up to the person's own surface
+constexpr double kKnee = 0.5;                                // m
+constexpr double kChest = 1.2;                               // m
+constexpr double kHeights[] = {0.15, kKnee, 0.738, kChest};  // m; one is in the tops of tables
+constexpr double kLow = 0.2;                                 // m, of what is walked over
+constexpr double kHead = 1.6;                                // m
+constexpr double kBeyond = 0.1;                              // m
+constexpr double kGraze = 1e-3;                              // m
+constexpr double kOwn = 0.255;                               // m, up to the person's own surface
 
 constexpr float kSlope = 0.94F;      // cosine of 20 degrees: a less steep surface is walked up
 constexpr double kStride = 0.1;      // m, in which a slope is looked at …
@@ -236,10 +240,11 @@ bool Surroundings::is_walkable(const View& view, const Vec3& feet, const Vec2& t
     if (below.empty() || below[0].normal.z() < kSlope) return false;
     const Vec3 next = above - below[0].enter * Vec3::UnitZ();
     if (std::abs(next.z() - last.z()) > kRise) return false;
-    for (const double height : {kHeights[1], kHeights[2]}) {
+    for (const double height : {kKnee, kChest}) {
       const Vec3 up = height * Vec3::UnitZ();
       if (!crossed(last + up, next + up).empty()) return false;
     }
+    if (!crossed(next + kHead * Vec3::UnitZ(), next + kLow * Vec3::UnitZ()).empty()) return false;
     last = next;
   }
   return true;
