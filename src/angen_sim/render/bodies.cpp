@@ -65,13 +65,6 @@ void occlude(const RTCOccludedFunctionNArguments* args) {
   }
 }
 
-Face in_world(const Placed& placed, Face face) {
-  for (Eigen::Vector3f& corner : face.corners) {
-    corner = placed.rotation * corner + placed.position;
-  }
-  return face;
-}
-
 }  // namespace
 
 Patch::Patch(const std::vector<std::pair<const Body*, Pose>>& bodies)
@@ -228,95 +221,6 @@ Eigen::Vector3f Patch::color(const Facet& facet, float u, float v) const {
   const std::array<float, 6>& at = corners_[facet.corners];
   const float w = 1.0F - u - v;
   return finish.texture->at(w * at[0] + u * at[2] + v * at[4], w * at[1] + u * at[3] + v * at[5]);
-}
-
-Instances::Instances() : seen_(rtcNewScene(rays::device())), opaque_(rtcNewScene(rays::device())) {
-  for (const RTCScene scene : {seen_.get(), opaque_.get()}) {
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    rtcCommitScene(scene);
-  }
-}
-
-std::uint32_t Instances::add(std::unique_ptr<Patch> patch, const Pose& pose, bool throws_shadows) {
-  const auto number = static_cast<std::uint32_t>(placed_.size());
-  Placed placed;
-  placed.instance.reset(rtcNewGeometry(rays::device(), RTC_GEOMETRY_TYPE_INSTANCE));
-  rtcSetGeometryInstancedScene(placed.instance.get(), patch->scene());
-  placed.patch = std::move(patch);
-  placed.shines_through = !throws_shadows;
-  rtcAttachGeometryByID(seen_.get(), placed.instance.get(), number);
-  if (throws_shadows) rtcAttachGeometryByID(opaque_.get(), placed.instance.get(), number);
-  placed_.push_back(std::move(placed));
-  place(number, pose);
-  return number;
-}
-
-void Instances::place(std::uint32_t number, const Pose& pose) {
-  Placed& placed = placed_[number];
-  Eigen::Matrix<float, 3, 4> transform;
-  transform.leftCols<3>() = pose.rotation.normalized().toRotationMatrix().cast<float>();
-  transform.col(3) = pose.position.cast<float>();
-  placed.rotation = transform.leftCols<3>();
-  placed.position = transform.col(3);
-  rtcSetGeometryTransform(placed.instance.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
-                          transform.data());
-  rtcCommitGeometry(placed.instance.get());
-}
-
-void Instances::clear() {
-  for (std::uint32_t i = 0; i < placed_.size(); ++i) {
-    rtcDetachGeometry(seen_.get(), i);
-    if (!placed_[i].shines_through) rtcDetachGeometry(opaque_.get(), i);
-  }
-  placed_.clear();
-}
-
-void Instances::commit() {
-  rtcCommitScene(seen_.get());
-  rtcCommitScene(opaque_.get());
-  std::vector<Box> boxes;
-  boxed_.clear();
-  for (std::uint32_t i = 0; i < placed_.size(); ++i) {
-    const Placed& placed = placed_[i];
-    if (placed.shines_through || placed.patch->is_empty()) continue;
-    const Box& own = placed.patch->bounds();
-    const Eigen::Vector3f center = placed.rotation * own.center() + placed.position;
-    const Eigen::Vector3f half = placed.rotation.cwiseAbs() * own.sizes() / 2.0F;
-    boxes.emplace_back(center - half, center + half);
-    boxed_.push_back(i);
-  }
-  boxes_.build(std::move(boxes));
-}
-
-bool Instances::find_face(const Eigen::Vector3f& from, const Eigen::Vector3f& to,
-                          Face& face) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRayHit ray{};
-  rays::aim(ray.ray, from.cast<double>(), (to - from).cast<double>(), 0.0, 1.0);
-  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(opaque_.get(), &context, &ray);
-  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  face.count = 0;
-  if (ray.hit.geomID != 0) return true;  // a heightmap
-  const Placed& placed = placed_[ray.hit.instID[0]];
-  face = in_world(placed, placed.patch->face(ray.hit.primID));
-  return true;
-}
-
-bool Instances::find_in(const Hull& hull, Faces& faces) const {
-  faces.count = 0;
-  return !boxes_.any([&](const Box& box) { return hull.overlaps(box); },
-                     [&](std::uint32_t i) {
-                       const Placed& placed = placed_[boxed_[i]];
-                       const std::size_t before = faces.count;
-                       const Hull from_there = hull.seen_from(placed.rotation, placed.position);
-                       if (!placed.patch->find_in(from_there, faces)) return true;
-                       for (std::size_t k = before; k < faces.count; ++k) {
-                         faces.all[k] = in_world(placed, faces.all[k]);
-                       }
-                       return false;
-                     });
 }
 
 }  // namespace angen::render

@@ -81,42 +81,4 @@ class Patch {
   BoxTree boxes_;  // of the faces, then of the heightmaps
 };
 
-/// A patch with its place in the world.
-struct Placed {
-  std::unique_ptr<Patch> patch;
-  Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
-  Eigen::Vector3f position = Eigen::Vector3f::Zero();
-  bool shines_through = false;
-  rays::Embree<RTCGeometry> instance;
-};
-
-/// All patches, in two hierarchies: visible ones, and those that throw shadows.
-class Instances {
- public:
-  Instances();
-
-  /// Adds a patch; returns its number, which is the instance's in both hierarchies.
-  std::uint32_t add(std::unique_ptr<Patch> patch, const Pose& pose, bool throws_shadows);
-  void place(std::uint32_t number, const Pose& pose);
-  void clear();
-  void commit();
-
-  const Placed& operator[](std::uint32_t number) const { return placed_[number]; }
-  RTCScene seen() const { return seen_.get(); }
-  RTCScene opaque() const { return opaque_.get(); }
-
-  /// Finds the first opaque face on the way; one of 0 corners is not a polygon. False without one.
-  bool find_face(const Eigen::Vector3f& from, const Eigen::Vector3f& to, Face& face) const;
-  /// Finds the opaque faces in the hull, perhaps some beside it; false if they are too many, or not
-  /// all are polygons.
-  bool find_in(const Hull& hull, Faces& faces) const;
-
- private:
-  std::vector<Placed> placed_;
-  std::vector<std::uint32_t> boxed_;  // the opaque ones
-  BoxTree boxes_;                     // of these
-  rays::Embree<RTCScene> seen_;
-  rays::Embree<RTCScene> opaque_;
-};
-
 }  // namespace angen::render

@@ -125,7 +125,7 @@ ColorWriter::ColorWriter(const Instances& instances, const Illumination& by, int
       pixels_(pixels),
       depths_(width, depths),
       sights_(instances, by.lamps) {
-  if (by.ambience.reflected) reflected_.emplace(*by.ambience.reflected, instances.opaque());
+  if (by.ambience.reflected) reflected_.emplace(*by.ambience.reflected, instances);
 }
 
 void ColorWriter::begin_row_of_blocks() {
@@ -181,7 +181,8 @@ void ColorWriter::shine(std::size_t lamp, const BlockView& view) {
     if (!reach.intersects(tile.seen)) continue;
     const Sight part = sight == Sight::kAll ? sight : sights_.of_part(lamp, tile.starts);
     if (part == Sight::kNone) continue;
-    render::shine(by_.lamps[lamp], part == Sight::kAll ? nullptr : instances_.opaque(), tile);
+    const Among among = part == Sight::kAll ? Among{false, false} : sights_.among();
+    render::shine(by_.lamps[lamp], instances_, among, tile);
   }
 }
 

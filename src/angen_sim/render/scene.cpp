@@ -126,8 +126,8 @@ struct Scene::Impl {
         entry.number = instances.add(std::move(patch), entry.body.pose, !entry.body.holds_lamp);
       }
     });
-    const std::uint32_t fixed = instances.add(std::make_unique<Patch>(still), Pose{}, true);
-    reaches.start(instances[fixed].patch->scene());
+    instances.set_fixed(std::make_unique<Patch>(still));
+    reaches.start(instances.fixed().scene());
   }
 
   void prepare() {

@@ -74,26 +74,23 @@ void set_segments(const Columns& from, const Columns& way, RTCRay16& rays) {
   }
 }
 
-/// Sets tfar of rays with a hit below 0.
-void find_occluded(const int* wanted, RTCScene opaque, RTCRay16& rays) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded16(wanted, opaque, &context, &rays);
-}
-
 /// Which points are visible from another, as bits; see light::ReflectedLookup.
 std::uint32_t seen_from(const Eigen::Vector3f& from, const Eigen::Vector3f* to, int count,
-                        RTCScene opaque) {
+                        const Instances& instances) {
   alignas(64) int wanted[kLanes] = {};
   alignas(64) RTCRay16 rays;
   Columns all, way;
   all.set_all(from);
+  Box box(from);
   for (int i = 0; i < count; ++i) {
     wanted[i] = -1;
     way.set(i, to[i] - from);
+    box.extend(to[i]);
   }
   set_segments(all, way, rays);
-  find_occluded(wanted, opaque, rays);
+  box.min().array() -= kLift;
+  box.max().array() += kLift;
+  instances.find_occluded(wanted, {true, instances.has_opaque_mover_in(box)}, rays);
   std::uint32_t seen = 0;
   for (int i = 0; i < count; ++i) {
     if (rays.tfar[i] >= 0.0F) seen |= 1U << i;
@@ -105,7 +102,7 @@ std::uint32_t seen_from(const Eigen::Vector3f& from, const Eigen::Vector3f* to, 
 
 static_assert(light::ReflectedLookup::kMax == kLanes);
 
-void shine(const light::Lit& lit, RTCScene opaque, Tile& tile) {
+void shine(const light::Lit& lit, const Instances& instances, const Among& among, Tile& tile) {
   Columns way;
   const Lanes facing = facing_illuminance(lit, tile, way);
   Lanes cosine = tile.normal.dot(way) / lengths(way);
@@ -121,10 +118,10 @@ void shine(const light::Lit& lit, RTCScene opaque, Tile& tile) {
     any = any || wanted[i] != 0;
   }
   if (!any) return;
-  if (lit.lamp.cast_shadows && opaque != nullptr) {
+  if (lit.lamp.cast_shadows && !among.none()) {
     alignas(64) RTCRay16 rays;
     set_segments(tile.lifted, way, rays);
-    find_occluded(wanted, opaque, rays);
+    instances.find_occluded(wanted, among, rays);
     for (int i = 0; i < kLanes; ++i) {
       if (!(rays.tfar[i] >= 0.0F)) illuminance[i] = 0.0F;
     }
@@ -134,9 +131,9 @@ void shine(const light::Lit& lit, RTCScene opaque, Tile& tile) {
   tile.light.z += illuminance * lit.lamp.color.z();
 }
 
-Reflections::Reflections(const light::ReflectedLight& light, RTCScene opaque)
-    : lookup_(light, [opaque](const auto& from, const auto* to, int count) {
-        return seen_from(from, to, count, opaque);
+Reflections::Reflections(const light::ReflectedLight& light, const Instances& instances)
+    : lookup_(light, [&instances](const auto& from, const auto* to, int count) {
+        return seen_from(from, to, count, instances);
       }) {}
 
 const Reflections::Known* Reflections::find(const Some& all, int count,

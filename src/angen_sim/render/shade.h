@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "light/reflected_light.h"
-#include "render/bodies.h"
+#include "render/instances.h"
 #include "render/tracer.h"
 
 namespace angen::render {
@@ -48,15 +48,15 @@ struct alignas(64) Tile {
   Box starts;       // around the lifted points
 };
 
-/// Adds the direct light of one lamp to each point; without a scene nothing is in its way.
-void shine(const light::Lit& lit, RTCScene opaque, Tile& tile);
+/// Adds the direct light of one lamp to each point; only those bodies may be in its way.
+void shine(const light::Lit& lit, const Instances& instances, const Among& among, Tile& tile);
 
 /// Reflected light on tiles. It varies over decimeters: near points that face the same way get the
 /// same, as the last tile's do. Tiles of a strip come from left to right, so that images do not
 /// depend on which thread has which strips.
 class Reflections {
  public:
-  Reflections(const light::ReflectedLight& light, RTCScene opaque);
+  Reflections(const light::ReflectedLight& light, const Instances& instances);
 
   /// Begins a row of blocks.
   void start() { strips_ = {}; }

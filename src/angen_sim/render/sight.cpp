@@ -22,7 +22,8 @@ bool Sights::hides(std::size_t lamp, const Hull& rays, const Eigen::Vector3f& fr
 
 Sight Sights::of(std::size_t lamp, const Box& points) {
   const light::Lamp& at = lamps_[lamp].lamp;
-  has_all_ = false;
+  obstacles_.faces.count = 0;
+  obstacles_.unknown = {true, true};
   if (at.type == light::Lamp::Type::kDirectional) return Sight::kSome;
   if (!at.cast_shadows) return Sight::kAll;
   const Hull rays = hull_of(lamp, points);
@@ -31,20 +32,21 @@ Sight Sights::of(std::size_t lamp, const Box& points) {
   bool is_free = false;
   if (hides(lamp, rays, points.center(), position, is_free)) return Sight::kNone;
   if (!is_free && hides(lamp, rays, position, points.center(), is_free)) return Sight::kNone;
-  has_all_ = instances_.find_in(rays, faces_);
-  return has_all_ && faces_.count == 0 ? Sight::kAll : Sight::kSome;
+  instances_.find_in(rays, obstacles_);
+  return obstacles_.unknown.none() && obstacles_.faces.count == 0 ? Sight::kAll : Sight::kSome;
 }
 
 Sight Sights::of_part(std::size_t lamp, const Box& points) {
-  if (!has_all_) return Sight::kSome;
+  among_ = obstacles_.unknown;
+  if (among_.fixed && among_.movers) return Sight::kSome;
+  const Faces& faces = obstacles_.faces;
   const Hull rays = hull_of(lamp, points);
-  bool is_free = true;
-  for (std::size_t i = 0; i < faces_.count; ++i) {
-    if (!rays.overlaps(faces_.all[i])) continue;
-    if (rays.is_cut_by(faces_.all[i])) return Sight::kNone;
-    is_free = false;
+  for (std::size_t i = 0; i < faces.count; ++i) {
+    if (!rays.overlaps(faces.all[i])) continue;
+    if (rays.is_cut_by(faces.all[i])) return Sight::kNone;
+    (i < obstacles_.moving ? among_.movers : among_.fixed) = true;
   }
-  return is_free ? Sight::kAll : Sight::kSome;
+  return among_.none() ? Sight::kAll : Sight::kSome;
 }
 
 }  // namespace angen::render

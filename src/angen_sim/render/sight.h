@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "light/lamp.h"
-#include "render/bodies.h"
+#include "render/instances.h"
 
 namespace angen::render {
 
@@ -21,6 +21,8 @@ class Sights {
   Sight of(std::size_t lamp, const Box& points);
   /// The same for some of the points of the last box, if its answer was kSome.
   Sight of_part(std::size_t lamp, const Box& points);
+  /// The bodies that may hide the lamp from some points of the last part, if its answer was kSome.
+  const Among& among() const { return among_; }
 
  private:
   Hull hull_of(std::size_t lamp, const Box& points) const;
@@ -30,8 +32,8 @@ class Sights {
   const Instances& instances_;
   const std::vector<light::Lit>& lamps_;
   std::vector<Face> last_;  // for each lamp: the face that hid it last
-  Faces faces_;             // between the last box and its lamp
-  bool has_all_ = false;    // faces_ are all of them
+  Obstacles obstacles_;     // between the last box and its lamp
+  Among among_;
 };
 
 }  // namespace angen::render

@@ -11,6 +11,7 @@ namespace {
 constexpr float kHousing = 0.5F;    // m, in depth: largest distance of a housing's walls
 constexpr float kPastWall = 1e-5F;  // m
 constexpr int kMaxWalls = 8;
+constexpr double kFarAway = 1e5;           // m; hulls are inexact beyond
 constexpr int kPixelsOfAThread = 1 << 13;  // fewer are not worth its start
 
 /// The camera's rays, one tile at a time. The length of a direction makes its range the depth.
@@ -22,7 +23,7 @@ class Eye {
     ahead_ = rotation.col(0);
     right_ = -rotation.col(1) / camera.focal();
     down_ = -rotation.col(2) / camera.focal();
-    for (int x = 0; x < camera.width + kTile; ++x) {
+    for (int x = 0; x < camera.width + kBlock; ++x) {
       columns_.push_back(ahead_ + (x - camera.center_x()) * right_);
     }
   }
@@ -38,6 +39,18 @@ class Eye {
       rays.ray.id[i] = 0;
       rays.ray.flags[i] = 0;
     }
+  }
+
+  /// False only if the rays of the block at that pixel meet no mover.
+  bool may_meet_movers(int column, int row, const Instances& instances) const {
+    if (!camera_.distortion.none() || !(camera_.far < kFarAway)) return true;
+    Box ends;
+    for (const int x : {column, column + kBlock - 1}) {
+      for (const int y : {row, row + kBlock - 1}) {
+        ends.extend(origin_ + (camera_.far * toward(x, y)).cast<float>());
+      }
+    }
+    return instances.has_mover_in(Hull(Box(origin_), ends));
   }
 
   void aim(int column, int row, int* valid, RTCRayHit16& rays) const {
@@ -97,9 +110,7 @@ void leave_housing(const Instances& instances, float far, const int* valid, RTCR
       rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
     if (!any) return;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect16(inside, instances.seen(), &context, &rays);
+    instances.find_hits(inside, {}, RTC_INTERSECT_CONTEXT_FLAG_NONE, rays);
   }
 }
 
@@ -124,13 +135,11 @@ class Tracer {
   void trace_block(int first_column, int first_row) {
     const int columns = std::min(camera_.width, first_column + kBlock);
     const int rows = std::min(camera_.height, first_row + kBlock);
+    const Among among{true, eye_.may_meet_movers(first_column, first_row, instances_)};
     for (int row = first_row; row < rows; row += kTile) {
       for (int column = first_column; column < columns; column += kTile) {
         eye_.aim(column, row, valid_, rays_);
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        rtcIntersect16(valid_, instances_.seen(), &context, &rays_);
+        instances_.find_hits(valid_, among, RTC_INTERSECT_CONTEXT_FLAG_COHERENT, rays_);
         leave_housing(instances_, static_cast<float>(camera_.far), valid_, rays_);
         visitor_->add({column, row, valid_, rays_});
       }

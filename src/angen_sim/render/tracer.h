@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "render/bodies.h"
+#include "render/instances.h"
 #include "render/pinhole_camera.h"
 
 namespace angen::render {

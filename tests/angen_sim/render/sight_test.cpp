@@ -5,7 +5,6 @@
 #include <array>
 
 #include "core/random.h"
-#include "rays/query.h"
 #include "render/shade.h"
 #include "scene_view.h"
 
@@ -24,15 +23,15 @@ class Room {
     for (int i = 0; i < 10; ++i) {
       still_.push_back(body(box(0.6, 0.4, 0.8), {place(rng, 0.4), from_rpy(0, 0, i % 3)}));
     }
-    std::vector<std::pair<const Body*, Pose>> placed;
-    for (const Body& each : still_) placed.emplace_back(&each, each.pose);
-    instances_.add(std::make_unique<Patch>(placed), Pose{}, true);
     for (int i = 0; i < 12; ++i) {
       const Shape shape = i % 2 == 0 ? box(0.3, 0.3, 0.9) : round(Shape::Type::kSphere, 0.2);
       const Body mover = body(shape, Pose{});
       auto patch = std::make_unique<Patch>(std::vector<std::pair<const Body*, Pose>>{{&mover, {}}});
       instances_.add(std::move(patch), {place(rng, 0.5), from_rpy(0.1 * i, 0.0, i)}, i % 5 != 0);
     }
+    std::vector<std::pair<const Body*, Pose>> placed;
+    for (const Body& each : still_) placed.emplace_back(&each, each.pose);
+    instances_.set_fixed(std::make_unique<Patch>(placed));
     instances_.commit();
   }
 
@@ -40,13 +39,19 @@ class Room {
     return {7.0 * rng.uniform() - 3.5, 7.0 * rng.uniform() - 3.5, z};
   }
 
-  bool sees(const Eigen::Vector3f& from, const Eigen::Vector3f& to) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRay ray{};
-    rays::aim(ray, from.cast<double>(), (to - from).cast<double>(), 0.0, 1.0);
-    rtcOccluded1(instances_.opaque(), &context, &ray);
-    return ray.tfar >= 0.0F;
+  bool sees(const Eigen::Vector3f& from, const Eigen::Vector3f& to, const Among& among = {}) const {
+    alignas(64) int wanted[kLanes] = {-1};
+    alignas(64) RTCRay16 rays{};
+    rays.org_x[0] = from.x();
+    rays.org_y[0] = from.y();
+    rays.org_z[0] = from.z();
+    rays.dir_x[0] = to.x() - from.x();
+    rays.dir_y[0] = to.y() - from.y();
+    rays.dir_z[0] = to.z() - from.z();
+    rays.tfar[0] = 1.0F;
+    rays.mask[0] = UINT32_MAX;
+    instances_.find_occluded(wanted, among, rays);
+    return rays.tfar[0] >= 0.0F;
   }
 
   const Instances& instances() const { return instances_; }
@@ -76,6 +81,17 @@ void expect_seen(const Room& room, const light::Lit& lamp, const Box& points, Si
   }
 }
 
+/// Expects that rays from the points are hidden by those bodies or not at all.
+void expect_hidden_by(const Room& room, const light::Lit& lamp, const Box& points,
+                      const Among& among, Rng& rng) {
+  const Eigen::Vector3f to = lamp.lamp.pose.position.cast<float>();
+  for (int k = 0; k < 20; ++k) {
+    const Eigen::Vector3f share = Vec3(rng.uniform(), rng.uniform(), rng.uniform()).cast<float>();
+    const Eigen::Vector3f from = points.min() + share.cwiseProduct(points.sizes());
+    ASSERT_EQ(room.sees(from, to, among), room.sees(from, to));
+  }
+}
+
 Box part_of(const Box& points, Rng& rng) {
   Box part;
   for (int i = 0; i < 2; ++i) {
@@ -92,6 +108,7 @@ TEST(Sights, AreThoseOfEachRay) {
   for (int i = 0; i < 6; ++i) lamps.push_back(lamp(Room::place(rng, 2.2), 800.0));
   Sights sights(room.instances(), lamps);
   std::array<int, 3> counts{}, part_counts{};
+  int only_some = 0;  // only fixed bodies, or only movers, may hide the lamp
   for (int i = 0; i < 6000; ++i) {
     const Box points = points_on_a_surface(rng);
     const std::size_t number = rng.next() % lamps.size();
@@ -103,11 +120,16 @@ TEST(Sights, AreThoseOfEachRay) {
       const Sight of_part = sights.of_part(number, part);
       ++part_counts[static_cast<std::size_t>(of_part)];
       expect_seen(room, lamps[number], part, of_part, rng);
+      if (of_part == Sight::kSome) {
+        expect_hidden_by(room, lamps[number], part, sights.among(), rng);
+        only_some += sights.among().fixed && sights.among().movers ? 0 : 1;
+      }
     }
     ASSERT_FALSE(HasFatalFailure()) << i;
   }
   for (const int count : counts) EXPECT_GT(count, 300);
   for (const int count : part_counts) EXPECT_GT(count, 300);
+  EXPECT_GT(only_some, 300);
 }
 
 TEST(Sights, DoNotDependOnEarlierBoxes) {
