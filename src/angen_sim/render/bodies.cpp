@@ -96,7 +96,7 @@ void Patch::build_boxes() {
 }
 
 bool Patch::find_in(const Hull& hull, Faces& found) const {
-  return !boxes_.any([&](const Box& box) { return hull.overlaps(box); },
+  return !boxes_.any([&](const Boxes4& boxes) { return hull.overlaps(boxes); },
                      [&](std::uint32_t i) {
                        if (i >= faces_.size() || found.count == found.all.size()) return true;
                        found.all[found.count++] = faces_[i];

@@ -102,33 +102,59 @@ Order divide(const std::vector<Box>& boxes, Order begin, Order end) {
 
 void BoxTree::build(std::vector<Box> boxes) {
   struct Part {
-    std::size_t node, begin, end;
+    std::size_t begin, end;
   };
   nodes_.clear();
+  bounds_.setEmpty();
   if (boxes.empty()) return;
   std::vector<std::uint32_t> order(boxes.size());
   std::iota(order.begin(), order.end(), 0U);
-  nodes_.reserve(2 * boxes.size());
-  nodes_.emplace_back();
-  std::vector<Part> parts{{0, 0, boxes.size()}};
-  while (!parts.empty()) {
-    const Part part = parts.back();
-    parts.pop_back();
+  const auto box_of = [&](const Part& part) {
     Box box;
     for (std::size_t i = part.begin; i < part.end; ++i) box.extend(boxes[order[i]]);
-    nodes_[part.node].box = box;
-    if (part.end - part.begin == 1) {
-      nodes_[part.node].item = order[part.begin];
-      continue;
-    }
+    return box;
+  };
+  const auto split = [&](const Part& part, Part& left, Part& right) {
     const auto at = [&](std::size_t i) { return order.begin() + static_cast<std::ptrdiff_t>(i); };
     const auto middle =
         static_cast<std::size_t>(divide(boxes, at(part.begin), at(part.end)) - order.begin());
-    const std::size_t left = nodes_.size();
-    nodes_[part.node].left = static_cast<std::uint32_t>(left);
-    nodes_.resize(left + 2);
-    parts.push_back({left, part.begin, middle});
-    parts.push_back({left + 1, middle, part.end});
+    left = {part.begin, middle};
+    right = {middle, part.end};
+  };
+  bounds_ = box_of({0, boxes.size()});
+  std::vector<std::pair<std::size_t, Part>> parts{{0, {0, boxes.size()}}};
+  nodes_.emplace_back();
+  while (!parts.empty()) {
+    const auto [number, part] = parts.back();
+    parts.pop_back();
+    std::array<Part, 4> children{part};
+    std::size_t count = 1;
+    while (count < 4) {
+      const auto largest = std::max_element(
+          children.begin(), children.begin() + count,
+          [](const Part& a, const Part& b) { return a.end - a.begin < b.end - b.begin; });
+      if (largest->end - largest->begin < 2) break;
+      Part left, right;
+      split(*largest, left, right);
+      *largest = left;
+      children[count++] = right;
+    }
+    Node node;
+    node.count = static_cast<std::uint32_t>(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Box box = box_of(children[i]);
+      for (int axis = 0; axis < 3; ++axis) {
+        node.boxes.min[axis][i] = box.min()[axis];
+        node.boxes.max[axis][i] = box.max()[axis];
+      }
+      node.is_leaf[i] = children[i].end - children[i].begin == 1;
+      node.next[i] = order[children[i].begin];
+      if (node.is_leaf[i]) continue;
+      node.next[i] = static_cast<std::uint32_t>(nodes_.size());
+      nodes_.emplace_back();
+      parts.emplace_back(node.next[i], children[i]);
+    }
+    nodes_[number] = node;
   }
 }
 

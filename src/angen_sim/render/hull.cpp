@@ -52,6 +52,7 @@ void Hull::add_sides(int u, int v) {
 Hull Hull::seen_from(const Eigen::Matrix3f& rotation, const Eigen::Vector3f& position) const {
   Hull made;
   made.offset_ = offset_;
+  made.side_count_ = side_count_;
   for (int axis = 0; axis < 3; ++axis) {
     made.offset_ -= outward_[axis] * position[axis];
     for (int i = 0; i < 3; ++i) made.outward_[axis] += rotation(i, axis) * outward_[i];
@@ -67,6 +68,26 @@ Hull Hull::seen_from(const Eigen::Matrix3f& rotation, const Eigen::Vector3f& pos
   return made;
 }
 
+Four Hull::overlaps(const Boxes4& boxes) const {
+  using Column = Boxes4::Column;
+  Column beyond = Column::Constant(-std::numeric_limits<float>::infinity());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    beyond = beyond.max(boxes.min[axis] - box_.max()[i]).max(box_.min()[i] - boxes.max[axis]);
+  }
+  for (int side = 0; side < side_count_; ++side) {
+    Column sum = Column::Constant(-offset_[side]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      sum +=
+          outward_[axis][side] * (outward_[axis][side] > 0.0F ? boxes.min[axis] : boxes.max[axis]);
+    }
+    beyond = beyond.max(sum);
+  }
+  Four found = 0;
+  for (int i = 0; i < 4; ++i) found |= beyond[i] > 0.0F ? 0U : 1U << static_cast<unsigned>(i);
+  return found;
+}
+
 bool Hull::overlaps(const Face& face) const {
   Box box;
   Sides nearest = Sides::Constant(std::numeric_limits<float>::infinity());
@@ -79,10 +100,27 @@ bool Hull::overlaps(const Face& face) const {
   return box.intersects(box_) && !(nearest.maxCoeff() > 0.0F);
 }
 
+/// False where the segment between the middles does not cross the face, by floats.
+bool Hull::may_be_cut_by(const Face& face) const {
+  const Eigen::Vector3f from = from_.center(), way = to_.center() - from;
+  const Eigen::Vector3f& first = face.corners[0];
+  const Eigen::Vector3f normal = (face.corners[1] - first).cross(face.corners[2] - first);
+  const float before = normal.dot(from - first);
+  const float side = before > 0.0F ? 1.0F : -1.0F;
+  if (!(side * (before + normal.dot(way)) < 0.0F)) return false;
+  for (std::size_t k = 0; k < face.count; ++k) {
+    const Eigen::Vector3f& corner = face.corners[k];
+    const Eigen::Vector3f edge = face.corners[k + 1 < face.count ? k + 1 : 0] - corner;
+    if (!(side * edge.cross(from - corner).dot(way) < 0.0F)) return false;
+  }
+  return true;
+}
+
 // A segment from a to b passes an edge on the inner side by the sign of the volume that both span,
 // which is linear in a and in b: it is that of the middles, give or take what the boxes' halves
 // add.
 bool Hull::is_cut_by(const Face& face) const {
+  if (!may_be_cut_by(face)) return false;
   const auto at = [&](std::size_t i) -> Eigen::Vector3d {
     return face.corners[i % face.count].cast<double>();
   };

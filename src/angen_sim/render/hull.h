@@ -20,16 +20,8 @@ class Hull {
 
   /// The hull in a frame that is turned and at `position` in that of the hull.
   Hull seen_from(const Eigen::Matrix3f& rotation, const Eigen::Vector3f& position) const;
-  /// False only if no part of the box is in the hull.
-  bool overlaps(const Box& box) const {
-    if (!box.intersects(box_)) return false;
-    Sides beyond = -offset_;
-    for (int axis = 0; axis < 3; ++axis) {
-      beyond += outward_[axis].max(0.0F) * box.min()[axis];
-      beyond += outward_[axis].min(0.0F) * box.max()[axis];
-    }
-    return !(beyond.maxCoeff() > 0.0F);
-  }
+  /// Which boxes have a part in the hull, and perhaps some beside it.
+  Four overlaps(const Boxes4& boxes) const;
   /// False only if no part of the face is in the hull.
   bool overlaps(const Face& face) const;
   /// True only if all segments cross the face.
@@ -43,6 +35,7 @@ class Hull {
   Hull() = default;
   void add_sides(int u, int v);
   float margin() const;
+  bool may_be_cut_by(const Face& face) const;
 
   Box from_, to_;  // in the frame of the constructor
   Box box_;        // around the hull, with the margin

@@ -111,12 +111,12 @@ void Instances::find_occluded(const int* wanted, const Among& among, RTCRay16& r
 }
 
 bool Instances::has_mover_in(const Hull& hull) const {
-  return boxes_.any([&](const Box& box) { return hull.overlaps(box); },
+  return boxes_.any([&](const Boxes4& boxes) { return hull.overlaps(boxes); },
                     [](std::uint32_t) { return true; });
 }
 
 bool Instances::has_opaque_mover_in(const Box& box) const {
-  return boxes_.any([&](const Box& other) { return box.intersects(other); },
+  return boxes_.any([&](const Boxes4& boxes) { return overlapping(box, boxes); },
                     [&](std::uint32_t i) { return !placed_[boxed_[i]].shines_through; });
 }
 
@@ -143,7 +143,7 @@ void Instances::find_in(const Hull& hull, Obstacles& found) const {
   found.has_mover = false;
   found.unknown = {false, false};
   boxes_.any(
-      [&](const Box& box) { return hull.overlaps(box); },
+      [&](const Boxes4& boxes) { return hull.overlaps(boxes); },
       [&](std::uint32_t i) {
         const Placed& placed = placed_[boxed_[i]];
         if (placed.shines_through) return false;

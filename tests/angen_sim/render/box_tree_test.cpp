@@ -19,7 +19,7 @@ Box some_box(Rng& rng) {
 
 std::set<std::uint32_t> found(const BoxTree& tree, const Box& in) {
   std::set<std::uint32_t> all;
-  tree.any([&](const Box& box) { return box.intersects(in); },
+  tree.any([&](const Boxes4& boxes) { return overlapping(in, boxes); },
            [&](std::uint32_t i) {
              all.insert(i);
              return false;
@@ -58,7 +58,7 @@ TEST(BoxTree, EndsWithTheFirstBoxThatCounts) {
   BoxTree tree;
   tree.build(std::vector<Box>(10, box));
   int visits = 0;
-  const auto all = [](const Box&) { return true; };
+  const auto all = [](const Boxes4&) { return Four{15}; };
   EXPECT_TRUE(tree.any(all, [&](std::uint32_t) { return ++visits == 3; }));
   EXPECT_EQ(visits, 3);
 }
