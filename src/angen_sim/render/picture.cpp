@@ -5,12 +5,23 @@
 namespace angen::render {
 namespace {
 
-std::size_t index_of(int width, int column, int row, int lane) {
-  return static_cast<std::size_t>(row + lane / kTile) * static_cast<std::size_t>(width) +
-         static_cast<std::size_t>(column + lane % kTile);
+std::size_t index_of(int width, int column, int row) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+         static_cast<std::size_t>(column);
+}
+
+Box box_of(const Columns& points) {
+  const auto& [x, y, z] = points;
+  return Box(Eigen::Vector3f(x.minCoeff(), y.minCoeff(), z.minCoeff()),
+             Eigen::Vector3f(x.maxCoeff(), y.maxCoeff(), z.maxCoeff()));
 }
 
 void set_boxes(Tile& tile) {
+  if (tile.is_even) {
+    tile.seen = box_of(tile.point);
+    tile.starts = box_of(tile.lifted);
+    return;
+  }
   tile.seen.setEmpty();
   tile.starts.setEmpty();
   for (int i = 0; i < kLanes; ++i) {
@@ -21,7 +32,8 @@ void set_boxes(Tile& tile) {
 }
 
 void set_points(const RTCRay16& rays, Tile& tile) {
-  using Map = Eigen::Map<const Lanes>;
+  using Map = Eigen::Map<const Lanes, Eigen::Aligned64>;
+  tile.depth = Map(rays.tfar);
   tile.point.x = Map(rays.org_x) + Map(rays.tfar) * Map(rays.dir_x);
   tile.point.y = Map(rays.org_y) + Map(rays.tfar) * Map(rays.dir_y);
   tile.point.z = Map(rays.org_z) + Map(rays.tfar) * Map(rays.dir_z);
@@ -35,12 +47,41 @@ bool is_same_facet(const RTCHit16& hits, int i, int k) {
          hits.instID[0][i] == hits.instID[0][k];
 }
 
-void gather(const Instances& instances, const TracedTile& from, const Eigen::Vector3f& ambient,
-            Tile& tile) {
+/// Whether all pixels have the hit of the first one.
+bool is_one_facet(const TracedTile& tile) {
+  const RTCHit16& hits = tile.rays.hit;
+  unsigned other = hits.geomID[0] == RTC_INVALID_GEOMETRY_ID ? 1U : 0U;
+  for (int i = 0; i < kLanes; ++i) {
+    other |= (hits.primID[i] ^ hits.primID[0]) | (hits.geomID[i] ^ hits.geomID[0]) |
+             (hits.instID[0][i] ^ hits.instID[0][0]) | static_cast<unsigned>(~tile.valid[i]);
+  }
+  return other == 0;
+}
+
+/// Sets what comes from the facet; false if it is seen from both sides.
+bool set_even(const Instances& instances, const TracedTile& from, Tile& tile) {
   const RTCHit16& hits = from.rays.hit;
-  tile.column = from.column;
-  tile.row = from.row;
-  tile.light.set_all(ambient);
+  const Placed& placed = instances[hits.instID[0][0]];
+  const Facet facet = placed.patch->facet(hits.geomID[0], hits.primID[0]);
+  const Eigen::Vector3f normal = placed.rotation * facet.normal;
+  int behind = 0;
+  for (int i = 0; i < kLanes; ++i) behind += normal.dot(from.direction(i)) > 0.0F ? 1 : 0;
+  if (behind != 0 && behind != kLanes) return false;
+  const Finish& finish = placed.patch->finish(facet);
+  tile.normal.set_all(behind != 0 ? Eigen::Vector3f(-normal) : normal);
+  if (!finish.texture) tile.color.set_all(finish.color);
+  for (int i = 0; i < kLanes; ++i) {
+    tile.in_image[i] = true;
+    tile.valid[i] = -1;
+    tile.through[i] = placed.shines_through;
+    tile.finish[i] = &finish;
+    if (finish.texture) tile.color.set(i, placed.patch->color(facet, hits.u[i], hits.v[i]));
+  }
+  return true;
+}
+
+void set_each(const Instances& instances, const TracedTile& from, Tile& tile) {
+  const RTCHit16& hits = from.rays.hit;
   const Placed* placed = nullptr;
   Facet facet;
   Eigen::Vector3f normal;
@@ -61,35 +102,36 @@ void gather(const Instances& instances, const TracedTile& from, const Eigen::Vec
     tile.finish[i] = &placed->patch->finish(facet);
     tile.color.set(i, placed->patch->color(facet, hits.u[i], hits.v[i]));
   }
-  set_points(from.rays.ray, tile);
-  set_boxes(tile);
 }
 
-BlockView view_of(const Tile* tiles, std::size_t count) {
-  BlockView view;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Tile& tile = tiles[k];
-    for (int i = 0; i < kLanes; ++i) {
-      if (tile.valid[i] != 0) view.add_way(tile.normal[i], tile.through[i]);
-    }
-    view.points.extend(tile.starts);
-  }
-  return view;
+void gather(const Instances& instances, const TracedTile& from, const Eigen::Vector3f& ambient,
+            Tile& tile) {
+  tile.column = from.column;
+  tile.row = from.row;
+  tile.light.set_all(ambient);
+  tile.is_even = is_one_facet(from) && set_even(instances, from, tile);
+  if (!tile.is_even) set_each(instances, from, tile);
+  set_points(from.rays.ray, tile);
+  set_boxes(tile);
 }
 
 /// The bytes of the valid pixels, in one channel.
 std::array<std::uint8_t, kLanes> bytes_of(const Tile& tile, const Lanes& color, const Lanes& light,
                                           int channel) {
   Lanes emissive = Lanes::Zero();
-  for (int i = 0; i < kLanes; ++i) {
-    if (tile.valid[i] != 0) emissive[i] = tile.finish[i]->emissive[channel];
+  if (tile.is_even) {
+    emissive = tile.finish[0]->emissive[channel];
+  } else {
+    for (int i = 0; i < kLanes; ++i) {
+      if (tile.valid[i] != 0) emissive[i] = tile.finish[i]->emissive[channel];
+    }
   }
   return shown(color * light / static_cast<float>(M_PI) + kMiddleLuminance * emissive);
 }
 
 }  // namespace
 
-void BlockView::add_way(const Eigen::Vector3f& normal, bool through) {
+void Facing::add(const Eigen::Vector3f& normal, bool through) {
   if (through) turned = true;
   if (turned || (way_count > 0 && ways[way_count - 1] == normal)) return;
   const auto end = ways.begin() + way_count;
@@ -101,7 +143,7 @@ void BlockView::add_way(const Eigen::Vector3f& normal, bool through) {
   }
 }
 
-bool BlockView::is_behind(const light::Lamp& lamp) const {
+bool Facing::is_behind(const light::Lamp& lamp, const Box& points) const {
   if (turned || lamp.type == light::Lamp::Type::kDirectional) return false;
   const Eigen::Vector3f position = lamp.pose.position.cast<float>();
   return std::all_of(ways.begin(), ways.begin() + way_count, [&](const Eigen::Vector3f& way) {
@@ -111,9 +153,9 @@ bool BlockView::is_behind(const light::Lamp& lamp) const {
 }
 
 void DepthWriter::add(const TracedTile& tile) {
+  float* first = depths_ + index_of(width_, tile.column, tile.row);
   for (int i = 0; i < kLanes; ++i) {
-    if (!tile.has_hit(i)) continue;
-    depths_[index_of(width_, tile.column, tile.row, i)] = tile.rays.ray.tfar[i];
+    if (tile.has_hit(i)) first[i / kTile * width_ + i % kTile] = tile.rays.ray.tfar[i];
   }
 }
 
@@ -133,30 +175,48 @@ void ColorWriter::begin_row_of_blocks() {
 }
 
 void ColorWriter::add(const TracedTile& traced) {
-  Tile& tile = tiles_[count_++];
-  gather(instances_, traced, kAmbientIlluminance * by_.ambience.ambient, tile);
+  const auto number = static_cast<std::size_t>(traced.number);
+  has_[number] = true;
+  gather(instances_, traced, kAmbientIlluminance * by_.ambience.ambient, tiles_[number]);
   depths_.add(traced);
 }
 
 void ColorWriter::end_block() {
-  for (std::size_t k = 0; k < count_; ++k) {
-    if (reflected_) reflected_->shine(tiles_[k]);
+  for (std::size_t k = 0; reflected_ && k < kTiles; ++k) {
+    if (has_[k]) reflected_->shine(tiles_[k]);
   }
-  if (!by_.lamps.empty()) {
-    const BlockView view = view_of(tiles_.data(), count_);
-    for (std::size_t i = 0; i < by_.lamps.size() && !view.points.isEmpty(); ++i) shine(i, view);
+  if (!by_.lamps.empty()) set_squares();
+  for (std::size_t i = 0; i < by_.lamps.size(); ++i) shine(i, 0, 0, Sight::kSome);
+  for (std::size_t k = 0; k < kTiles; ++k) {
+    if (has_[k]) write(tiles_[k]);
   }
-  for (std::size_t k = 0; k < count_; ++k) write(tiles_[k]);
-  count_ = 0;
+  has_ = {};
+}
+
+void ColorWriter::set_squares() {
+  facing_ = {};
+  for (std::size_t k = 0; k < kTiles; ++k) {
+    points_[kFirstTile + k] = has_[k] ? tiles_[k].starts : Box();
+    Facing& facing = facing_[k / (kTiles / facing_.size())];
+    const int lanes = !has_[k] ? 0 : tiles_[k].is_even ? 1 : kLanes;
+    for (int i = 0; i < lanes; ++i) {
+      if (tiles_[k].valid[i] != 0) facing.add(tiles_[k].normal[i], tiles_[k].through[i]);
+    }
+  }
+  for (std::size_t square = kFirstTile; square-- > 0;) {
+    points_[square].setEmpty();
+    for (std::size_t k = 1; k <= 4; ++k) points_[square].extend(points_[4 * square + k]);
+  }
 }
 
 void ColorWriter::write(const Tile& tile) {
   const auto red = bytes_of(tile, tile.color.x, tile.light.x, 0);
   const auto green = bytes_of(tile, tile.color.y, tile.light.y, 1);
   const auto blue = bytes_of(tile, tile.color.z, tile.light.z, 2);
+  std::uint8_t* first = pixels_ + 3 * index_of(width_, tile.column, tile.row);
   for (int i = 0; i < kLanes; ++i) {
     if (!tile.in_image[i]) continue;
-    std::uint8_t* pixel = pixels_ + 3 * index_of(width_, tile.column, tile.row, i);
+    std::uint8_t* pixel = first + 3 * (i / kTile * width_ + i % kTile);
     const auto at = static_cast<std::size_t>(i);
     if (tile.valid[i] != 0) {
       pixel[0] = red[at];
@@ -168,22 +228,24 @@ void ColorWriter::write(const Tile& tile) {
   }
 }
 
-/// Adds a lamp's light to the block. Of the rays to it, only those are cast that may differ.
-void ColorWriter::shine(std::size_t lamp, const BlockView& view) {
-  const Box& points = view.points;
-  const Box& reach = by_.reaches[lamp];
-  if (!reach.intersects(Box(points.min().array() - kLift, points.max().array() + kLift))) return;
-  if (view.is_behind(by_.lamps[lamp].lamp)) return;
-  const Sight sight = sights_.of(lamp, points);
+/// Adds a lamp's light to a square. Of the rays to it, only those are cast that may differ.
+void ColorWriter::shine(std::size_t lamp, std::size_t level, std::size_t square, Sight sight) {
+  const light::Lit& lit = by_.lamps[lamp];
+  const Box& points = points_[square];
+  if (points.isEmpty()) return;
+  const Box around(points.min().array() - kLift, points.max().array() + kLift);
+  if (!by_.reaches[lamp].intersects(around)) return;
+  if (level == 1 && facing_[square - 1].is_behind(lit.lamp, points)) return;
+  if (sight == Sight::kSome) sight = sights_.of(lamp, level, points);
   if (sight == Sight::kNone) return;
-  for (std::size_t k = 0; k < count_; ++k) {
-    Tile& tile = tiles_[k];
-    if (!reach.intersects(tile.seen)) continue;
-    const Sight part = sight == Sight::kAll ? sight : sights_.of_part(lamp, tile.starts);
-    if (part == Sight::kNone) continue;
-    const Among among = part == Sight::kAll ? Among{false, false} : sights_.among();
-    render::shine(by_.lamps[lamp], instances_, among, tile);
+  if (level < kDivisions) {
+    for (std::size_t k = 1; k <= 4; ++k) shine(lamp, level + 1, 4 * square + k, sight);
+    return;
   }
+  Tile& tile = tiles_[square - kFirstTile];
+  if (!by_.reaches[lamp].intersects(tile.seen)) return;
+  const Among among = sight == Sight::kAll ? Among{false, false} : sights_.among(level);
+  render::shine(lit, instances_, among, tile);
 }
 
 }  // namespace angen::render

@@ -30,17 +30,22 @@ struct Illumination {
   const Ambience& ambience;
 };
 
-/// The points of a block, as seen from lamps.
-struct BlockView {
-  Box points;                           // lifted off their surfaces; empty without hits
-  std::array<Eigen::Vector3f, 4> ways;  // the surfaces' normals
+/// The ways that the surfaces at some points face.
+struct Facing {
+  std::array<Eigen::Vector3f, 4> ways;  // their normals
   std::size_t way_count = 0;
   bool turned = false;  // toward more ways, or to all
 
-  void add_way(const Eigen::Vector3f& normal, bool through);
-  /// True only if the lamp shines on the back of all surfaces.
-  bool is_behind(const light::Lamp& lamp) const;
+  void add(const Eigen::Vector3f& normal, bool through);
+  /// True only if the lamp shines on the back of all surfaces, with points in that box.
+  bool is_behind(const light::Lamp& lamp, const Box& points) const;
 };
+
+/// The squares into which a block is divided: 1 + 4 + 16 + 64, the last ones are the tiles. Those
+/// of square i are 4 i + 1 to 4 i + 4.
+constexpr int kFirstTile = 1 + 4 + 16;
+constexpr int kSquares = kFirstTile + kTiles;
+static_assert(kDivisions == 3);
 
 /// Writes the colors of tiles, and their depths.
 class ColorWriter : public Visitor {
@@ -52,7 +57,8 @@ class ColorWriter : public Visitor {
   void end_block() override;
 
  private:
-  void shine(std::size_t lamp, const BlockView& view);
+  void set_squares();
+  void shine(std::size_t lamp, std::size_t level, std::size_t square, Sight sight);
   void write(const Tile& tile);
 
   const Instances& instances_;
@@ -62,8 +68,11 @@ class ColorWriter : public Visitor {
   DepthWriter depths_;
   Sights sights_;
   std::optional<Reflections> reflected_;
-  std::array<Tile, kTilesAcross * kTilesAcross> tiles_;  // of the present block
-  std::size_t count_ = 0;
+  // Of the present block:
+  std::array<Tile, kTiles> tiles_;
+  std::array<bool, kTiles> has_{};    // the tile is in the image
+  std::array<Box, kSquares> points_;  // lifted off their surfaces; empty without hits
+  std::array<Facing, 4> facing_;      // of its quarters
 };
 
 }  // namespace angen::render

@@ -169,8 +169,11 @@ void Reflections::shine(Tile& tile) {
 
 std::array<std::uint8_t, kLanes> shown(const Lanes& luminances) {
   static const std::array<std::uint8_t, kCodes + 1> codes = make_codes();
-  const Lanes least = (luminances > 0.0F).select(luminances, 0.0F);  // 0 for NaN, too
-  const Lanes places = least / (least + kMiddleLuminance) * static_cast<float>(kCodes) + 0.5F;
+  Lanes least;  // 0 for NaN, too
+  for (int i = 0; i < kLanes; ++i) least[i] = luminances[i] > 0.0F ? luminances[i] : 0.0F;
+  const Lanes shares = least / (least + kMiddleLuminance);
+  const Eigen::Array<int, kLanes, 1> places =
+      (shares * static_cast<float>(kCodes) + 0.5F).cast<int>();
   std::array<std::uint8_t, kLanes> bytes;
   for (int i = 0; i < kLanes; ++i) {
     bytes[static_cast<std::size_t>(i)] = codes[static_cast<std::size_t>(places[i])];

@@ -38,11 +38,13 @@ struct alignas(64) Tile {
   Columns point;
   Columns normal;        // unit, towards the camera
   Columns lifted;        // where shadow rays start
+  Lanes depth;           // m
   Columns light;         // lx, r g b
   bool through[kLanes];  // lit from both sides
   const Finish* finish[kLanes];
   Columns color;  // albedo
   bool in_image[kLanes];
+  bool is_even;  // all pixels show the same facet, from the same side
   int column, row;  // of its first pixel
   Box seen;         // around the points; empty without hits
   Box starts;       // around the lifted points

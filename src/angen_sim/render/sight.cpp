@@ -3,6 +3,12 @@
 #include "render/shade.h"
 
 namespace angen::render {
+namespace {
+
+// The last level on which faces are searched for again where the level above had too many.
+constexpr std::size_t kLastSearch = 1;
+
+}  // namespace
 
 // A lifted ray ends beside the lamp by as much.
 Hull Sights::hull_of(std::size_t lamp, const Box& points) const {
@@ -20,10 +26,28 @@ bool Sights::hides(std::size_t lamp, const Hull& rays, const Eigen::Vector3f& fr
   return true;
 }
 
-Sight Sights::of(std::size_t lamp, const Box& points) {
+Sight Sights::of(std::size_t lamp, std::size_t level, const Box& points) {
+  Obstacles& own = obstacles_[level];
+  if (level == 0) return found(lamp, points, own);
+  const Obstacles& above = obstacles_[level - 1];
+  if (level <= kLastSearch && !above.unknown.none()) return found(lamp, points, own);
+  if (above.unknown.fixed && above.unknown.movers) {
+    own.faces.count = own.moving = 0;
+    own.unknown = above.unknown;
+    return Sight::kSome;
+  }
+  return narrowed(hull_of(lamp, points), above, own);
+}
+
+Among Sights::among(std::size_t level) const {
+  const Obstacles& of = obstacles_[level];
+  return {of.unknown.fixed || of.faces.count > of.moving, of.unknown.movers || of.moving > 0};
+}
+
+Sight Sights::found(std::size_t lamp, const Box& points, Obstacles& obstacles) {
   const light::Lamp& at = lamps_[lamp].lamp;
-  obstacles_.faces.count = 0;
-  obstacles_.unknown = {true, true};
+  obstacles.faces.count = obstacles.moving = 0;
+  obstacles.unknown = {true, true};
   if (at.type == light::Lamp::Type::kDirectional) return Sight::kSome;
   if (!at.cast_shadows) return Sight::kAll;
   const Hull rays = hull_of(lamp, points);
@@ -32,21 +56,23 @@ Sight Sights::of(std::size_t lamp, const Box& points) {
   bool is_free = false;
   if (hides(lamp, rays, points.center(), position, is_free)) return Sight::kNone;
   if (!is_free && hides(lamp, rays, position, points.center(), is_free)) return Sight::kNone;
-  instances_.find_in(rays, obstacles_);
-  return obstacles_.unknown.none() && obstacles_.faces.count == 0 ? Sight::kAll : Sight::kSome;
+  instances_.find_in(rays, obstacles);
+  return obstacles.unknown.none() && obstacles.faces.count == 0 ? Sight::kAll : Sight::kSome;
 }
 
-Sight Sights::of_part(std::size_t lamp, const Box& points) {
-  among_ = obstacles_.unknown;
-  if (among_.fixed && among_.movers) return Sight::kSome;
-  const Faces& faces = obstacles_.faces;
-  const Hull rays = hull_of(lamp, points);
-  for (std::size_t i = 0; i < faces.count; ++i) {
-    if (!rays.overlaps(faces.all[i])) continue;
-    if (rays.is_cut_by(faces.all[i])) return Sight::kNone;
-    (i < obstacles_.moving ? among_.movers : among_.fixed) = true;
+Sight Sights::narrowed(const Hull& rays, const Obstacles& from, Obstacles& obstacles) const {
+  Faces& faces = obstacles.faces;
+  faces.count = 0;
+  for (std::size_t i = 0; i < from.faces.count; ++i) {
+    if (i == from.moving) obstacles.moving = faces.count;
+    const Face& face = from.faces.all[i];
+    if (!rays.overlaps(face)) continue;
+    if (rays.is_cut_by(face)) return Sight::kNone;
+    faces.all[faces.count++] = face;
   }
-  return among_.none() ? Sight::kAll : Sight::kSome;
+  if (from.moving >= from.faces.count) obstacles.moving = faces.count;
+  obstacles.unknown = from.unknown;
+  return obstacles.unknown.none() && faces.count == 0 ? Sight::kAll : Sight::kSome;
 }
 
 }  // namespace angen::render

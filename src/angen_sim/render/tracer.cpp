@@ -1,6 +1,7 @@
 #include "render/tracer.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "core/parallel.h"
@@ -11,8 +12,18 @@ namespace {
 constexpr float kHousing = 0.5F;    // m, in depth: largest distance of a housing's walls
 constexpr float kPastWall = 1e-5F;  // m
 constexpr int kMaxWalls = 8;
-constexpr double kFarAway = 1e5;           // m; hulls are inexact beyond
+constexpr auto kCoherent = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+constexpr int kTilesOfASquare = 16;        // whose movers are looked for at once
+constexpr int kSquare = 4 * kTile;         // pixels
+constexpr double kInexact = 1e5;           // m; hulls are inexact beyond
 constexpr int kPixelsOfAThread = 1 << 13;  // fewer are not worth its start
+
+/// Bits 0, 2, 4, … as bits 0, 1, 2, …
+int every_other_bit(int of) {
+  int bits = 0;
+  for (int i = 0; i < kDivisions; ++i) bits |= (of >> (2 * i) & 1) << i;
+  return bits;
+}
 
 /// The camera's rays, one tile at a time. The length of a direction makes its range the depth.
 class Eye {
@@ -41,13 +52,13 @@ class Eye {
     }
   }
 
-  /// False only if the rays of the block at that pixel meet no mover.
-  bool may_meet_movers(int column, int row, const Instances& instances) const {
-    if (!camera_.distortion.none() || !(camera_.far < kFarAway)) return true;
+  /// False only if the rays of the square at that pixel meet no mover up to that depth.
+  bool may_meet_movers(int column, int row, float depth, const Instances& instances) const {
+    if (!camera_.distortion.none() || !(depth < kInexact)) return true;
     Box ends;
-    for (const int x : {column, column + kBlock - 1}) {
-      for (const int y : {row, row + kBlock - 1}) {
-        ends.extend(origin_ + (camera_.far * toward(x, y)).cast<float>());
+    for (const int x : {column, column + kSquare - 1}) {
+      for (const int y : {row, row + kSquare - 1}) {
+        ends.extend(origin_ + depth * toward(x, y).cast<float>());
       }
     }
     return instances.has_mover_in(Hull(Box(origin_), ends));
@@ -55,17 +66,19 @@ class Eye {
 
   void aim(int column, int row, int* valid, RTCRayHit16& rays) const {
     for (int i = 0; i < kLanes; ++i) {
-      const int x = column + i % kTile;
-      const int y = row + i / kTile;
-      valid[i] = x < camera_.width && y < camera_.height ? -1 : 0;
-      const Eigen::Vector3f direction = toward(x, y).cast<float>();
-      rays.ray.dir_x[i] = direction.x();
-      rays.ray.dir_y[i] = direction.y();
-      rays.ray.dir_z[i] = direction.z();
+      valid[i] = column + i % kTile < camera_.width && row + i / kTile < camera_.height ? -1 : 0;
       rays.ray.tnear[i] = static_cast<float>(camera_.near);
       rays.ray.tfar[i] = static_cast<float>(camera_.far);
       rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    for (int y = 0; y < kTile; ++y) {
+      for (int x = 0; x < kTile; ++x) {
+        const Eigen::Vector3f direction = toward(column + x, row + y).cast<float>();
+        rays.ray.dir_x[kTile * y + x] = direction.x();
+        rays.ray.dir_y[kTile * y + x] = direction.y();
+        rays.ray.dir_z[kTile * y + x] = direction.z();
+      }
     }
   }
 
@@ -114,13 +127,19 @@ void leave_housing(const Instances& instances, float far, const int* valid, RTCR
   }
 }
 
+struct alignas(64) TileRays {
+  int valid[kLanes];
+  RTCRayHit16 rays;
+  int column, row;
+};
+
 /// The work of one thread.
 class Tracer {
  public:
   Tracer(const Eye& eye, const PinholeCamera& camera, const Instances& instances,
          std::shared_ptr<Visitor> visitor)
       : eye_(eye), camera_(camera), instances_(instances), visitor_(std::move(visitor)) {
-    eye_.begin(rays_);
+    for (TileRays& tile : tiles_) eye_.begin(tile.rays);
   }
 
   void trace_row_of_blocks(int first_row) {
@@ -133,16 +152,32 @@ class Tracer {
 
  private:
   void trace_block(int first_column, int first_row) {
-    const int columns = std::min(camera_.width, first_column + kBlock);
-    const int rows = std::min(camera_.height, first_row + kBlock);
-    const Among among{true, eye_.may_meet_movers(first_column, first_row, instances_)};
-    for (int row = first_row; row < rows; row += kTile) {
-      for (int column = first_column; column < columns; column += kTile) {
-        eye_.aim(column, row, valid_, rays_);
-        instances_.find_hits(valid_, among, RTC_INTERSECT_CONTEXT_FLAG_COHERENT, rays_);
-        leave_housing(instances_, static_cast<float>(camera_.far), valid_, rays_);
-        visitor_->add({column, row, valid_, rays_});
-      }
+    for (int first = 0; first < kTiles; first += kTilesOfASquare) {
+      const int column = first_column + kTile * every_other_bit(first);
+      const int row = first_row + kTile * every_other_bit(first >> 1);
+      if (column < camera_.width && row < camera_.height) trace_square(first, column, row);
+    }
+  }
+
+  /// Traces the fixed bodies first: most squares show no mover in front of them.
+  void trace_square(int first, int first_column, int first_row) {
+    float depth = 0.0F;
+    for (int k = 0; k < kTilesOfASquare; ++k) {
+      TileRays& tile = tiles_[k];
+      tile.column = first_column + kTile * every_other_bit(k);
+      tile.row = first_row + kTile * every_other_bit(k >> 1);
+      if (tile.column >= camera_.width || tile.row >= camera_.height) continue;
+      eye_.aim(tile.column, tile.row, tile.valid, tile.rays);
+      instances_.find_hits(tile.valid, {true, false}, kCoherent, tile.rays);
+      for (int i = 0; i < kLanes; ++i) depth = std::max(depth, tile.rays.ray.tfar[i]);
+    }
+    const bool movers = eye_.may_meet_movers(first_column, first_row, depth, instances_);
+    for (int k = 0; k < kTilesOfASquare; ++k) {
+      TileRays& tile = tiles_[k];
+      if (tile.column >= camera_.width || tile.row >= camera_.height) continue;
+      if (movers) instances_.find_hits(tile.valid, {false, true}, kCoherent, tile.rays);
+      leave_housing(instances_, static_cast<float>(camera_.far), tile.valid, tile.rays);
+      visitor_->add({first + k, tile.column, tile.row, tile.valid, tile.rays});
     }
   }
 
@@ -150,8 +185,7 @@ class Tracer {
   const PinholeCamera& camera_;
   const Instances& instances_;
   std::shared_ptr<Visitor> visitor_;
-  alignas(64) int valid_[kLanes];
-  alignas(64) RTCRayHit16 rays_;
+  std::array<TileRays, kTilesOfASquare> tiles_;
 };
 
 }  // namespace

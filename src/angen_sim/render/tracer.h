@@ -11,12 +11,16 @@ namespace angen::render {
 /// Sixteen pixels at once: a tile of 4 x 4.
 constexpr int kTile = 4;
 constexpr int kLanes = kTile * kTile;
-/// Tiles come in blocks of 4 x 4.
-constexpr int kTilesAcross = 4;
+/// A block is divided into four squares, each of these into four, and so on down to tiles. Tiles
+/// are counted square by square (Z-order).
+constexpr int kDivisions = 3;
+constexpr int kTilesAcross = 1 << kDivisions;
+constexpr int kTiles = kTilesAcross * kTilesAcross;
 constexpr int kBlock = kTilesAcross * kTile;  // pixels
 
 /// The rays of a tile, with their hits. The length of a direction makes a range the depth.
 struct TracedTile {
+  int number = 0;              // in its block
   int column = 0, row = 0;     // of its first pixel
   const int* valid = nullptr;  // not 0 in the image
   const RTCRayHit16& rays;
@@ -29,8 +33,7 @@ struct TracedTile {
   }
 };
 
-/// Receives the tiles of an image: those of a row of blocks from left to right, block after block,
-/// and within each row after row.
+/// Receives the tiles of an image: those of a row of blocks from left to right, block after block.
 class Visitor {
  public:
   virtual ~Visitor() = default;

@@ -101,35 +101,51 @@ Box part_of(const Box& points, Rng& rng) {
   return part;
 }
 
+/// Counts of answers, and of those that only fixed bodies or only movers may hide the lamp.
+struct Counts {
+  std::array<int, 3> sights{};
+  int only_some = 0;
+};
+
+/// Expects that the answers for parts of a box, and for parts of these, are as rays say.
+void expect_parts(const Room& room, Sights& sights, std::size_t number, const light::Lit& lamp,
+                  std::size_t level, const Box& points, Rng& rng, Counts& counts) {
+  for (int k = 0; k < 4; ++k) {
+    const Box part = part_of(points, rng);
+    const Sight sight = sights.of(number, level, part);
+    ++counts.sights[static_cast<std::size_t>(sight)];
+    expect_seen(room, lamp, part, sight, rng);
+    if (sight != Sight::kSome) continue;
+    const Among among = sights.among(level);
+    expect_hidden_by(room, lamp, part, among, rng);
+    counts.only_some += among.fixed && among.movers ? 0 : 1;
+    if (level < kDivisions) {
+      expect_parts(room, sights, number, lamp, level + 1, part, rng, counts);
+    }
+  }
+}
+
 TEST(Sights, AreThoseOfEachRay) {
   const Room room;
   Rng rng(1, hash_bytes("sights"), 0);
   std::vector<light::Lit> lamps;
   for (int i = 0; i < 6; ++i) lamps.push_back(lamp(Room::place(rng, 2.2), 800.0));
   Sights sights(room.instances(), lamps);
-  std::array<int, 3> counts{}, part_counts{};
-  int only_some = 0;  // only fixed bodies, or only movers, may hide the lamp
+  Counts whole, parts;
   for (int i = 0; i < 6000; ++i) {
     const Box points = points_on_a_surface(rng);
     const std::size_t number = rng.next() % lamps.size();
-    const Sight sight = sights.of(number, points);
-    ++counts[static_cast<std::size_t>(sight)];
+    const Sight sight = sights.of(number, 0, points);
+    ++whole.sights[static_cast<std::size_t>(sight)];
     expect_seen(room, lamps[number], points, sight, rng);
-    for (int k = 0; k < 4 && sight == Sight::kSome; ++k) {
-      const Box part = part_of(points, rng);
-      const Sight of_part = sights.of_part(number, part);
-      ++part_counts[static_cast<std::size_t>(of_part)];
-      expect_seen(room, lamps[number], part, of_part, rng);
-      if (of_part == Sight::kSome) {
-        expect_hidden_by(room, lamps[number], part, sights.among(), rng);
-        only_some += sights.among().fixed && sights.among().movers ? 0 : 1;
-      }
+    if (sight == Sight::kSome) {
+      expect_parts(room, sights, number, lamps[number], 1, points, rng, parts);
     }
     ASSERT_FALSE(HasFatalFailure()) << i;
   }
-  for (const int count : counts) EXPECT_GT(count, 300);
-  for (const int count : part_counts) EXPECT_GT(count, 300);
-  EXPECT_GT(only_some, 300);
+  for (const int count : whole.sights) EXPECT_GT(count, 300);
+  for (const int count : parts.sights) EXPECT_GT(count, 300);
+  EXPECT_GT(parts.only_some, 300);
 }
 
 TEST(Sights, DoNotDependOnEarlierBoxes) {
@@ -139,8 +155,8 @@ TEST(Sights, DoNotDependOnEarlierBoxes) {
   Rng rng(1, hash_bytes("earlier"), 0);
   for (int i = 0; i < 1000; ++i) {
     const Box points = points_on_a_surface(rng);
-    const Sight fresh = Sights(room.instances(), lamps).of(0, points);
-    const Sight sight = used.of(0, points);
+    const Sight fresh = Sights(room.instances(), lamps).of(0, 0, points);
+    const Sight sight = used.of(0, 0, points);
     // A remembered face may answer where the first one in sight does not, but never otherwise.
     EXPECT_TRUE(sight == fresh || (fresh == Sight::kSome && sight == Sight::kNone)) << i;
   }
@@ -153,9 +169,9 @@ TEST(Sights, KnowLampsWithoutShadowsAndSuns) {
   lamps[1].lamp.type = light::Lamp::Type::kDirectional;
   Sights sights(room.instances(), lamps);
   const Box below(Eigen::Vector3f(-1.0F, -1.0F, -3.0F), Eigen::Vector3f(-0.8F, -0.8F, -3.0F));
-  EXPECT_EQ(sights.of(0, below), Sight::kAll);
-  EXPECT_EQ(sights.of(1, below), Sight::kSome);
-  EXPECT_EQ(sights.of_part(1, below), Sight::kSome);
+  EXPECT_EQ(sights.of(0, 0, below), Sight::kAll);
+  EXPECT_EQ(sights.of(1, 0, below), Sight::kSome);
+  EXPECT_EQ(sights.of(1, 1, below), Sight::kSome);
 }
 
 }  // namespace
