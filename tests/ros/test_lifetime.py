@@ -137,3 +137,29 @@ def test_a_second_node_of_the_name_leaves_the_first_alone(tmp_path: Path) -> Non
         for process in (first, replacing, master.process):
             if process is not None:
                 end(process)
+
+
+def test_of_nodes_that_start_at_once_one_lives(tmp_path: Path) -> None:
+    world = tmp_path / "small.world"
+    world.write_text(WORLD)
+    master = Master(tmp_path)
+    nodes: list[subprocess.Popen[str]] = []
+    try:
+        for attempt in range(3):
+            logs = [tmp_path / f"log{attempt}{i}" for i in range(2)]
+            nodes = [subprocess.Popen([str(node_binary()), str(world)], text=True,
+                                      env=master.environment, stdout=log.open("w"),
+                                      stderr=subprocess.STDOUT) for log in logs]
+            until(lambda: any(node.poll() is not None for node in nodes), "one leaves")
+            left = int(nodes[1].poll() is not None)
+            said = logs[left].read_text().splitlines()[-1]
+            assert nodes[left].returncode == 1, said
+            assert said.startswith("a node /angen runs already"), said
+            until(lambda: "/angen/ready" in master.topics(), "the other one serves")
+            other = nodes[1 - left]
+            assert other.poll() is None, logs[1 - left].read_text()
+            other.send_signal(signal.SIGINT)
+            assert other.wait(60) == 0
+    finally:
+        for process in (*nodes, master.process):
+            end(process)

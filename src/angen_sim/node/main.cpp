@@ -332,9 +332,8 @@ int main(int argc, char** argv) {
     if (!paths.empty()) simulation = make(path, seed_in(raw));
     ros::init(argc, argv, "angen", ros::init_options::NoSigintHandler);
     end_on_signals();
-    if (std::count(raw.begin(), raw.end(), "_replace:=true") == 0) {
-      angen::node::require_no_other_node();
-    }
+    const bool replaces = std::count(raw.begin(), raw.end(), "_replace:=true") != 0;
+    angen::node::require_no_other_node(replaces);
     return run(path, std::move(simulation));
   } catch (const angen::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

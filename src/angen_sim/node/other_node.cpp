@@ -3,18 +3,22 @@
 #include <fcntl.h>
 #include <netdb.h>
 #include <poll.h>
+#include <ros/console.h>
 #include <ros/master.h>
 #include <ros/network.h>
 #include <ros/this_node.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <memory>
 #include <string>
 
 #include "core/diagnostics.h"
+#include "core/private_file.h"
+#include "core/process_lock.h"
 
 namespace angen::node {
 namespace {
@@ -52,16 +56,45 @@ bool answers(const std::string& uri) {
   return false;
 }
 
-}  // namespace
-
-void require_no_other_node() {
-  const std::string& name = ros::this_node::getName();
+/// Where the node of this name serves; empty where there is none.
+std::string other_uri(const std::string& name) {
   XmlRpc::XmlRpcValue request, response, uri;
   request[0] = name;
   request[1] = name;
-  if (!ros::master::execute("lookupNode", request, response, uri, true)) return;
-  if (uri.getType() != XmlRpc::XmlRpcValue::TypeString || !answers(uri)) return;
-  throw Error("a node " + name + " runs already at " + static_cast<std::string>(uri) +
+  if (!ros::master::execute("lookupNode", request, response, uri, true)) return "";
+  if (uri.getType() != XmlRpc::XmlRpcValue::TypeString || !answers(uri)) return "";
+  return uri;
+}
+
+/// Machines may share a home folder and each have a master at localhost.
+std::string machine() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+/// Nodes that start at once all find the name free at the master: the first one locks it.
+bool locks_name(const std::string& name) {
+  try {
+    make_private_folder(state_folder());
+    return lock_until_exit(state_folder() + "/nodes.lock",
+                           machine() + " " + ros::master::getURI() + " " + name);
+  } catch (const Error& error) {
+    ROS_WARN("a node %s that starts at the same time is not noticed: %s", name.c_str(),
+             error.what());
+    return true;
+  }
+}
+
+}  // namespace
+
+void require_no_other_node(bool replaces) {
+  const std::string& name = ros::this_node::getName();
+  const bool locked = locks_name(name);
+  if (replaces) return;
+  const std::string uri = other_uri(name);
+  if (locked && uri.empty()) return;
+  throw Error("a node " + name + " runs already" + (uri.empty() ? "" : " at " + uri) +
               " and would be ended by this one; end it by rosnode kill " + name +
               ", replace it by _replace:=true, or give this one a master of its own by "
               "ROS_MASTER_URI");
