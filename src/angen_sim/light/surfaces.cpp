@@ -19,6 +19,10 @@ constexpr double kSiteLift = 0.02;  // m: leaves stand a gap of some mm above si
 // sides.
 constexpr double kNeighbor = 1.38;
 constexpr double kOff = 1e-3;  // m: a closer shape covers a surface
+// Of the leaves of doors, in m: the greatest thickness, the least width and height, and a gap at an
+// edge that closed ones do not have.
+constexpr double kLeaf = 0.1, kLeastLeaf = 0.5, kGap = 0.05;
+constexpr rays::Mobilities kAnchored = rays::only(rays::Mobility::kAnchored);
 constexpr std::uint32_t kDivided = kNoPatch - 1;
 
 bool rounded(Shape::Type type) {
@@ -110,7 +114,8 @@ std::uint32_t Surfaces::make(const Key& key) {
   std::vector<Site> found = sites(key, fine ? kFineSitesPerSide : kSitesPerSide, covered);
   const bool divided = fine ? make_sides(key)
                             : found.empty() || covered > kSitesPerSide ||
-                                  sides(key, found).size() > 1 || faced(found);
+                                  is_open_leaf(static_cast<std::uint32_t>(key[0])) ||
+                                  is_uneven(key, found) || faced(found);
   return add(key, divided ? std::vector<Site>() : std::move(found), divided);
 }
 
@@ -135,7 +140,7 @@ std::uint32_t Surfaces::add(const Key& key, std::vector<Site> sites, bool divide
 /// Makes the sides of a part of a cell, if a shape crosses it.
 bool Surfaces::make_sides(const Key& key) {
   int covered = 0;
-  std::vector<std::vector<Site>> all = sides(key, sites(key, kSitesPerSide, covered));
+  std::vector<std::vector<Site>> all = sides(key, sites(key, kSitesPerSide, covered)).groups;
   if (all.size() < 2) return false;
   Key side = key;
   for (std::vector<Site>& own : all) {
@@ -223,32 +228,61 @@ bool Surfaces::site(const Lattice& cells, const Key& key, double u, double v, Si
 }
 
 /// Groups of sites; each sees a neighbor in its group along the surface.
-std::vector<std::vector<Site>> Surfaces::sides(const Key& key,
-                                               const std::vector<Site>& sites) const {
+Surfaces::Sides Surfaces::sides(const Key& key, const std::vector<Site>& sites) const {
   const double spacing = step_of(key).maxCoeff() / kSitesPerSide;
   const double near2 = std::pow(kNeighbor * spacing, 2);
-  std::vector<std::vector<Site>> all;
-  std::vector<bool> seen(sites.size(), false);
-  for (std::size_t first = 0; first < sites.size(); ++first) {
-    if (seen[first]) continue;
-    seen[first] = true;
-    std::vector<Site>& reached = all.emplace_back(1, sites[first]);
-    for (std::size_t next = 0; next < reached.size(); ++next) {
-      const Site from = reached[next];
-      for (std::size_t i = 0; i < sites.size(); ++i) {
-        if (seen[i] || (sites[i].position - from.position).squaredNorm() > near2) continue;
-        if (hidden(from, sites[i])) continue;
-        seen[i] = true;
-        reached.push_back(sites[i]);
+  Sides out;
+  std::vector<std::size_t> group(sites.size());
+  std::iota(group.begin(), group.end(), 0);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if ((sites[i].position - sites[k].position).squaredNorm() > near2) continue;
+      if (hidden(sites[i], sites[k])) {
+        out.crossed = out.crossed || hidden(sites[i], sites[k], kAnchored);
+      } else if (group[i] != group[k]) {
+        const std::size_t joined = std::min(group[i], group[k]);
+        const std::size_t left = std::max(group[i], group[k]);
+        std::replace(group.begin(), group.end(), left, joined);
       }
     }
   }
-  return all;
+  std::vector<std::vector<Site>> all(sites.size());
+  for (std::size_t i = 0; i < sites.size(); ++i) all[group[i]].push_back(sites[i]);
+  for (std::vector<Site>& own : all) {
+    if (!own.empty()) out.groups.push_back(std::move(own));
+  }
+  return out;
 }
 
-bool Surfaces::hidden(const Site& from, const Site& to) const {
+bool Surfaces::hidden(const Site& from, const Site& to, rays::Mobilities by) const {
   return scene_.blocked(from.position + kSiteLift * from.normal,
-                        to.position + kSiteLift * to.normal, 1e-4, kStanding);
+                        to.position + kSiteLift * to.normal, 1e-4, by);
+}
+
+/// Whether a shape separates sites, or an anchored one is between some: behind the leaf of a door
+/// that is ajar it is dark, and bright beside its edge.
+bool Surfaces::is_uneven(const Key& key, const std::vector<Site>& sites) const {
+  const Sides found = this->sides(key, sites);
+  return found.crossed || found.groups.size() > 1;
+}
+
+bool Surfaces::is_open_leaf(std::uint32_t shape) const {
+  if (scene_.mobility(shape) != rays::Mobility::kAnchored) return false;
+  const rays::Placement at = scene_.placement(shape);
+  const Vec3 size = at.box.sizes();
+  int thin = 0;
+  if (!(size.minCoeff(&thin) < kLeaf)) return false;
+  for (int edge = 0; edge < 4; ++edge) {
+    const int axis = (thin + 1 + edge / 2) % 3;
+    if (size[axis] < kLeastLeaf) return false;
+    const Vec3 outward = (edge % 2 == 0 ? 1.0 : -1.0) * Vec3::Unit(axis);
+    const Vec3 from = at.box.center() + outward * (size[axis] / 2 + kOff);
+    if (!scene_.covered(at.pose * from, shape) &&
+        !scene_.blocked(at.pose * from, at.pose * (from + kGap * outward), 0.0, kStanding)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 /// Whether a shape is close in front of any site: light varies strongly along such gaps.

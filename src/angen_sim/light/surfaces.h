@@ -23,8 +23,9 @@ struct Site {
 };
 
 /// A piece of one side of a shape's surface of about 0.4 m (0.1 m if a shape covers a part of it or
-/// is close in front of it), with one illuminance. A shape that crosses such a part, as a
-/// leaf on a door's sill, separates it into sides.
+/// is close in front of it, if an anchored one crosses it, and on open leaves), with one
+/// illuminance. A shape that crosses such a part, as a leaf on a door's sill, separates it into
+/// sides.
 struct Patch {
   std::array<std::int32_t, 6> key;  // shape, face, depth, u, v; 0, 1 for a part, 2, 3, … for a side
   std::uint64_t hash = 0;
@@ -71,6 +72,11 @@ class Surfaces {
     Eigen::Array2d parts;      // number along the sides of a divided cell
   };
 
+  struct Sides {
+    std::vector<std::vector<Site>> groups;
+    bool crossed = false;  // an anchored shape hides two neighboring sites from each other
+  };
+
   Lattice lattice(std::uint32_t shape, int face) const;
   Eigen::Array2d step_of(const Key& key) const;
   std::uint32_t make(const Key& key);
@@ -79,8 +85,10 @@ class Surfaces {
   std::uint32_t side_at(const Key& key, const Site& point) const;
   std::vector<Site> sites(const Key& key, int per_side, int& covered) const;
   bool site(const Lattice& lattice, const Key& key, double u, double v, Site& out) const;
-  std::vector<std::vector<Site>> sides(const Key& key, const std::vector<Site>& sites) const;
-  bool hidden(const Site& from, const Site& to) const;
+  Sides sides(const Key& key, const std::vector<Site>& sites) const;
+  bool is_uneven(const Key& key, const std::vector<Site>& sites) const;
+  bool hidden(const Site& from, const Site& to, rays::Mobilities by = kStanding) const;
+  bool is_open_leaf(std::uint32_t shape) const;
   bool faced(const std::vector<Site>& sites) const;
   template <class Matches>
   void forget_if(std::uint32_t shape, std::vector<std::uint32_t>& removed, Matches&& matches);
