@@ -4,20 +4,16 @@
 #include <array>
 #include <cmath>
 
-#include "core/cells.h"
 #include "core/texture.h"
 #include "light/beam.h"
 
 namespace angen::render {
 namespace {
 
-constexpr float kMin = 0.1F;       // lx; less is not worth a shadow ray
-constexpr float kFarAway = 1e4F;   // m, the farthest shadow of a directional lamp
-constexpr float kCell = 0.1F;      // m; reflected light is that of patches of 0.4 m
-constexpr float kFarCells = 4.0F;  // m; cells beyond are twice as large
-constexpr float kMostCells = 1e9F;
-constexpr float kCellShift = 0.37F;  // of a cell, so that walls are not at the sides of cells
-constexpr float kWays = 7.0F;        // steps of 8 degrees
+constexpr float kMin = 0.1F;        // lx; less is not worth a shadow ray
+constexpr float kFarAway = 1e4F;    // m, the farthest shadow of a directional lamp
+constexpr float kSamePlace = 0.1F;  // m; reflected light is that of patches of 0.4 m
+constexpr float kSameWay = 0.98F;   // cosine between normals
 constexpr int kCodes = 1 << 14;
 
 /// sRGB bytes of evenly spaced linear values.
@@ -140,56 +136,35 @@ Reflections::Reflections(const light::ReflectedLight& light, const Instances& in
         return seen_from(from, to, count, instances);
       }) {}
 
-/// Numbers of cells along an axis.
-Reflections::Whole Reflections::cells(const Lanes& along, const Lanes& per_meter) {
-  Whole cells;
-  for (int i = 0; i < kLanes; ++i) {
-    const float at = std::clamp(along[i] * per_meter[i] + kCellShift, -kMostCells, kMostCells);
-    const auto cell = static_cast<int>(at);
-    cells[i] = cell - (static_cast<float>(cell) > at ? 1 : 0);
-  }
-  return cells;
-}
-
-/// Numbers of ways to face, along an axis.
-Reflections::Whole Reflections::ways(const Lanes& along) {
-  Whole ways;
-  for (int i = 0; i < kLanes; ++i) ways[i] = static_cast<int>(kWays * along[i] + kWays + 1.5F);
-  return ways;
-}
-
-/// Light at a point, or at one that came before in its cell.
-const Eigen::Vector3f& Reflections::at(const Key& key, const Tile& tile, int i) {
-  const auto [entry, fresh] = known_.try_emplace(key);
-  if (fresh) entry->second = lookup_.at(tile.point[i], tile.normal[i]);
-  return entry->second;
+const Reflections::Known* Reflections::find(const Some& all, int count,
+                                            const Eigen::Vector3f& point,
+                                            const Eigen::Vector3f& normal) {
+  const auto end = all.begin() + count;
+  const auto found = std::find_if(all.begin(), end, [&](const Known& known) {
+    return normal.dot(known.normal) > kSameWay &&
+           (point - known.point).squaredNorm() < kSamePlace * kSamePlace;
+  });
+  return found == end ? nullptr : &*found;
 }
 
 void Reflections::shine(Tile& tile) {
-  Lanes per_meter;
-  for (int i = 0; i < kLanes; ++i)
-    per_meter[i] = tile.depth[i] > kFarCells ? 0.5F / kCell : 1.0F / kCell;
-  const Whole x = cells(tile.point.x, per_meter), y = cells(tile.point.y, per_meter),
-              z = cells(tile.point.z, per_meter);
-  const Whole u = ways(tile.normal.x), v = ways(tile.normal.y), w = ways(tile.normal.z);
-  std::array<std::pair<int, const Eigen::Vector3f*>, kLanes> found;  // the first pixel of each cell
-  std::size_t count = 0;
+  Strip& strip = strips_[static_cast<std::size_t>(tile.row / kTile % kTilesAcross)];
+  Some now;
+  int count = 0;
   for (int i = 0; i < kLanes; ++i) {
     if (tile.valid[i] == 0) continue;
-    const auto is_same = [&](const auto& other) {
-      const int k = other.first;
-      return ((x[i] ^ x[k]) | (y[i] ^ y[k]) | (z[i] ^ z[k]) | (u[i] ^ u[k]) | (v[i] ^ v[k]) |
-              (w[i] ^ w[k])) == 0;
-    };
-    auto known = std::find_if(found.begin(), found.begin() + count, is_same);
-    if (known == found.begin() + count) {
-      const Key key{cell_key(x[i], y[i], z[i]),
-                    u[i] << 8 | v[i] << 4 | w[i] | (tile.depth[i] > kFarCells ? 1 << 12 : 0)};
-      *known = {i, &at(key, tile, i)};
-      ++count;
+    const Eigen::Vector3f point = tile.point[i];
+    const Eigen::Vector3f normal = tile.normal[i];
+    const Known* known = find(now, count, point, normal);
+    if (known == nullptr) {
+      const Known* before = find(strip.last, strip.count, point, normal);
+      now[count] = before != nullptr ? *before : Known{point, normal, lookup_.at(point, normal)};
+      known = &now[count++];
     }
-    tile.light.set(i, tile.light[i] + *known->second);
+    tile.light.set(i, tile.light[i] + known->light);
   }
+  std::copy_n(now.begin(), count, strip.last.begin());
+  strip.count = count;
 }
 
 std::array<std::uint8_t, kLanes> shown(const Lanes& luminances) {

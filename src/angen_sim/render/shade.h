@@ -1,8 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "light/reflected_light.h"
@@ -46,7 +44,7 @@ struct alignas(64) Tile {
   const Finish* finish[kLanes];
   Columns color;  // albedo
   bool in_image[kLanes];
-  bool is_even;     // all pixels show the same facet, from the same side
+  bool is_even;  // all pixels show the same facet, from the same side
   int column, row;  // of its first pixel
   Box seen;         // around the points; empty without hits
   Box starts;       // around the lifted points
@@ -55,36 +53,33 @@ struct alignas(64) Tile {
 /// Adds the direct light of one lamp to each point; only those bodies may be in its way.
 void shine(const light::Lit& lit, const Instances& instances, const Among& among, Tile& tile);
 
-/// Reflected light on tiles. It varies over decimeters: points in a cell of 0.1 m that face the
-/// same way get that of the first one. Tiles of a row of blocks come in a fixed order, and rows
-/// share nothing, so that images do not depend on which thread has which rows.
+/// Reflected light on tiles. It varies over decimeters: near points that face the same way get the
+/// same, as the last tile's do. Tiles of a strip come from left to right, so that images do not
+/// depend on which thread has which strips.
 class Reflections {
  public:
   Reflections(const light::ReflectedLight& light, const Instances& instances);
 
   /// Begins a row of blocks.
-  void start() { known_.clear(); }
+  void start() { strips_ = {}; }
   /// Adds reflected light to each point.
   void shine(Tile& tile);
 
  private:
-  struct Key {
-    std::uint64_t cell = 0;
-    int way = 0;
-
-    bool operator==(const Key& other) const { return cell == other.cell && way == other.way; }
+  struct Known {
+    Eigen::Vector3f point, normal, light;
   };
-  struct HashKey {
-    std::size_t operator()(const Key& key) const { return 31 * key.cell + key.way; }
-  };
-  using Whole = Eigen::Array<int, kLanes, 1>;
+  using Some = std::array<Known, kLanes>;
 
-  static Whole cells(const Lanes& along, const Lanes& per_meter);
-  static Whole ways(const Lanes& along);
-  const Eigen::Vector3f& at(const Key& key, const Tile& tile, int i);
+  static const Known* find(const Some& all, int count, const Eigen::Vector3f& point,
+                           const Eigen::Vector3f& normal);
 
   light::ReflectedLookup lookup_;
-  std::unordered_map<Key, Eigen::Vector3f, HashKey> known_;
+  struct Strip {
+    Some last;  // of the last tile
+    int count = 0;
+  };
+  std::array<Strip, kTilesAcross> strips_;  // of the row of blocks
 };
 
 /// sRGB bytes of luminances in cd/m^2.

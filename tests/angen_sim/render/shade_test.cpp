@@ -4,7 +4,6 @@
 #include <cstring>
 #include <functional>
 #include <memory>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -81,27 +80,6 @@ TEST(Picture, ReflectedLightIsThatOfAPlaceWithinADecimeter) {
       EXPECT_LE(shown, expected_byte(0.6, 20.0 + 8.0 * (x + 0.1)) + 1) << row << ' ' << column;
     }
   }
-}
-
-// Beyond 4 m, cells are twice as large: a row of the image is of one place along x.
-TEST(Picture, ReflectedLightFarAwayIsThatOfAPlaceWithinTwoDecimeters) {
-  View view;
-  view.pinhole.horizontal_angle = 0.5;
-  view.camera = {{0.0, 0.0, 9.0}, from_rpy(0.0, M_PI_2, 0.0)};
-  view.scene.add(body(box(50.0, 50.0, 1.0), at(0.0, 0.0, -0.5), {0.6F, 0.6F, 0.6F}));
-  Ambience ambience = kDark;
-  ambience.reflected = rising_light();
-  std::set<int> shown;
-  const std::vector<std::uint8_t> all = view.scene.colors(view.pinhole, view.camera, {}, ambience);
-  for (int row = 0; row < 240; ++row) {
-    const double x = 9.0 * (view.pinhole.center_y() - row) / view.pinhole.focal();
-    const int red = all[static_cast<std::size_t>(3 * (row * 320 + 160))];
-    EXPECT_GE(red, expected_byte(0.6, 20.0 + 8.0 * (x - 0.2)) - 1) << row;
-    EXPECT_LE(red, expected_byte(0.6, 20.0 + 8.0 * (x + 0.2)) + 1) << row;
-    shown.insert(red);
-  }
-  EXPECT_GT(shown.size(), 10U);
-  EXPECT_LT(shown.size(), 32U);  // 3.4 m, in cells of 0.2 m, cut by eight rows of blocks
 }
 
 TEST(Picture, IsTheSameOnAnyNumberOfThreads) {
