@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <sstream>
 #include <vector>
 
@@ -90,6 +92,34 @@ bool one_of(double value, const std::vector<double>& known) {
   return std::find(known.begin(), known.end(), value) != known.end();
 }
 
+/// Planes from 90 to 270 degrees are one half of a luminaire that is symmetric about their plane:
+/// makes all planes from 0 to 360 degrees of them.
+void add_other_half(Photometry& luminaire) {
+  std::map<double, std::vector<double>> planes;  // by angle
+  const auto rows = static_cast<std::ptrdiff_t>(luminaire.vertical.size());
+  auto first = luminaire.candela.begin();
+  for (const double angle : luminaire.horizontal) {
+    planes[angle] = planes[std::fmod(540.0 - angle, 360.0)] = {first, first + rows};
+    first += rows;
+  }
+  if (planes.count(0.0) == 0) {  // between the mirrored planes beside it
+    const auto low = std::prev(planes.lower_bound(180.0)), high = planes.upper_bound(180.0);
+    const double share = (180.0 - low->first) / (high->first - low->first);
+    std::vector<double>& middle = planes[0.0];
+    for (std::size_t i = 0; i < luminaire.vertical.size(); ++i) {
+      middle.push_back((1.0 - share) * low->second[i] + share * high->second[i]);
+    }
+    planes[180.0] = middle;
+  }
+  planes[360.0] = planes[0.0];
+  luminaire.horizontal.clear();
+  luminaire.candela.clear();
+  for (const auto& [angle, candela] : planes) {
+    luminaire.horizontal.push_back(angle);
+    luminaire.candela.insert(luminaire.candela.end(), candela.begin(), candela.end());
+  }
+}
+
 }  // namespace
 
 Photometry photometry_of(const std::string& text, const std::string& file) {
@@ -115,8 +145,11 @@ Photometry photometry_of(const std::string& text, const std::string& file) {
     in.fail("the vertical angles do not go from 0 or 90 to 90 or 180 degrees");
   }
   out.horizontal = in.next_angles(planes, "the horizontal angles");
-  if (out.horizontal.front() != 0.0 || !one_of(out.horizontal.back(), {0.0, 90.0, 180.0, 360.0})) {
-    in.fail("the horizontal angles do not go from 0 to 0, 90, 180 or 360 degrees");
+  const bool is_half = out.horizontal.front() == 90.0 && out.horizontal.back() == 270.0;
+  if (!is_half && (out.horizontal.front() != 0.0 ||
+                   !one_of(out.horizontal.back(), {0.0, 90.0, 180.0, 360.0}))) {
+    in.fail(
+        "the horizontal angles do not go from 0 to 0, 90, 180 or 360 degrees, nor from 90 to 270");
   }
   if (rows < 2) in.fail("there is only one vertical angle; give at least two");
   for (std::size_t i = 0; i < rows * planes; ++i) {
@@ -128,6 +161,7 @@ Photometry photometry_of(const std::string& text, const std::string& file) {
   if (*std::max_element(out.candela.begin(), out.candela.end()) <= 0.0) {
     in.fail("all intensities are 0");
   }
+  if (is_half) add_other_half(out);
   for (double& angle : out.vertical) angle *= kDegree;
   for (double& angle : out.horizontal) angle *= kDegree;
   return out;

@@ -44,7 +44,7 @@ struct alignas(64) Tile {
   const Finish* finish[kLanes];
   Columns color;  // albedo
   bool in_image[kLanes];
-  bool is_even;  // all pixels show the same facet, from the same side
+  bool is_even;     // all pixels show the same facet, from the same side
   int column, row;  // of its first pixel
   Box seen;         // around the points; empty without hits
   Box starts;       // around the lifted points

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/diagnostics.h"
 
@@ -31,6 +32,41 @@ TEST(Ies, HasItsAnglesAndItsIntensitiesTimesTheMultiplier) {
   ASSERT_EQ(read.horizontal.size(), 2U);
   EXPECT_DOUBLE_EQ(read.horizontal[1], M_PI / 2);
   EXPECT_EQ(read.candela, (std::vector<double>{200, 140, 0, 180, 120, 10}));
+}
+
+// LM-63: such a luminaire is symmetric about the plane of 90 and 270 degrees.
+TEST(Ies, PlanesFrom90To270AreMirrored) {
+  const auto candela_of = [](const Photometry& luminaire, int degrees) {
+    for (std::size_t i = 0; i < luminaire.horizontal.size(); ++i) {
+      if (std::abs(luminaire.horizontal[i] - degrees * M_PI / 180.0) > 1e-9) continue;
+      return luminaire.candela[2 * i];
+    }
+    return -1.0;
+  };
+  const std::string numbers = "1 1000 1 2 4 1 2 0.1 0.1 0\n1 1 10\n0 90\n";
+  const Photometry read =
+      photometry_of(kHead + numbers + "90 150 180 270\n100 0\n50 0\n30 0\n10 0\n", "lamp.ies");
+  EXPECT_EQ(read.horizontal.size(), 7U);
+  for (const auto& [degrees, candela] : {std::pair{0, 30.0},
+                                         {30, 50.0},
+                                         {90, 100.0},
+                                         {150, 50.0},
+                                         {180, 30.0},
+                                         {270, 10.0},
+                                         {360, 30.0}}) {
+    EXPECT_EQ(candela_of(read, degrees), candela) << degrees;
+  }
+  const Photometry without =
+      photometry_of(kHead + numbers + "90 140 200 270\n100 0\n50 0\n30 0\n10 0\n", "lamp.ies");
+  for (const auto& [degrees, candela] : {std::pair{0, 110.0 / 3.0},
+                                         {40, 50.0},
+                                         {140, 50.0},
+                                         {180, 110.0 / 3.0},
+                                         {200, 30.0},
+                                         {340, 30.0},
+                                         {360, 110.0 / 3.0}}) {
+    EXPECT_NEAR(candela_of(without, degrees), candela, 1e-9) << degrees;
+  }
 }
 
 TEST(Ies, ABrokenFileIsAnErrorWithItsLine) {
