@@ -42,6 +42,22 @@ bool stays(const std::optional<rays::Standing>& before, const std::optional<rays
                                        (a.max() - b.max()).cwiseAbs().maxCoeff() < kStill);
 }
 
+double area_of(const Eigen::AlignedBox3d& box) {
+  const Vec3 size = box.sizes();
+  return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
+}
+
+/// Adds it to one of the boxes if no more rays pass the box around both than each of them.
+void add_box(const Eigen::AlignedBox3d& box, std::vector<Eigen::AlignedBox3d>& boxes) {
+  for (Eigen::AlignedBox3d& other : boxes) {
+    const Eigen::AlignedBox3d both = other.merged(box);
+    if (area_of(both) > area_of(other) + area_of(box)) continue;
+    other = both;
+    return;
+  }
+  boxes.push_back(box);
+}
+
 }  // namespace
 
 void Field::note(std::uint32_t shape, const Box& box, bool is_static,
@@ -108,7 +124,7 @@ void Field::start_update() {
   std::sort(outdated_.begin(), outdated_.end());
   for (const std::uint32_t shape : outdated_) {
     const Box box = std::exchange(been_[shape], Box());
-    boxes_.push_back({box.min() - Vec3::Constant(kNear), box.max() + Vec3::Constant(kNear)});
+    add_box({box.min() - Vec3::Constant(kNear), box.max() + Vec3::Constant(kNear)}, boxes_);
     surfaces_.forget(shape, releasing_);
     forget_near(box);
   }
