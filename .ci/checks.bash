@@ -256,7 +256,7 @@ run_tidy() { # [FILE...]
   cd "$root" || exit
   install dev
   locked build_tree "$tree" -DCMAKE_UNITY_BUILD=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -- \
-    angen_msgs_generate_messages_cpp gazebo_msgs_generate_messages_cpp
+    angen_msgs_generate_messages_cpp gazebo_msgs_generate_messages_cpp kobuki_msgs_generate_messages_cpp
   ((${#files[@]})) || files=("$root/src/angen_sim/")
   suite clang-tidy run-clang-tidy -quiet -p "$tree" -j "$(jobs)" \
     -extra-arg=-Wno-unknown-warning-option "${files[@]}"

@@ -102,6 +102,20 @@ class RosKindBuilder {
     return *this;
   }
 
+  /// A channel that makes messages of readings by itself, on this topic of the robot.
+  template <class Message, class Made>
+  RosKindBuilder& channel(std::string topic) {
+    Format format;
+    format.type = ros::message_traits::datatype<Message>();
+    format.leaf = std::move(topic);
+    format.leaf_alone = true;
+    format.open = [](ros::NodeHandle& node, const std::string& name) {
+      return std::make_unique<Made>(node, name);
+    };
+    kind_.formats.push_back(std::move(format));
+    return *this;
+  }
+
   /// The last message's topic ends otherwise where the parameter is given.
   RosKindBuilder& with(std::string parameter, std::string leaf) {
     kind_.formats.back().other_leaf_with = std::move(parameter);

@@ -53,5 +53,40 @@ TEST(Kobuki, HasWheelsAndAnImu) {
   EXPECT_EQ(names, (std::vector<std::string>{"left_joint", "right_joint"}));
 }
 
+std::string wall(double x, double yaw) {
+  return "<model name='wall'><static>true</static><link name='l'><pose>" + std::to_string(x) +
+         " 0 0.5 0 0 " + std::to_string(yaw) +
+         "</pose><collision name='c'><geometry><box><size>0.1 4 1</size></box></geometry>"
+         "</collision></link></model>";
+}
+
+std::string pressed(const Hall& hall) {
+  const Reading reading = hall.reading("kobuki_bumper");
+  std::string parts;
+  for (const char* part : {"left", "center", "right"}) {
+    if (reading.get<bool>(part)) parts += std::string(parts.empty() ? "" : " ") + part;
+  }
+  return parts;
+}
+
+TEST(Kobuki, ItsBumperIsPressedWhereAWallIs) {
+  for (const auto& [yaw, part] : std::vector<std::pair<double, std::string>>{
+           {0.0, "center"}, {0.8, "left"}, {-0.8, "right"}}) {
+    Hall hall(base("<velocity_command_timeout>5</velocity_command_timeout>") + wall(0.6, yaw));
+    hall.run(0.5);
+    EXPECT_EQ(pressed(hall), "") << "on the floor";
+    hall.command("kobuki", {0.3, 0.0});
+    std::string first;
+    for (int i = 0; i < 40 && first.empty(); ++i) {
+      hall.run(0.1);
+      first = pressed(hall);
+    }
+    EXPECT_EQ(first, part) << yaw;
+    hall.command("kobuki", {-0.3, 0.0});
+    hall.run(1.0);
+    EXPECT_EQ(pressed(hall), "") << yaw;
+  }
+}
+
 }  // namespace
 }  // namespace angen::robots

@@ -1,0 +1,17 @@
+"""Programs connect where types have the md5 sums of kobuki_msgs 0.7."""
+from __future__ import annotations
+
+from pathlib import Path
+
+from genmsg import MsgContext
+from genmsg.gentools import compute_md5
+from genmsg.msg_loader import load_msg_from_file
+
+PACKAGE = Path(__file__).resolve().parents[2] / 'src/kobuki_msgs'
+MD5 = {'BumperEvent': 'ffe360cd50f14f9251d9844083e72ac5'}
+
+
+def test_the_definitions_are_kobuki_s() -> None:
+    context = MsgContext.create_default()
+    assert MD5 == {path.stem: compute_md5(context, load_msg_from_file(
+        context, str(path), f'kobuki_msgs/{path.stem}')) for path in PACKAGE.glob('msg/*.msg')}
