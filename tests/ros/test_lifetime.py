@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import signal
 import subprocess
 import time
@@ -135,6 +136,26 @@ def test_a_second_node_of_the_name_leaves_the_first_alone(tmp_path: Path) -> Non
         assert first.poll() is None
     finally:
         for process in (first, replacing, master.process):
+            if process is not None:
+                end(process)
+
+
+def test_a_node_waits_for_the_end_of_the_one_before(tmp_path: Path) -> None:
+    world = tmp_path / "small.world"
+    world.write_text(WORLD)
+    folder = tmp_path / "angen"
+    folder.mkdir(mode=0o700)
+    master = Master(tmp_path)
+    master.environment["XDG_STATE_HOME"] = str(tmp_path)
+    node = None
+    try:
+        with (folder / "nodes.lock").open("w") as lock:
+            fcntl.lockf(lock, fcntl.LOCK_EX)  # all names, as a node that ends has its own
+            node = subprocess.Popen([str(node_binary()), str(world)], env=master.environment)
+            time.sleep(1.0)
+        until(lambda: "/angen/ready" in master.topics(), "it serves")
+    finally:
+        for process in (node, master.process):
             if process is not None:
                 end(process)
 

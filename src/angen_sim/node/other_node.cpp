@@ -12,9 +12,11 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include "core/diagnostics.h"
 #include "core/private_file.h"
@@ -24,6 +26,8 @@ namespace angen::node {
 namespace {
 
 constexpr int kConnectLimit = 2000;  // ms
+constexpr int kTries = 50;           // for a name that another one has locked
+constexpr std::chrono::milliseconds kBetweenTries(100);
 
 bool connects(const addrinfo& address) {
   const int file = socket(address.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
@@ -90,9 +94,15 @@ bool locks_name(const std::string& name) {
 
 void require_no_other_node(bool replaces) {
   const std::string& name = ros::this_node::getName();
-  const bool locked = locks_name(name);
+  bool locked = locks_name(name);
   if (replaces) return;
-  const std::string uri = other_uri(name);
+  std::string uri = other_uri(name);
+  // A node that starts is registered soon, and one that ends releases the name.
+  for (int tries = 0; !locked && uri.empty() && tries < kTries; ++tries) {
+    std::this_thread::sleep_for(kBetweenTries);
+    locked = locks_name(name);
+    uri = other_uri(name);
+  }
   if (locked && uri.empty()) return;
   throw Error("a node " + name + " runs already" + (uri.empty() ? "" : " at " + uri) +
               " and would be ended by this one; end it by rosnode kill " + name +
