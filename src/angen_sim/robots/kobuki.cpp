@@ -90,9 +90,8 @@ class KobukiImu : public InertialUnit {
   }
 };
 
-/// The bumper: three sectors of 60 degrees ahead, pressed by what pushes the base from there.
-/// A <sensor> with this library is the first kind in the order of class names: KobukiImu.
-class KobukiSectors : public Sensor {
+/// Three sectors of 60 degrees ahead, pressed where something pushes the base from there.
+class KobukiBumper : public Sensor {
  public:
   static Kind describe() {
     Kind kind("kobuki_bumper", "Bumper of a Kobuki: which of its three parts are pressed.");
@@ -155,4 +154,4 @@ ANGEN_REGISTER_PLUGIN(angen::robots::KobukiPlugin)
 ANGEN_REGISTER_PLUGIN(angen::robots::ModelSensorPlugin<angen::robots::KobukiOdometry>)
 ANGEN_REGISTER_PLUGIN(angen::robots::ModelSensorPlugin<angen::robots::KobukiWheels>)
 ANGEN_REGISTER_PLUGIN(angen::robots::ModelSensorPlugin<angen::robots::KobukiImu>)
-ANGEN_REGISTER_PLUGIN(angen::robots::ModelSensorPlugin<angen::robots::KobukiSectors>)
+ANGEN_REGISTER_PLUGIN(angen::robots::ModelSensorPlugin<angen::robots::KobukiBumper>)

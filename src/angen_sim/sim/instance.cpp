@@ -163,6 +163,21 @@ ModelInfo info_of(const desc::Model& model) {
   return info;
 }
 
+namespace {
+
+/// Of a library that has several sensors, the one whose kind is the name of the element; or null.
+const Plugin* named_in(const std::vector<std::shared_ptr<const Plugin>>& library,
+                       const Element& element) {
+  const std::string* name = element.attribute("name");
+  if (name == nullptr) return nullptr;
+  const auto found = std::find_if(library.begin(), library.end(), [&](const auto& plugin) {
+    return plugin->kind().name == *name && plugin->makes_sensors();
+  });
+  return found != library.end() ? found->get() : nullptr;
+}
+
+}  // namespace
+
 SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
                            std::shared_ptr<const desc::Sensor> shared, const std::string& name,
                            Catalog& catalog, std::vector<std::string>& warnings,
@@ -171,8 +186,10 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
   return with_source(described.source, [&] {
     SensorInstance instance;
     std::optional<Params> read;
-    for (const auto& plugin : catalog.library(described.plugin)) {
-      if (only != nullptr && plugin.get() != only) continue;
+    const auto& library = catalog.library(described.plugin);
+    const Plugin* chosen = only != nullptr ? only : named_in(library, described.plugin_element);
+    for (const auto& plugin : library) {
+      if (chosen != nullptr && plugin.get() != chosen) continue;
       read.emplace(described.plugin_element, &described.element, plugin->kind().rate());
       if (live.desc->tolerant) read->take_first();
       instance.sensor = plugin->make_sensor(*read);

@@ -19,9 +19,9 @@ def build(kind: str, *settings: str, lone: bool = False) -> etree._Element:
     return sensor.build(kind, 's1', sdf.parse_settings(list(settings)), lone)
 
 
-# Kinds for a robot's joints or its base, which these models do not have.
+# Kinds for a robot's joints, which these models do not have.
 JOINTED = {'wheel_states', 'odometry', 'joint_states', 'ft_sensor', 'kobuki_odometry',
-           'kobuki_wheels', 'kobuki_bumper'}
+           'kobuki_wheels'}
 KINDS = {name: kind for name, kind in catalog.kinds('sensor').items() if name not in JOINTED}
 FREE = [name for name, kind in KINDS.items() if not sensor.needs_link(kind)]
 
