@@ -1,12 +1,23 @@
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "angen_sim/devices/models.h"
 #include "angen_sim/devices/rig.h"
 
 namespace angen::test {
 namespace {
+
+Rig& add_elevator(Bench& bench, const Parameters& parameters) {
+  return bench.add(elevator(400.0), "libros_plugin.so", "elevator", parameters);
+}
+
+bool stands_at(const Rig& rig, std::int64_t floor) {
+  return rig.mode() == "IDLE" && rig.state().get<std::int64_t>("floor") == floor;
+}
 
 TEST(ElevatorFloors, AreTheStoreysWithinItsTravel) {
   Catalog catalog;
@@ -37,6 +48,38 @@ TEST(ElevatorFloors, AreTheStoreysWithinItsTravel) {
   EXPECT_EQ(stops({}), world.floor_heights);
   world.floor_heights = {0.0};
   EXPECT_THROW(stops({}), Error);
+}
+
+TEST(ElevatorFloors, AreNoMoreThanItsLiftReaches) {
+  Bench bench;
+  EXPECT_THROW(add_elevator(bench, {{"floors", "3"}, {"floor_height", "4"}}), Error);
+}
+
+TEST(ElevatorFloors, AreAtTheHeightsThatAreGiven) {
+  Bench bench;
+  Rig& rig = add_elevator(bench, {{"stop", "0"}, {"stop", "1.5"}, {"stop", "4"}});
+  ASSERT_GT(
+      bench.run_until(
+          4.0,
+          [&] { return stands_at(rig, 0) && rig.state().get<std::string>("door_mode") == "OPEN"; }),
+      0.0);
+  const double heights[] = {0.0, 1.5, 4.0};
+  for (const int floor : {1, 2, 0}) {
+    bench.run(2.0);
+    ASSERT_TRUE(rig.command("Floor" + std::to_string(floor)).accepted);
+    EXPECT_GT(bench.run_until(15.0, [&] { return stands_at(rig, floor); }), 0.0);
+    EXPECT_NEAR(rig.at("lift").position, heights[floor], 0.005);
+  }
+  EXPECT_NE(rig.command("Floor3").reason.find("Floor0 to Floor2"), std::string::npos);
+}
+
+TEST(ElevatorFloors, RiseFromZero) {
+  for (const Parameters& stops : std::vector<Parameters>{{{"stop", "1"}, {"stop", "2"}},
+                                                         {{"stop", "0"}, {"stop", "0"}},
+                                                         {{"stop", "0"}, {"stop", "9"}}}) {
+    Bench bench;
+    EXPECT_THROW(add_elevator(bench, stops), Error);
+  }
 }
 
 }  // namespace

@@ -381,34 +381,5 @@ TEST(Elevator, RejectsFloorsThatItHasNot) {
   EXPECT_TRUE(standing_open(rig, 0));
 }
 
-TEST(Elevator, RejectsMoreFloorsThanItsLiftReaches) {
-  Bench bench;
-  EXPECT_THROW(add_elevator(bench, 400.0, {{"floors", "3"}, {"floor_height", "4"}}), Error);
-}
-
-TEST(Elevator, StopsAtTheHeightsThatItIsGiven) {
-  Bench bench;
-  Rig& rig = add_elevator(bench, 400.0, {{"stop", "0"}, {"stop", "1.5"}, {"stop", "4"}});
-  ASSERT_GT(bench.run_until(4.0, [&] { return standing_open(rig, 0); }), 0.0);
-  const double heights[] = {0.0, 1.5, 4.0};
-  for (const int floor : {1, 2, 0}) {
-    bench.run(2.0);
-    ASSERT_TRUE(rig.command("Floor" + std::to_string(floor)).accepted);
-    EXPECT_GT(bench.run_until(15.0, [&] { return rig.mode() == "IDLE" && floor_of(rig) == floor; }),
-              0.0);
-    EXPECT_NEAR(height(rig), heights[floor], 0.005);
-  }
-  EXPECT_NE(rig.command("Floor3").reason.find("Floor0 to Floor2"), std::string::npos);
-}
-
-TEST(Elevator, RejectsStopsThatDoNotRiseFromZero) {
-  for (const Parameters& stops : std::vector<Parameters>{{{"stop", "1"}, {"stop", "2"}},
-                                                         {{"stop", "0"}, {"stop", "0"}},
-                                                         {{"stop", "0"}, {"stop", "9"}}}) {
-    Bench bench;
-    EXPECT_THROW(add_elevator(bench, 400.0, stops), Error);
-  }
-}
-
 }  // namespace
 }  // namespace angen::test
