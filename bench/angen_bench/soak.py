@@ -40,9 +40,11 @@ ROBOT = 'turtlebot'
 # Images of the robot are left out: 30 a second take most of the time. Other cameras are spawned.
 PICTURES = ('/camera/', f'/{ROBOT}/camera/')
 FAR = (60.0, 0.0, 0.05, 0.0, 0.0, 0.0)  # from the apartment: the pose of spawned models
+KOBUKI = [('left_wheel_joint_name', 'left_joint'), ('right_wheel_joint_name', 'right_joint')]
 # Parameters that these kinds require.
 NEEDS = {'accelerometer': [('link', 'link')], 'reed': [('magnet_link', 'link')],
-         'joint_states': [('jointName', 'left_joint')], 'ft_sensor': [('jointName', 'left_joint')]}
+         'joint_states': [('jointName', 'left_joint')], 'ft_sensor': [('jointName', 'left_joint')],
+         'kobuki_odometry': KOBUKI, 'kobuki_wheels': KOBUKI}
 ON_ANCHOR = (0.0, 0.0, 0.1, 0.0, 0.0, 0.0)
 
 
