@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "rays/query.h"
+#include "render/packets.h"
 
 namespace angen::render {
 namespace {
@@ -86,20 +87,20 @@ void Instances::find_hits(const int* valid, const Among& among, RTCIntersectCont
   rtcInitIntersectContext(&context);
   context.flags = flags;
   if (among.fixed) {
-    rtcIntersect16(valid, fixed().scene(), &context, &rays);
+    intersect(valid, fixed().scene(), context, rays);
     const auto number = static_cast<std::uint32_t>(placed_.size() - 1);
     for (int i = 0; i < 16; ++i) {
-      const bool hit = valid[i] != 0 && rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-      if (hit) rays.hit.instID[0][i] = number;
+      const bool hit = rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+      if (hit && rays.hit.instID[0][i] == RTC_INVALID_GEOMETRY_ID) rays.hit.instID[0][i] = number;
     }
   }
-  if (among.movers) rtcIntersect16(valid, seen_.get(), &context, &rays);
+  if (among.movers) intersect(valid, seen_.get(), context, rays);
 }
 
 void Instances::find_occluded(const int* wanted, const Among& among, RTCRay16& rays) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  if (among.fixed) rtcOccluded16(wanted, fixed().scene(), &context, &rays);
+  if (among.fixed) occlude(wanted, fixed().scene(), context, rays);
   if (!among.movers) return;
   alignas(64) int left[16];
   int any = 0;
@@ -107,7 +108,7 @@ void Instances::find_occluded(const int* wanted, const Among& among, RTCRay16& r
     left[i] = rays.tfar[i] >= 0.0F ? wanted[i] : 0;
     any |= left[i];
   }
-  if (any != 0) rtcOccluded16(left, opaque_.get(), &context, &rays);
+  if (any != 0) occlude(left, opaque_.get(), context, rays);
 }
 
 bool Instances::has_mover_in(const Hull& hull) const {

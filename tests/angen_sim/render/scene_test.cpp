@@ -63,6 +63,20 @@ TEST(Picture, ACameraInItsOwnHousingSeesWhatIsBeyond) {
   EXPECT_NEAR(view.depth(160, 120), 0.4, 1e-4);
 }
 
+// The edge of a thing in the housing is between two pixels of a tile, at each place in it.
+TEST(Picture, AThingInTheHousingIsSeenBesideWhatIsBeyond) {
+  View view;
+  view.scene.add(body(box(0.2, 0.3, 0.2), at(0.05)));
+  view.scene.add(body(box(1.0, 9.0, 9.0), at(2.5)));
+  const BodyId thing = view.scene.add(body(box(2e-4, 0.1, 0.1), at(0.0601, 0.05)));
+  for (int column = 150; column < 170; ++column) {  // the first that is beside it
+    const double edge = 0.06 * (view.pinhole.center_x() - (column - 0.5)) / view.pinhole.focal();
+    view.scene.move(thing, at(0.0601, edge + 0.05));
+    EXPECT_NEAR(view.depth(column - 1, 120), 0.06, 1e-4) << column;
+    EXPECT_NEAR(view.depth(column, 120), 2.0, 1e-4) << column;
+  }
+}
+
 TEST(Picture, WallsOfARoomAreSeenFromInside) {
   View view;
   view.scene.add(body(box(4.0, 4.0, 4.0), at(0.0)));
