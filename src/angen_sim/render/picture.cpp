@@ -167,7 +167,7 @@ ColorWriter::ColorWriter(const Instances& instances, const Illumination& by, int
       pixels_(pixels),
       depths_(width, depths),
       sights_(instances, by.lamps) {
-  if (by.ambience.reflected) reflected_.emplace(*by.ambience.reflected, instances);
+  if (by.ambience.reflected) reflected_.emplace(*by.ambience.reflected, instances, width);
 }
 
 void ColorWriter::begin_row_of_blocks() {
@@ -182,9 +182,7 @@ void ColorWriter::add(const TracedTile& traced) {
 }
 
 void ColorWriter::end_block() {
-  for (std::size_t k = 0; reflected_ && k < kTiles; ++k) {
-    if (has_[k]) reflected_->shine(tiles_[k]);
-  }
+  if (reflected_) reflected_->shine(tiles_, has_);
   if (!by_.lamps.empty()) set_squares();
   for (std::size_t i = 0; i < by_.lamps.size(); ++i) shine(i, 0, 0, Sight::kSome);
   for (std::size_t k = 0; k < kTiles; ++k) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "render/reflections.h"
 #include "render/shade.h"
 #include "render/sight.h"
 #include "render/tracer.h"
@@ -40,12 +41,6 @@ struct Facing {
   /// True only if the lamp shines on the back of all surfaces, with points in that box.
   bool is_behind(const light::Lamp& lamp, const Box& points) const;
 };
-
-/// The squares into which a block is divided: 1 + 4 + 16 + 64, the last ones are the tiles. Those
-/// of square i are 4 i + 1 to 4 i + 4.
-constexpr int kFirstTile = 1 + 4 + 16;
-constexpr int kSquares = kFirstTile + kTiles;
-static_assert(kDivisions == 3);
 
 /// Writes the colors of tiles, and their depths.
 class ColorWriter : public Visitor {

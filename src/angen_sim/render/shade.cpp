@@ -10,10 +10,8 @@
 namespace angen::render {
 namespace {
 
-constexpr float kMin = 0.1F;        // lx; less is not worth a shadow ray
-constexpr float kFarAway = 1e4F;    // m, the farthest shadow of a directional lamp
-constexpr float kSamePlace = 0.1F;  // m; reflected light is that of patches of 0.4 m
-constexpr float kSameWay = 0.98F;   // cosine between normals
+constexpr float kMin = 0.1F;      // lx; less is not worth a shadow ray
+constexpr float kFarAway = 1e4F;  // m, the farthest shadow of a directional lamp
 constexpr int kCodes = 1 << 14;
 
 /// sRGB bytes of evenly spaced linear values.
@@ -56,6 +54,8 @@ Lanes lengths(const Columns& of) {
   return squares;
 }
 
+}  // namespace
+
 void set_segments(const Columns& from, const Columns& way, RTCRay16& rays) {
   using Map = Eigen::Map<Lanes>;
   Map(rays.org_x) = from.x;
@@ -73,34 +73,6 @@ void set_segments(const Columns& from, const Columns& way, RTCRay16& rays) {
     rays.flags[i] = 0;
   }
 }
-
-/// Which points are visible from another, as bits; see light::ReflectedLookup.
-std::uint32_t seen_from(const Eigen::Vector3f& from, const Eigen::Vector3f* to, int count,
-                        const Instances& instances) {
-  alignas(64) int wanted[kLanes] = {};
-  alignas(64) RTCRay16 rays;
-  Columns all, way;
-  all.set_all(from);
-  Box box(from);
-  for (int i = 0; i < count; ++i) {
-    wanted[i] = -1;
-    way.set(i, to[i] - from);
-    box.extend(to[i]);
-  }
-  set_segments(all, way, rays);
-  box.min().array() -= kLift;
-  box.max().array() += kLift;
-  instances.find_occluded(wanted, {true, instances.has_opaque_mover_in(box)}, rays);
-  std::uint32_t seen = 0;
-  for (int i = 0; i < count; ++i) {
-    if (rays.tfar[i] >= 0.0F) seen |= 1U << i;
-  }
-  return seen;
-}
-
-}  // namespace
-
-static_assert(light::ReflectedLookup::kMax == kLanes);
 
 void shine(const light::Lit& lit, const Instances& instances, const Among& among, Tile& tile) {
   Columns way;
@@ -129,42 +101,6 @@ void shine(const light::Lit& lit, const Instances& instances, const Among& among
   tile.light.x += illuminance * lit.lamp.color.x();
   tile.light.y += illuminance * lit.lamp.color.y();
   tile.light.z += illuminance * lit.lamp.color.z();
-}
-
-Reflections::Reflections(const light::ReflectedLight& light, const Instances& instances)
-    : lookup_(light, [&instances](const auto& from, const auto* to, int count) {
-        return seen_from(from, to, count, instances);
-      }) {}
-
-const Reflections::Known* Reflections::find(const Some& all, int count,
-                                            const Eigen::Vector3f& point,
-                                            const Eigen::Vector3f& normal) {
-  const auto end = all.begin() + count;
-  const auto found = std::find_if(all.begin(), end, [&](const Known& known) {
-    return normal.dot(known.normal) > kSameWay &&
-           (point - known.point).squaredNorm() < kSamePlace * kSamePlace;
-  });
-  return found == end ? nullptr : &*found;
-}
-
-void Reflections::shine(Tile& tile) {
-  Strip& strip = strips_[static_cast<std::size_t>(tile.row / kTile % kTilesAcross)];
-  Some now;
-  int count = 0;
-  for (int i = 0; i < kLanes; ++i) {
-    if (tile.valid[i] == 0) continue;
-    const Eigen::Vector3f point = tile.point[i];
-    const Eigen::Vector3f normal = tile.normal[i];
-    const Known* known = find(now, count, point, normal);
-    if (known == nullptr) {
-      const Known* before = find(strip.last, strip.count, point, normal);
-      now[count] = before != nullptr ? *before : Known{point, normal, lookup_.at(point, normal)};
-      known = &now[count++];
-    }
-    tile.light.set(i, tile.light[i] + known->light);
-  }
-  std::copy_n(now.begin(), count, strip.last.begin());
-  strip.count = count;
 }
 
 std::array<std::uint8_t, kLanes> shown(const Lanes& luminances) {

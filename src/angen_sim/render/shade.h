@@ -1,9 +1,8 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
-#include "light/reflected_light.h"
+#include "light/lamp.h"
 #include "render/instances.h"
 #include "render/tracer.h"
 
@@ -50,37 +49,11 @@ struct alignas(64) Tile {
   Box starts;       // around the lifted points
 };
 
+/// Sets rays from points along the ways from there.
+void set_segments(const Columns& from, const Columns& way, RTCRay16& rays);
+
 /// Adds the direct light of one lamp to each point; only those bodies may be in its way.
 void shine(const light::Lit& lit, const Instances& instances, const Among& among, Tile& tile);
-
-/// Reflected light on tiles. It varies over decimeters: near points that face the same way get the
-/// same, as the last tile's do. Tiles of a strip come from left to right, so that images do not
-/// depend on which thread has which strips.
-class Reflections {
- public:
-  Reflections(const light::ReflectedLight& light, const Instances& instances);
-
-  /// Begins a row of blocks.
-  void start() { strips_ = {}; }
-  /// Adds reflected light to each point.
-  void shine(Tile& tile);
-
- private:
-  struct Known {
-    Eigen::Vector3f point, normal, light;
-  };
-  using Some = std::array<Known, kLanes>;
-
-  static const Known* find(const Some& all, int count, const Eigen::Vector3f& point,
-                           const Eigen::Vector3f& normal);
-
-  light::ReflectedLookup lookup_;
-  struct Strip {
-    Some last;  // of the last tile
-    int count = 0;
-  };
-  std::array<Strip, kTilesAcross> strips_;  // of the row of blocks
-};
 
 /// sRGB bytes of luminances in cd/m^2.
 std::array<std::uint8_t, kLanes> shown(const Lanes& luminances);

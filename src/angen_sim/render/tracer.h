@@ -18,6 +18,12 @@ constexpr int kTilesAcross = 1 << kDivisions;
 constexpr int kTiles = kTilesAcross * kTilesAcross;
 constexpr int kBlock = kTilesAcross * kTile;  // pixels
 
+/// A block's squares on all levels: 1 + 4 + 16 + 64, the last ones are the tiles. Those of square i
+/// are 4 i + 1 to 4 i + 4.
+constexpr int kFirstTile = 1 + 4 + 16;
+constexpr int kSquares = kFirstTile + kTiles;
+static_assert(kDivisions == 3);
+
 /// The rays of a tile, with their hits. The length of a direction makes a range the depth.
 struct TracedTile {
   int number = 0;              // in its block

@@ -82,6 +82,24 @@ TEST(Picture, ReflectedLightIsThatOfAPlaceWithinADecimeter) {
   }
 }
 
+TEST(Picture, ReflectedLightOnAFlatPieceHasNoSteps) {
+  View view;
+  view.pinhole.width = 640;
+  view.pinhole.height = 480;
+  view.camera = {{0.0, 0.0, 2.0}, from_rpy(0.0, M_PI_2, M_PI_2)};  // x to the right
+  view.scene.add(body(box(50.0, 50.0, 1.0), at(0.0, 0.0, -0.5), {0.6F, 0.6F, 0.6F}));
+  Ambience ambience = kDark;
+  ambience.reflected = rising_light();
+  const std::vector<std::uint8_t> all = view.scene.colors(view.pinhole, view.camera, {}, ambience);
+  for (int row = 0; row < 480; ++row) {
+    for (int column = 0; column < 640; ++column) {
+      const double x = 2.0 * (column - view.pinhole.center_x()) / view.pinhole.focal();
+      const int shown = all[static_cast<std::size_t>(3 * (row * 640 + column))];
+      ASSERT_NEAR(shown, expected_byte(0.6, 20.0 + 8.0 * x), 1) << row << ' ' << column;
+    }
+  }
+}
+
 TEST(Picture, IsTheSameOnAnyNumberOfThreads) {
   std::vector<std::uint8_t> colors;
   std::vector<float> depths;
