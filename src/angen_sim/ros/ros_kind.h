@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "ros/bulk.h"
 #include "ros/channel.h"
 #include "ros/command_topic.h"
 
@@ -87,7 +88,7 @@ class RosKindBuilder {
     format.open = opener<EachChannel<Message>>(fill);
     format.latched = opener<LatchedChannel<Message>>(fill);
     format.fill = [fill](const Reading& reading, const Label& label, void* made) {
-      fill(reading, label, *static_cast<Message*>(made));
+      fill_in(fill, reading, label, made);
     };
     kind_.formats.push_back(std::move(format));
     return *this;
@@ -220,6 +221,20 @@ class RosKindBuilder {
   RosKind done();
 
  private:
+  template <class Message>
+  static void fill_in(Fill<Message> fill, const Reading& reading, const Label& label, void* made) {
+    fill(reading, label, *static_cast<Message*>(made));
+  }
+  template <class Message>
+  static void fill_in(Fill<Bulk<Message>> fill, const Reading& reading, const Label& label,
+                      void* made) {
+    Bulk<Message> bulk;
+    fill(reading, label, bulk);
+    bulk.data.resize(bulk.size);
+    if (bulk.size > 0) bulk.write(bulk.data.data());
+    *static_cast<Message*>(made) = std::move(bulk);
+  }
+
   template <class Kind, class Message>
   static Format::Open opener(Fill<Message> fill) {
     return [fill](ros::NodeHandle& node, const std::string& topic) {

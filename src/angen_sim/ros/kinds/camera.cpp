@@ -1,5 +1,4 @@
 #include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
 
 #include "ros/kinds/images.h"
 #include "ros/ros_kind.h"
@@ -9,7 +8,7 @@ namespace {
 
 ANGEN_REGISTER_ROS_KIND({"camera"},
                         RosKindBuilder()
-                            .message<sensor_msgs::Image>(&fill_image, "image_raw", "imageTopicName")
+                            .message<BulkImage>(&fill_image, "image_raw", "imageTopicName")
                             .message<sensor_msgs::CameraInfo>(&fill_camera_info, "camera_info",
                                                               "cameraInfoTopicName")
                             .optical_frame());

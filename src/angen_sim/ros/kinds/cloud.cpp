@@ -75,7 +75,6 @@ void fill_block(const Reading& reading, const Label&, sensor_msgs::PointCloud& m
 /// As velodyne_pointcloud has it: column after column, hits only, or all where it is organized.
 /// All points are of one instant.
 void fill_rings(const Reading& reading, const Label&, sensor_msgs::PointCloud2& message) {
-  using sensor_msgs::PointField;
   const Scan scan(reading);
   const bool organized = reading.get<bool>("organized");
   std::size_t count = 0;
@@ -89,7 +88,7 @@ void fill_rings(const Reading& reading, const Label&, sensor_msgs::PointCloud2& 
                       {"y", 4},
                       {"z", 8},
                       {"intensity", 12},
-                      {"ring", 16, PointField::UINT16},
+                      {"ring", 16, sensor_msgs::PointField::UINT16},
                       {"time", 18}},
                      22, static_cast<std::uint32_t>(organized ? scan.columns() : 1),
                      static_cast<std::uint32_t>(organized ? scan.rows() : count));

@@ -1,9 +1,14 @@
 #include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "core/parallel.h"
 #include "render/pinhole_camera.h"
 #include "ros/kinds/images.h"
 #include "ros/kinds/points.h"
@@ -12,70 +17,114 @@
 namespace angen::node {
 namespace {
 
-constexpr std::uint32_t kColorAt = 16;  // bytes, as PCL has it
+constexpr std::size_t kRowsAtOnce = 16;
+constexpr std::size_t kPixelsOfAThread = 1U << 16U;  // fewer are not worth its start
 
-std::uint32_t packed(const std::uint8_t* color) {
-  return std::uint32_t{color[0]} << 16U | std::uint32_t{color[1]} << 8U | color[2];
-}
+struct Point {
+  float x, y, z;
+};
 
-render::Distortion distortion_of(const Reading& reading) {
-  auto d = reading.get<std::vector<double>>("distortion");
-  d.resize(5, 0.0);
-  return {d[0], d[1], d[2], d[3], d[4]};
-}
+/// As PCL has it.
+struct ColorPoint {
+  float x, y, z, none;
+  std::uint32_t color;
+  std::uint32_t nothing[3];
+};
 
-/// `depth` as one point a pixel, x y z in m, with its color where there is one; NaN where nothing
-/// is.
-void fill_points(const Reading& reading, const Label&, sensor_msgs::PointCloud2& message) {
-  const auto depth = reading.get<FloatImage>("depth");
-  if (!depth.values) return;
-  const auto colors = reading.get<ByteImage>("image", {});
-  const auto focal = reading.get<double>("focal");
-  const auto center_x = reading.get<double>("center_x");
-  const auto center_y = reading.get<double>("center_y");
-  const render::Distortion lens = distortion_of(reading);
-  const bool colored = colors.values && colors.values->size() == 3 * depth.values->size();
-  PointWriter points =
-      colored ? PointWriter(message, {{"x", 0}, {"y", 4}, {"z", 8}, {"rgb", kColorAt}}, 32,
-                            depth.height, depth.width)
-              : PointWriter(message, {{"x", 0}, {"y", 4}, {"z", 8}}, 12, depth.height, depth.width);
-  message.is_dense = false;
-  std::vector<double> across;  // of each column
-  for (std::uint32_t column = 0; column < depth.width; ++column) {
-    across.push_back((column - center_x) / focal);
+/// The points of a depth image, one a pixel, x y z in m, with its color where there is one; NaN
+/// where nothing is.
+class Points {
+ public:
+  explicit Points(const Reading& reading)
+      : depth_(reading.get<FloatImage>("depth")), colors_(reading.get<ByteImage>("image", {})) {
+    if (!depth_.values) return;
+    auto d = reading.get<std::vector<double>>("distortion");
+    d.resize(5, 0.0);
+    lens_ = {d[0], d[1], d[2], d[3], d[4]};
+    const auto focal = reading.get<double>("focal");
+    const auto center_x = reading.get<double>("center_x");
+    const auto center_y = reading.get<double>("center_y");
+    for (std::uint32_t i = 0; i < depth_.width; ++i) across_.push_back((i - center_x) / focal);
+    for (std::uint32_t i = 0; i < depth_.height; ++i) down_.push_back((i - center_y) / focal);
   }
-  const bool bent = !lens.none();
-  for (std::uint32_t row = 0; row < depth.height; ++row) {
-    const double down = (row - center_y) / focal;
-    for (std::uint32_t column = 0; column < depth.width; ++column) {
-      const std::size_t pixel = static_cast<std::size_t>(row) * depth.width + column;
-      const float z = (*depth.values)[pixel];
-      double x = across[column], y = down;
-      if (bent) lens.undistort(x, y, x, y);
-      points.set(0, static_cast<float>(x) * z);
-      points.set(4, static_cast<float>(y) * z);
-      points.set(8, z);
-      if (colored) points.set(kColorAt, packed(colors.values->data() + 3 * pixel));
-      points.next();
+
+  bool is_empty() const { return !depth_.values; }
+  bool colored() const {
+    return colors_.values && colors_.values->size() == 3 * depth_.values->size();
+  }
+  std::uint32_t width() const { return depth_.width; }
+  std::uint32_t height() const { return depth_.height; }
+
+  /// Writes all of them, on some threads.
+  void write(std::uint8_t* data) const {
+    const std::size_t rows = down_.size();
+    const auto parts = static_cast<int>((rows + kRowsAtOnce - 1) / kRowsAtOnce);
+    const auto worth = static_cast<int>(1 + rows * across_.size() / kPixelsOfAThread);
+    parallel(parts, std::min(processors(), worth), [&] {
+      return [&](int part) {
+        const std::size_t first = static_cast<std::size_t>(part) * kRowsAtOnce;
+        for (std::size_t row = first; row < std::min(rows, first + kRowsAtOnce); ++row) {
+          colored() ? write_row<ColorPoint>(row, data) : write_row<Point>(row, data);
+        }
+      };
+    });
+  }
+
+ private:
+  template <class Made>
+  void write_row(std::size_t row, std::uint8_t* data) const {
+    const bool bent = !lens_.none();
+    std::size_t pixel = row * across_.size();
+    for (std::size_t column = 0; column < across_.size(); ++column, ++pixel) {
+      double x = across_[column], y = down_[row];
+      if (bent) lens_.undistort(x, y, x, y);
+      const float z = (*depth_.values)[pixel];
+      Made made{};
+      made.x = static_cast<float>(x) * z;
+      made.y = static_cast<float>(y) * z;
+      made.z = z;
+      if constexpr (std::is_same_v<Made, ColorPoint>) {
+        const std::uint8_t* color = colors_.values->data() + 3 * pixel;
+        made.color = std::uint32_t{color[0]} << 16U | std::uint32_t{color[1]} << 8U | color[2];
+      }
+      std::memcpy(data + pixel * sizeof made, &made, sizeof made);
     }
   }
+
+  FloatImage depth_;
+  ByteImage colors_;
+  render::Distortion lens_;
+  std::vector<double> across_, down_;  // of each column and row, in focal lengths
+};
+
+void fill_points(const Reading& reading, const Label&, Bulk<sensor_msgs::PointCloud2>& message) {
+  Points points(reading);
+  if (points.is_empty()) return;
+  std::vector<PointField> fields{{"x", 0}, {"y", 4}, {"z", 8}};
+  if (points.colored()) fields.push_back({"rgb", offsetof(ColorPoint, color)});
+  describe_points(message, fields, points.colored() ? sizeof(ColorPoint) : sizeof(Point),
+                  points.height(), points.width());
+  message.is_dense = false;
+  message.size = message.row_step * message.height;
+  message.write = [points = std::move(points)](std::uint8_t* data) { points.write(data); };
 }
 
 constexpr char kColor[] = "imageTopicName";  // with this parameter it is a color camera
 
-ANGEN_REGISTER_ROS_KIND(
-    {"depth", "depth_camera"},
-    RosKindBuilder()
-        .message<sensor_msgs::Image>(&fill_depth, "image_raw", "depthImageTopicName")
-        .with(kColor, "depth/image_raw")
-        .message<sensor_msgs::CameraInfo>(&fill_camera_info, "camera_info",
-                                          "depthImageCameraInfoTopicName")
-        .with(kColor, "depth/camera_info")
-        .message<sensor_msgs::PointCloud2>(&fill_points, "points", "pointCloudTopicName")
-        .message<sensor_msgs::Image>(&fill_image, "", kColor)
-        .message<sensor_msgs::CameraInfo>(&fill_camera_info, "", "cameraInfoTopicName")
-        .with(kColor, "ir/camera_info")
-        .optical_frame());
+ANGEN_REGISTER_ROS_KIND({"depth", "depth_camera"},
+                        RosKindBuilder()
+                            .message<BulkImage>(&fill_depth, "image_raw", "depthImageTopicName")
+                            .with(kColor, "depth/image_raw")
+                            .message<sensor_msgs::CameraInfo>(&fill_camera_info, "camera_info",
+                                                              "depthImageCameraInfoTopicName")
+                            .with(kColor, "depth/camera_info")
+                            .message<Bulk<sensor_msgs::PointCloud2>>(&fill_points, "points",
+                                                                     "pointCloudTopicName")
+                            .message<BulkImage>(&fill_image, "", kColor)
+                            .message<sensor_msgs::CameraInfo>(&fill_camera_info, "",
+                                                              "cameraInfoTopicName")
+                            .with(kColor, "ir/camera_info")
+                            .optical_frame());
 
 }  // namespace
 }  // namespace angen::node

@@ -10,14 +10,16 @@ namespace angen::node {
 namespace {
 
 template <class T>
-void copy(const ImageArray<T>& image, const char* encoding, sensor_msgs::Image& message) {
+void copy(const ImageArray<T>& image, const char* encoding, BulkImage& message) {
   if (!image.values) return;
   message.height = image.height;
   message.width = image.width;
   message.encoding = encoding;
   message.step = static_cast<std::uint32_t>(image.width * image.channels * sizeof(T));
-  message.data.resize(image.values->size() * sizeof(T));
-  std::memcpy(message.data.data(), image.values->data(), message.data.size());
+  message.size = static_cast<std::uint32_t>(image.values->size() * sizeof(T));
+  message.write = [values = image.values](std::uint8_t* data) {
+    std::memcpy(data, values->data(), values->size() * sizeof(T));
+  };
 }
 
 ImageArray<std::uint16_t> in_millimeters(const FloatImage& depth) {
@@ -35,13 +37,13 @@ ImageArray<std::uint16_t> in_millimeters(const FloatImage& depth) {
 
 }  // namespace
 
-void fill_image(const Reading& reading, const Label&, sensor_msgs::Image& message) {
+void fill_image(const Reading& reading, const Label&, BulkImage& message) {
   namespace encodings = sensor_msgs::image_encodings;
   const auto image = reading.get<ByteImage>("image", {});
   copy(image, (image.channels == 1 ? encodings::MONO8 : encodings::RGB8).c_str(), message);
 }
 
-void fill_depth(const Reading& reading, const Label&, sensor_msgs::Image& message) {
+void fill_depth(const Reading& reading, const Label&, BulkImage& message) {
   namespace encodings = sensor_msgs::image_encodings;
   const auto depth = reading.get<FloatImage>("depth");
   if (!reading.get<bool>("in_millimeters")) {
