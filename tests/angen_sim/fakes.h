@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -144,6 +145,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   rays::Hit cast_at(std::uint32_t shape, const rays::Ray& ray) const override {
     return scene == nullptr ? rays::Hit{0.0, shape} : scene->cast_at(shape, ray);
   }
+  std::vector<std::uint32_t> own_shapes() const override { return {}; }
   rays::Shaft shaft(const Vec3& from, double near, std::uint32_t shape) const override {
     ++shafts;
     return scene->shaft(from, near, shape);
@@ -196,7 +198,12 @@ class FakeWorld : public View, public Wiring, public Outputs {
   }
   JointRef joint(const std::string& joint) override { return {index(joints, joint)}; }
   JointLimits limits(JointRef ref) const override { return joints.at(ref.index).second.limits; }
-  LinkRef link(const std::string& link) override { return {index(links, link)}; }
+  LinkRef link(const std::string& link) override {
+    const bool named = std::any_of(links.begin(), links.end(),
+                                   [&](const auto& each) { return each.first == link; });
+    if (link.empty() && !named) return {links.empty() ? -1 : 0};  // its own, as the real ones do
+    return {index(links, link)};
+  }
   bool is_fixed(JointRef ref) const override { return joints.at(ref.index).second.fixed; }
   std::string child_of(JointRef ref) const override { return joints.at(ref.index).second.child; }
   Vec3 anchor(JointRef ref) const override { return joints.at(ref.index).second.anchor; }
@@ -207,13 +214,14 @@ class FakeWorld : public View, public Wiring, public Outputs {
     if (light.empty() && lights.size() == 1) return {0};
     return {index(lights, light)};
   }
-  Names collision_names() const override { return collisions; }
-  ContactRef collision(const std::string& collision) override {
+  Names collision_names(LinkRef) const override { return collisions; }
+  ContactRef collision(LinkRef, const std::string& collision) override {
     for (std::size_t i = 0; i < collisions.size(); ++i) {
       if (collisions[i] == collision) return {static_cast<int>(i)};
     }
     throw Error("no collision " + collision + "; known are " + join_names(collisions));
   }
+  std::optional<SensorPart> sensor(const std::string&) override { return std::nullopt; }
   std::vector<SurfaceRef> surfaces(const std::string& visual) override {
     std::vector<SurfaceRef> found;
     for (std::size_t i = 0; i < surface_names.size(); ++i) {

@@ -28,8 +28,9 @@ class AnyWiring : public Wiring {
   double mass(LinkRef) const override { return 1.0; }
   Vec3 center(LinkRef) const override { return Vec3::Zero(); }
   LightRef light(const std::string&) override { return {0}; }
-  std::vector<std::string> collision_names() const override { return {"collision"}; }
-  ContactRef collision(const std::string&) override { return {0}; }
+  std::vector<std::string> collision_names(LinkRef) const override { return {"collision"}; }
+  ContactRef collision(LinkRef, const std::string&) override { return {0}; }
+  std::optional<SensorPart> sensor(const std::string&) override { return std::nullopt; }
   std::vector<SurfaceRef> surfaces(const std::string&) override { return {}; }
 
  private:

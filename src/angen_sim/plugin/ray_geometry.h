@@ -7,6 +7,8 @@
 
 namespace angen {
 
+class Params;
+
 /// The rays of a sensor in its own frame (x forward, z up), for code that draws or checks them.
 struct RayGeometry {
   int columns = 1;
@@ -30,5 +32,8 @@ struct RayGeometry {
     return tilts[static_cast<std::size_t>(samples) % tilts.size()];
   }
 };
+
+/// Reads <scan> and <range> of <ray>; `fallback` has the default values.
+RayGeometry read_rays(Params& params, const RayGeometry& fallback);
 
 }  // namespace angen

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/contact.h"
+#include "core/element.h"
 #include "core/home.h"
 #include "core/pose.h"
 #include "core/time.h"
@@ -109,6 +111,8 @@ class View {
   }
   /// The nearest hit on this shape, as if there were no others.
   virtual rays::Hit cast_at(std::uint32_t shape, const rays::Ray& ray) const = 0;
+  /// The shapes of its own model that rays hit.
+  virtual std::vector<std::uint32_t> own_shapes() const = 0;
   /// For many rays from one point (world, m) to one shape; see rays::Scene::shaft.
   virtual rays::Shaft shaft(const Vec3& from, double near, std::uint32_t shape) const = 0;
   /// The albedo, r g b, 0 to 1, of a shape that a ray hit.
@@ -150,6 +154,13 @@ class View {
   virtual std::vector<float> depths(const render::PinholeCamera& lens, const Pose& pose) const = 0;
 };
 
+/// A <sensor> of a model as its file has it.
+struct SensorPart {
+  LinkRef link;
+  Pose pose;  // in the frame of that link
+  Element element;
+};
+
 /// Finds parts of a model by name, once, before the world runs. Unknown names throw Error and list
 /// the known ones.
 class Wiring {
@@ -166,16 +177,21 @@ class Wiring {
   virtual std::vector<std::string> joint_names() const = 0;
   virtual JointRef joint(const std::string& joint) = 0;
   virtual JointLimits limits(JointRef joint) const = 0;
-  virtual LinkRef link(const std::string& link) = 0;             // "" = the sensor's, or the first
-  virtual bool is_fixed(JointRef joint) const = 0;               // its links are one body
-  virtual std::string child_of(JointRef joint) const = 0;        // name of the link it moves
-  virtual Vec3 anchor(JointRef joint) const = 0;                 // m, in the model's frame
-  virtual Vec3 axis(JointRef joint) const = 0;                   // unit, the first, in that frame
-  virtual double mass(LinkRef link) const = 0;                   // kg
-  virtual Vec3 center(LinkRef link) const = 0;                   // m, of its mass, in its own frame
-  virtual LightRef light(const std::string& light) = 0;          // "" = the model's only one
-  virtual std::vector<std::string> collision_names() const = 0;  // of the sensor's link
-  virtual ContactRef collision(const std::string& collision) = 0;  // in the sensor's link
+  virtual LinkRef link(const std::string& link) = 0;       // "" = the sensor's, or the first
+  virtual bool is_fixed(JointRef joint) const = 0;         // its links are one body
+  virtual std::string child_of(JointRef joint) const = 0;  // name of the link it moves
+  virtual Vec3 anchor(JointRef joint) const = 0;           // m, in the model's frame
+  virtual Vec3 axis(JointRef joint) const = 0;             // unit, the first, in that frame
+  virtual double mass(LinkRef link) const = 0;             // kg
+  virtual Vec3 center(LinkRef link) const = 0;             // m, of its mass, in its own frame
+  virtual LightRef light(const std::string& light) = 0;    // "" = the model's only one
+  virtual std::vector<std::string> collision_names(LinkRef link) const = 0;
+  std::vector<std::string> collision_names() { return collision_names(link("")); }
+  virtual ContactRef collision(LinkRef link, const std::string& collision) = 0;
+  ContactRef collision(const std::string& name) { return collision(link(""), name); }
+  /// The <sensor> of that name, also of another link, to measure in its place: it needs no plug-in
+  /// of its own then. None where the model has no such sensor.
+  virtual std::optional<SensorPart> sensor(const std::string& sensor) = 0;
   /// The visuals of that name ("" = all, also as LINK/VISUAL) that a collision has its surface
   /// from; rays hit no others. Throws Error where a name has none.
   virtual std::vector<SurfaceRef> surfaces(const std::string& visual) = 0;

@@ -5,20 +5,6 @@
 
 namespace angen::sensors {
 
-namespace {
-
-constexpr Range kSamples{1.0, 10000.0};
-constexpr Range kPitch{-M_PI, M_PI};
-constexpr Range kYaw{-2.0 * M_PI - 1e-3, 2.0 * M_PI + 1e-3};  // files round 2 pi
-constexpr double kFullTurn = 2.0 * M_PI + 1e-3;
-
-// `block` has <min…> and <max…>.
-void check_order(const Params& params, const std::string& block, double first, double last) {
-  if (first > last) throw params.error(block, "<" + block + ">: min is above max");
-}
-
-}  // namespace
-
 void Fan::aim(const Pose& pose, const std::vector<Vec3>& directions, RayBatch& rays) const {
   const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
   rays.reserve(rays.size() + directions.size());
@@ -43,27 +29,6 @@ Ranges Fan::with_noise(Ranges ranges, Rng rng) const {
     ranges[i] = std::clamp(ranges[i] + noise_mean + error, min, max);
   }
   return ranges;
-}
-
-RayGeometry read_rays(Params& params, const RayGeometry& fallback) {
-  const std::string h = "ray/scan/horizontal/";
-  const std::string v = "ray/scan/vertical/";
-  RayGeometry rays;
-  rays.columns = params.integer(h + "samples", fallback.columns, "", "rays side by side", kSamples);
-  rays.min_yaw = params.number(h + "min_angle", fallback.min_yaw, "rad", "rightmost ray", kYaw);
-  rays.max_yaw = params.number(h + "max_angle", fallback.max_yaw, "rad", "leftmost ray", kYaw);
-  rays.rows = params.integer(v + "samples", fallback.rows, "", "rows of rays", kSamples);
-  rays.min_pitch = params.number(v + "min_angle", fallback.min_pitch, "rad", "lowest row", kPitch);
-  rays.max_pitch = params.number(v + "max_angle", fallback.max_pitch, "rad", "highest row", kPitch);
-  rays.min = params.number("ray/range/min", fallback.min, "m", "nearer is not seen", kNotNegative);
-  rays.max = params.number("ray/range/max", fallback.max, "m", "farther is not seen", kPositive);
-  check_order(params, "ray/scan/horizontal", rays.min_yaw, rays.max_yaw);
-  if (rays.max_yaw - rays.min_yaw > kFullTurn) {
-    throw params.error("ray/scan/horizontal", "<ray/scan/horizontal>: more than a full turn");
-  }
-  check_order(params, "ray/scan/vertical", rays.min_pitch, rays.max_pitch);
-  check_order(params, "ray/range", rays.min, rays.max);
-  return rays;
 }
 
 Fan read_fan(Params& params, const Fan& fallback) {

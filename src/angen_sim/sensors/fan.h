@@ -44,10 +44,7 @@ struct Fan : RayGeometry {
   }
 };
 
-/// Reads <scan> and <range> of <ray>; `fallback` has the default values.
-RayGeometry read_rays(Params& params, const RayGeometry& fallback);
-
-/// Reads <noise>, too.
+/// Reads <scan>, <range> and <noise> of <ray>; `fallback` has the default values.
 Fan read_fan(Params& params, const Fan& fallback);
 
 /// The greatest |a[i] - b[i]| in meters.

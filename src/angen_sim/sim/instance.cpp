@@ -176,6 +176,12 @@ const Plugin* named_in(const std::vector<std::shared_ptr<const Plugin>>& library
   return found != library.end() ? found->get() : nullptr;
 }
 
+bool is_served(const LiveModel& live, const desc::Sensor& sensor) {
+  return std::any_of(live.sensors.begin(), live.sensors.end(), [&](const SensorInstance& other) {
+    return other.serves.count(sensor.name) != 0;
+  });
+}
+
 }  // namespace
 
 SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
@@ -232,6 +238,7 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
     instance.noise = params.all_noise();
     check_noise(instance.plugin->kind(), instance.noise);
     instance.collisions = wiring.collisions();
+    instance.serves = wiring.sensors();
     instance.schedule.sample = instance.sensor->sample_period();
     if (instance.schedule.sample <= 0) instance.schedule.sample = instance.schedule.publish;
     instance.link_moves = !live.desc->is_static;
@@ -247,6 +254,7 @@ void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plug
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
     for (const desc::Sensor& described : model.links[i].sensors) {
       if (described.plugin.empty()) {
+        if (is_served(live, described)) continue;
         warnings.push_back(Diagnostic{Diagnostic::Severity::kWarning, described.source,
                                       "sensor '" + described.name + "' of model '" + model.name +
                                           "' has no plug-in: it measures nothing"}

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -114,6 +115,7 @@ struct SensorInstance : SensorInfo {
   std::uint32_t link = 0;                      // in its model
   std::vector<std::string> collisions;         // full names, by ContactRef
   std::vector<physics::CollisionId> touching;  // the same
+  std::set<std::string> serves;                // names of <sensor>s in whose place it measures
   Reading clean;                               // the latest, before `noise`; unused without
   Reading latest;
   std::size_t checked_fields = 0;   // of its readings

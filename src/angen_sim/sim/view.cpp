@@ -80,6 +80,13 @@ void InstanceView::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hi
   engines_.rays.cast(rays.data(), hits.data(), rays.size(), among);
 }
 
+std::vector<std::uint32_t> InstanceView::own_shapes() const {
+  queried_.model = true;  // they move with its links
+  std::vector<std::uint32_t> shapes;
+  for (const Parts::Shape& shape : live_.parts.shapes) shapes.push_back(shape.id.index);
+  return shapes;
+}
+
 rays::Shaft InstanceView::shaft(const Vec3& from, double near, std::uint32_t shape) const {
   queried_.other = queried_.other || !watches();
   engines_.rays.commit();

@@ -44,6 +44,7 @@ class InstanceView : public View {
   rays::Hit cast_at(std::uint32_t shape, const rays::Ray& ray) const override {
     return engines_.rays.cast_at(shape, ray);
   }
+  std::vector<std::uint32_t> own_shapes() const override;
   rays::Shaft shaft(const Vec3& from, double near, std::uint32_t shape) const override;
   Eigen::Vector3f reflectance(std::uint32_t shape) const override {
     return engines_.rays.reflectance(shape);

@@ -146,20 +146,30 @@ LightRef ModelWiring::light(const std::string& light) {
   return {index};
 }
 
-std::vector<std::string> ModelWiring::collision_names() const {
-  return names_of(model_.links.at(index_of(model_.links, sensor_link_)).collisions);
+std::vector<std::string> ModelWiring::collision_names(LinkRef link) const {
+  return names_of(model_.links.at(static_cast<std::size_t>(link.index)).collisions);
 }
 
-ContactRef ModelWiring::collision(const std::string& collision) {
+ContactRef ModelWiring::collision(LinkRef ref, const std::string& collision) {
   const std::size_t scope = collision.rfind("::");
   const std::string local = scope == std::string::npos ? collision : collision.substr(scope + 2);
-  const desc::Link& link =
-      model_.links.at(static_cast<std::size_t>(index_of(model_.links, sensor_link_)));
+  const desc::Link& link = model_.links.at(static_cast<std::size_t>(ref.index));
   if (index_of(link.collisions, local) < 0) {
     unknown(model_.name, "collision", collision, names_of(link.collisions));
   }
   collisions_.push_back(model_.name + "::" + link.name + "::" + local);
   return {static_cast<int>(collisions_.size() - 1)};
+}
+
+std::optional<SensorPart> ModelWiring::sensor(const std::string& sensor) {
+  for (std::size_t i = 0; i < model_.links.size(); ++i) {
+    const int index = index_of(model_.links[i].sensors, sensor);
+    if (index < 0) continue;
+    sensors_.insert(sensor);
+    const desc::Sensor& found = model_.links[i].sensors[static_cast<std::size_t>(index)];
+    return SensorPart{{static_cast<int>(i)}, found.pose, found.element};
+  }
+  return std::nullopt;
 }
 
 std::vector<SurfaceRef> ModelWiring::surfaces(const std::string& visual) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -32,14 +33,16 @@ class ModelWiring : public Wiring {
   double mass(LinkRef link) const override;
   Vec3 center(LinkRef link) const override;
   LightRef light(const std::string& light) override;
-  std::vector<std::string> collision_names() const override;
-  ContactRef collision(const std::string& collision) override;
+  std::vector<std::string> collision_names(LinkRef link) const override;
+  ContactRef collision(LinkRef link, const std::string& collision) override;
+  std::optional<SensorPart> sensor(const std::string& sensor) override;
   std::vector<SurfaceRef> surfaces(const std::string& visual) override;
 
   const std::set<std::string>& joints() const { return joints_; }  // those requested
   const std::set<int>& lights() const { return lights_; }          // by LightRef
   /// Full names of the requested collisions, by ContactRef.
   const std::vector<std::string>& collisions() const { return collisions_; }
+  const std::set<std::string>& sensors() const { return sensors_; }  // those requested
 
  private:
   const desc::Model& model_;
@@ -49,6 +52,7 @@ class ModelWiring : public Wiring {
   std::set<std::string> joints_;
   std::set<int> lights_;
   std::vector<std::string> collisions_;
+  std::set<std::string> sensors_;
 };
 
 }  // namespace angen::sim

@@ -43,6 +43,7 @@ class Forgetful : public View {
   rays::Hit cast_at(std::uint32_t shape, const rays::Ray& ray) const override {
     return view_.cast_at(shape, ray);
   }
+  std::vector<std::uint32_t> own_shapes() const override { return view_.own_shapes(); }
   rays::Shaft shaft(const Vec3& from, double near, std::uint32_t shape) const override {
     return view_.shaft(from, near, shape);
   }

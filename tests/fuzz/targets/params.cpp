@@ -15,7 +15,7 @@ class Anything : public test::FakeWorld {
   JointRef joint(const std::string& name) override { return {add(joints, name)}; }
   LinkRef link(const std::string& name) override { return {add(links, name)}; }
   LightRef light(const std::string& name) override { return {add(lights, name)}; }
-  ContactRef collision(const std::string& name) override {
+  ContactRef collision(LinkRef, const std::string& name) override {
     collisions.push_back(name);
     return {static_cast<int>(collisions.size()) - 1};
   }
