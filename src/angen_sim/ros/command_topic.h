@@ -17,13 +17,13 @@ namespace angen::node {
 using Subscribe = std::function<ros::Subscriber(ros::NodeHandle& node, const std::string& topic,
                                                 const std::function<void(Command)>& take)>;
 
-/// The subscriptions of a kind of device.
+/// The subscriptions of a kind of device to one type of message.
 struct CommandTopicRule {
   using Topics =
       std::function<std::vector<std::string>(const sim::Structure&, const sim::DeviceEntry&)>;
 
-  Subscribe subscribe;  // null: it takes text only
-  Topics topics;        // of one device; null: those of its robot
+  Subscribe subscribe;
+  Topics topics;  // of one device; null: those of its robot
 };
 
 /// A subscription to messages of one type.

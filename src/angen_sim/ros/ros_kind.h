@@ -60,16 +60,16 @@ struct RosKind {
   /// The frame of a sensor's messages.
   using Frame = std::function<std::string(const sim::SensorEntry&)>;
 
-  std::vector<Format> formats;   // the first is the one to name; at least one
-  std::optional<RayStyle> rays;  // none: rviz shows no rays
-  bool caption = false;          // rviz shows its summary over it
-  ModelStyle model;              // of a device
-  Frame frame;                   // null: one of its own, or <frameName>
-  bool is_camera = false;        // its frame is optical (REP 103)
-  bool is_odometry = false;      // it moves <robotBaseFrame> in its frame
-  bool is_truth = false;         // of the link <bodyName> in its frame
-  bool is_robot = false;         // a drive with the frames and topics of a Robot
-  CommandTopicRule commands;     // of a device
+  std::vector<Format> formats;             // the first is the one to name; at least one
+  std::optional<RayStyle> rays;            // none: rviz shows no rays
+  bool caption = false;                    // rviz shows its summary over it
+  ModelStyle model;                        // of a device
+  Frame frame;                             // null: one of its own, or <frameName>
+  bool is_camera = false;                  // its frame is optical (REP 103)
+  bool is_odometry = false;                // it moves <robotBaseFrame> in its frame
+  bool is_truth = false;                   // of the link <bodyName> in its frame
+  bool is_robot = false;                   // a drive with the frames and topics of a Robot
+  std::vector<CommandTopicRule> commands;  // of a device, by type of message; a robot has one
   /// Whether something else publishes a sensor's messages; null: never.
   std::function<bool(const sim::SensorEntry&)> published_elsewhere;
 };
@@ -175,10 +175,10 @@ class RosKindBuilder {
     kind_.is_robot = true;
     return commanded_by(make, nullptr);
   }
-  /// Messages that command a device, on these topics.
+  /// Messages that command a device, on these topics; there may be several types of them.
   template <class Message>
   RosKindBuilder& commanded_by(Command (*make)(const Message&), CommandTopicRule::Topics topics) {
-    kind_.commands = {subscribe_as(make), std::move(topics)};
+    kind_.commands.push_back({subscribe_as(make), std::move(topics)});
     return *this;
   }
   /// Messages that command a device, on the topic that a parameter of its <plugin> names.
