@@ -1,23 +1,17 @@
 // libgazebo_ros_kobuki.so
-#include <array>
+#include "robots/kobuki.h"
+
 #include <cmath>
-#include <optional>
+#include <cstdint>
 #include <string>
-#include <vector>
 
 #include "plugin/register.h"
 #include "robots/joint_states.h"
-#include "robots/wheels.h"
 
 namespace angen::robots {
 
-namespace {
-
-constexpr const char* kOdometryFrame = "odom";
-constexpr const char* kBaseFrame = "base_footprint";
-
-WheelSettings read_kobuki(Params& params) {
-  WheelSettings s;
+KobukiSettings read_kobuki(Params& params) {
+  KobukiSettings s;
   s.separation = params.number("wheel_separation", 0.23, "m", "between the wheels", kPositive);
   s.radius = params.number("wheel_diameter", 0.07, "m", "diameter of a wheel", kPositive) / 2.0;
   s.torque = params.number("torque", 1.0, "N m", "greatest torque of a wheel", kPositive);
@@ -27,21 +21,65 @@ WheelSettings read_kobuki(Params& params) {
   s.timeout = from_seconds(params.number("velocity_command_timeout", 0.6, "s",
                                          "it stops this long after a command", kPositive));
   params.flag("publish_tf", true, "the transform from odometry to base is published");
-  for (const char* path : {"cliff_sensor_left_name", "cliff_sensor_center_name",
-                           "cliff_sensor_right_name", "cliff_detection_threshold",
-                           "wheel_drop_left_sensor_name", "wheel_drop_right_sensor_name"}) {
-    params.text(path, "", "not used: there are no events of it");
+  for (std::size_t i = 0; i < s.cliffs.size(); ++i) {
+    s.cliffs.at(i) = params.text(kCliffNames.at(i), "", "ray sensor that looks at the floor there");
   }
-  params.text("bumper_name", "", "not used: the collisions of the base are its bumper");
+  s.cliff = params.number("cliff_detection_threshold", 0.04, "m",
+                          "a floor at this range or farther is a cliff", kPositive);
+  for (std::size_t i = 0; i < s.drops.size(); ++i) {
+    s.drops.at(i) = params.text(kDropNames.at(i), "", "contact sensor of that wheel");
+  }
+  s.bumper = params.text(kBumperName, "",
+                         "contact sensor that is its bumper; none: all collisions of its base");
   params.text("imu_name", "", "not used: its gyro sits in the base");
   return s;
 }
 
-Kind kobuki_kind() { return wheels_kind("kobuki", "The Kobuki base of TurtleBot 2."); }
+namespace {
+
+constexpr const char* kOdometryFrame = "odom";
+constexpr const char* kBaseFrame = "base_footprint";
+constexpr const char* kResets = "odometry_resets";
+
+WheelSettings read_wheels(Params& params) { return read_kobuki(params); }
+
+Kind kobuki_kind() {
+  Kind kind = wheels_kind("kobuki", "The Kobuki base of TurtleBot 2.");
+  kind.verb("MotorsOn", "its motors obey speeds")
+      .verb("MotorsOff", "it stops, and ignores speeds")
+      .verb("ResetOdometry", "its odometry is zero here");
+  kind.flag("motors", "they obey speeds").shown_as("", "motors off");
+  return std::move(kind.integer(kResets, "", "how often its odometry was reset"));
+}
 
 }  // namespace
 
-using KobukiPlugin = WheelsPlugin<read_kobuki, kobuki_kind>;
+/// As Gazebo's, its wheels are braked while its motors are off.
+class Kobuki : public WheelsOf<read_wheels> {
+ public:
+  Verdict command(const Command& command, const View& view) override {
+    if (command.verb == "ResetOdometry") return Verdict::accept([this] { ++resets_; });
+    if (command.verb == "MotorsOn") return Verdict::accept([this] { motors_ = true; });
+    if (command.verb == "MotorsOff") {
+      return Verdict::accept([this] {
+        motors_ = false;
+        roll(0.0, 0.0, kForever);
+      });
+    }
+    return motors_ ? Wheels::command(command, view) : Verdict::accept();
+  }
+  void report(const View& view, Reading& state) const override {
+    Wheels::report(view, state);
+    state.set("motors", motors_);
+    state.set(kResets, resets_);
+  }
+
+ private:
+  bool motors_ = true;
+  std::int64_t resets_ = 0;
+};
+
+using KobukiPlugin = WheelsPlugin<read_wheels, kobuki_kind, Kobuki>;
 
 /// The way by its wheels, the heading by its gyro.
 class KobukiOdometry : public Sensor {
@@ -53,8 +91,10 @@ class KobukiOdometry : public Sensor {
     wheels_.set_up(read_kobuki(params), wiring);
     base_.configure({kOdometryFrame, kBaseFrame});
     link_ = wiring.link("");
+    model_ = wiring.model();
   }
   void read(const View& view, Hits, Rng&, Reading& reading) override {
+    restart_where_reset(view);
     const LinkView link = view.link(link_);
     const double heading = to_rpy(link.pose.rotation).z();
     wheels_.read(view, base_, std::make_pair(heading, link.angular_velocity.z()), reading);
@@ -62,9 +102,20 @@ class KobukiOdometry : public Sensor {
   bool steady() const override { return wheels_.rests(); }
 
  private:
+  void restart_where_reset(const View& view) {
+    for (const DeviceView& device : view.devices(kResets)) {
+      if (device.model != model_) continue;
+      const auto resets = device.state.get<std::int64_t>(kResets);
+      if (resets != resets_) wheels_.restart();
+      resets_ = resets;
+    }
+  }
+
   Base base_;
   WheelOdometry wheels_;
   LinkRef link_;
+  std::string model_;
+  std::int64_t resets_ = 0;  // of its drive, at the last sample
 };
 
 class KobukiWheels : public JointStates {
@@ -90,68 +141,9 @@ class KobukiImu : public InertialUnit {
   }
 };
 
-/// Three sectors of 60 degrees ahead, pressed where something pushes the base from there.
-class KobukiBumper : public Sensor {
- public:
-  static Kind describe() {
-    Kind kind("kobuki_bumper", "Bumper of a Kobuki: which of its three parts are pressed.");
-    for (const char* part : kParts) {
-      kind.flag(part, "this part is pressed").shown_as("pressed", "free");
-    }
-    return std::move(kind.rate(50.0));
-  }
-  void configure(Params& params, Wiring& wiring) override {
-    read_kobuki(params);
-    window_ = params.update_period();
-    link_ = wiring.link("");
-    for (const std::string& name : wiring.collision_names()) {
-      collisions_.push_back(wiring.collision(name));
-    }
-  }
-  void read(const View& view, Hits, Rng&, Reading& reading) override {
-    const Pose to_base = view.link(link_).pose.inverse();
-    std::array<bool, kParts.size()> pressed{};
-    lasting_ = true;
-    for (const ContactRef collision : collisions_) {
-      const std::vector<ContactPair> pairs = view.contacts_within(collision, window_);
-      if (pairs.size() != view.contacts(collision).size()) lasting_ = false;
-      for (const ContactPair& pair : pairs) {
-        for (const ContactPoint& point : pair.points) {
-          if (const auto part = part_at(point, to_base)) pressed.at(*part) = true;
-        }
-      }
-    }
-    for (std::size_t i = 0; i < kParts.size(); ++i) reading.set(kParts.at(i), pressed.at(i));
-  }
-  bool steady() const override { return lasting_; }
-
- private:
-  static constexpr std::array<const char*, 3> kParts{"left", "center", "right"};
-  static constexpr double kLowest = 0.01;  // m above the base's origin, as in Gazebo
-  static constexpr double kHighest = 0.13;
-
-  // By the direction of the push: a flat wall ahead touches a box at its corners.
-  static std::optional<std::size_t> part_at(const ContactPoint& point, const Pose& to_base) {
-    const double height = (to_base * point.position).z();
-    const Vec3 from = to_base.rotation * -point.normal;
-    const bool level = from.head<2>().norm() > std::abs(from.z());
-    if (!level || height < kLowest || height > kHighest) return std::nullopt;
-    const double bearing = std::atan2(from.y(), from.x());
-    if (std::abs(bearing) > M_PI / 2.0) return std::nullopt;
-    if (std::abs(bearing) <= M_PI / 6.0) return 1;
-    return bearing > 0.0 ? 0 : 2;
-  }
-
-  std::vector<ContactRef> collisions_;
-  LinkRef link_;
-  Nanoseconds window_ = 0;  // contacts that ended before are not reported
-  bool lasting_ = true;     // all that it reported last touched then
-};
-
 }  // namespace angen::robots
 
 ANGEN_REGISTER_PLUGIN(angen::robots::KobukiPlugin)
 ANGEN_REGISTER_PLUGIN(angen::robots::ModelSensorPlugin<angen::robots::KobukiOdometry>)
 ANGEN_REGISTER_PLUGIN(angen::robots::ModelSensorPlugin<angen::robots::KobukiWheels>)
 ANGEN_REGISTER_PLUGIN(angen::robots::ModelSensorPlugin<angen::robots::KobukiImu>)
-ANGEN_REGISTER_PLUGIN(angen::robots::ModelSensorPlugin<angen::robots::KobukiBumper>)

@@ -15,20 +15,20 @@ void Wheels::set_up(WheelSettings settings, Wiring& wiring) {
 Verdict Wheels::command(const Command& command, const View& view) {
   std::vector<double> values = command.values;
   if (command.verb == "Stop") values = {0.0, 0.0};
-  return Verdict::accept([this, v = values[0], w = values[1], now = view.time()] {
-    v_ = v;
-    w_ = w;
-    ramping_ = true;
-    if (settings_.timeout != kForever) stops_at_ = now + settings_.timeout;
-  });
+  const Nanoseconds until =
+      settings_.timeout == kForever ? kForever : view.time() + settings_.timeout;
+  return Verdict::accept([this, v = values[0], w = values[1], until] { roll(v, w, until); });
+}
+
+void Wheels::roll(double v, double w, Nanoseconds until) {
+  v_ = v;
+  w_ = w;
+  ramping_ = true;
+  stops_at_ = until;
 }
 
 void Wheels::update(const View& view, Outputs& outputs) {
-  if (view.time() >= stops_at_) {
-    v_ = w_ = 0.0;
-    ramping_ = true;
-    stops_at_ = kForever;
-  }
+  if (view.time() >= stops_at_) roll(0.0, 0.0, kForever);
   if (!ramping_) return;
   const double step = settings_.acceleration * to_seconds(view.step());
   const double turn = w_ * settings_.separation / 2.0;
@@ -82,6 +82,12 @@ void WheelOdometry::read(const View& view, const Base& base,
   const Quat turned(Eigen::AngleAxisd(yaw_, Vec3::UnitZ()));
   base.read({at_, turned}, turned * Vec3(v, 0.0, 0.0), gyro ? gyro->second : w, reading);
   rests_ = left.velocity == 0.0 && right.velocity == 0.0 && (!gyro || gyro->second == 0.0);
+}
+
+void WheelOdometry::restart() {
+  started_ = false;
+  at_ = Vec3::Zero();
+  yaw_ = 0.0;
 }
 
 // Turned angles of the wheels since the last sample, each less than half a turn.

@@ -31,6 +31,8 @@ class Wheels : public Device {
 
  protected:
   void set_up(WheelSettings settings, Wiring& wiring);
+  /// As commanded now: m/s and rad/s until `until`.
+  void roll(double v, double w, Nanoseconds until);
 
  private:
   struct Side {
@@ -56,6 +58,8 @@ class WheelOdometry {
   /// `gyro` (rad, rad/s), where there is one, has the heading in place of the wheels.
   void read(const View& view, const Base& base, std::optional<std::pair<double, double>> gyro,
             Reading& reading);
+  /// The next read() says that it is where its frame is.
+  void restart();
   bool rests() const { return rests_; }
 
  private:
@@ -84,8 +88,8 @@ class WheelsOf : public Wheels {
   void configure(Params& params, Wiring& wiring) override { set_up(read(params), wiring); }
 };
 
-/// Its plug-in; `describe()` is its kind.
-template <WheelSettings (*read)(Params&), Kind (*describe)()>
+/// Its plug-in; `describe()` is its kind, `Drive` its class.
+template <WheelSettings (*read)(Params&), Kind (*describe)(), class Drive = WheelsOf<read>>
 class WheelsPlugin : public Plugin {
  public:
   const Kind& kind() const override {
@@ -96,9 +100,7 @@ class WheelsPlugin : public Plugin {
     return mounts_on_wheels(model, read(params));
   }
   std::string needs() const override { return "the joints of its wheels"; }
-  std::unique_ptr<Device> make_device() const override {
-    return std::make_unique<WheelsOf<read>>();
-  }
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Drive>(); }
 };
 
 }  // namespace angen::robots

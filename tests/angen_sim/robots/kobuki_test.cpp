@@ -44,6 +44,69 @@ TEST(Kobuki, StopsAWhileAfterACommand) {
   EXPECT_NEAR(hall.pose().position.x(), 0.12, 0.02);
 }
 
+TEST(Kobuki, StandsStillWhileItsMotorsAreOff) {
+  Hall hall(base("<velocity_command_timeout>60</velocity_command_timeout>"));
+  hall.run(0.5);
+  hall.command("kobuki", {0.2, 0.0});
+  hall.run(1.0);
+  hall.command("kobuki", {}, "bot", "MotorsOff");
+  hall.run(0.5);
+  const double x = hall.pose().position.x();
+  EXPECT_NEAR(x, 0.2, 0.02);
+  EXPECT_FALSE(hall.state("bot").get<bool>("motors"));
+  hall.command("kobuki", {0.2, 0.0});
+  hall.run(1.0);
+  EXPECT_NEAR(hall.pose().position.x(), x, 1e-3) << "it ignores speeds";
+  hall.command("kobuki", {}, "bot", "MotorsOn");
+  hall.run(1.0);
+  EXPECT_NEAR(hall.pose().position.x(), x, 1e-3) << "also those of before";
+  hall.command("kobuki", {0.2, 0.0});
+  hall.run(1.0);
+  EXPECT_NEAR(hall.pose().position.x(), x + 0.2, 0.02);
+}
+
+TEST(Kobuki, ItsOdometryStartsAnewWhereItIsReset) {
+  Hall hall(base("<velocity_command_timeout>60</velocity_command_timeout>"));
+  hall.run(0.5);
+  hall.command("kobuki", {0.3, 0.4});
+  hall.run(2.0);
+  hall.command("kobuki", {0.0, 0.0});
+  hall.run(5.0);  // it sleeps
+  EXPECT_GT(list(hall.reading("kobuki_odometry"), "position")[0], 0.3);
+  hall.command("kobuki", {}, "bot", "ResetOdometry");
+  hall.run(0.05);
+  EXPECT_EQ(list(hall.reading("kobuki_odometry"), "position"), (std::vector<double>{0, 0, 0}));
+  EXPECT_EQ(list(hall.reading("kobuki_odometry"), "orientation"),
+            (std::vector<double>{0, 0, 0, 1}));
+  const Pose from = hall.pose();
+  hall.command("kobuki", {0.3, -0.4});
+  hall.run(2.0);
+  const Pose moved = from.inverse() * hall.pose();
+  const Reading odometry = hall.reading("kobuki_odometry");
+  EXPECT_GT(moved.position.x(), 0.3);
+  EXPECT_NEAR(list(odometry, "position")[0], moved.position.x(), 0.02);
+  EXPECT_NEAR(list(odometry, "position")[1], moved.position.y(), 0.02);
+  EXPECT_NEAR(yaw_in(odometry), to_rpy(moved.rotation).z(), 0.4 * 0.021);
+}
+
+TEST(Kobuki, ResetsTheOdometryOfNoOtherRobot) {
+  std::string other = base("");
+  other.replace(other.find("'bot'"), 5, "'two'");
+  other.insert(other.find("<link"), "<pose>0 2 0 0 0 0</pose>");
+  Hall hall(base("") + other);
+  hall.run(0.5);
+  for (const char* name : {"bot", "two"}) hall.command("kobuki", {0.3, 0.0}, name);
+  hall.run(1.0);
+  hall.command("kobuki", {}, "two", "ResetOdometry");
+  hall.run(0.05);
+  for (std::size_t i = 0; i < hall.snapshot->structure->sensors.size(); ++i) {
+    const sim::SensorEntry& sensor = hall.snapshot->structure->sensors[i];
+    if (sensor.kind != "kobuki_odometry") continue;
+    const double x = list(*hall.snapshot->reading(i), "position")[0];
+    EXPECT_NEAR(x, sensor.name == "bot_p" ? 0.18 : 0.0, 0.03) << sensor.name;
+  }
+}
+
 TEST(Kobuki, HasWheelsAndAnImu) {
   Hall hall(base());
   hall.request("kobuki_imu");

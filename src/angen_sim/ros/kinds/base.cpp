@@ -10,8 +10,6 @@ Command of_flat_twist(const geometry_msgs::Twist& twist) {
 
 ANGEN_REGISTER_ROS_KIND({"diff_drive", "skid_steer_drive"},
                         RosKindBuilder().commanded_by(&of_twist, "commandTopic", "cmd_vel"));
-ANGEN_REGISTER_ROS_KIND({"kobuki"}, RosKindBuilder().commanded_by(&of_twist, "none",
-                                                                  "mobile_base/commands/velocity"));
 ANGEN_REGISTER_ROS_KIND({"planar_move"},
                         RosKindBuilder().commanded_by(&of_flat_twist, "commandTopic", "cmd_vel"));
 
