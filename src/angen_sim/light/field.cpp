@@ -19,6 +19,7 @@ namespace {
 constexpr double kReach = 15.0;       // m around an 800 lm lamp, in which its light is followed
 constexpr float kDark = 1e-3F;        // lx: less reflected light is not followed
 constexpr double kBeyondSites = 0.5;  // m
+constexpr double kRare = 0.1;         // tried: 0.3 leaves more noise behind doors ajar
 constexpr double kSettled = 1e-4;     // of the mean: a change that ends the bounces
 constexpr int kMaxBounces = 200;
 // Costs of the parts of a solution, measured; they decide only how it is cut into ticks.
@@ -221,20 +222,48 @@ void Field::follow_patch(Unfinished& work) {
   }
 }
 
-/// Lists the patches that the next patches see.
+/// Links of a patch per m^2.
+float Field::density_of(std::uint32_t patch) {
+  return static_cast<float>(static_cast<double>(links(patch).size()) / surfaces_[patch].area);
+}
+
+/// Whether few links are to be expected between the patches. In narrow gaps parts of cells see each
+/// other by many.
+bool Field::is_rare(std::uint32_t from, const Link& to) {
+  if (surfaces_[from].is_part() && surfaces_[to.patch].is_part()) return false;
+  const auto extent2 = [&](std::uint32_t patch) {
+    return static_cast<double>(links(patch).size()) * surfaces_[patch].area;
+  };
+  return to.range * to.range > kRare * std::sqrt(extent2(from) * extent2(to.patch));
+}
+
+/// Lists the patches that the next patches see. As light goes both ways, links to a patch and those
+/// back are samples of the same exchange, form factor times area, and rare ones count for both. Of
+/// many links the evenly spread ones of one patch are more accurate.
 std::int64_t Field::prepare_balance(Unfinished& work, std::int64_t rays) {
   const Solution& solution = work.solution;
   const auto count = static_cast<std::uint32_t>(solution.patches.size());
   std::size_t i = work.albedos.size();
   const std::size_t first = i;
   const std::size_t end = rows_from(first, count, rays / kBouncesToPrepare);
+  work.wholes.resize(count + 1, 0.0F);
+  work.arriving.resize(count + 1, Rgb::Zero());
   for (; i < end; ++i) {
     work.albedos.push_back(albedo_of(solution.patches[i]));
     work.leaving[i] = work.albedos[i] * (solution.direct[i] + solution.reflected[i]);
-    const std::vector<Link>& seen = links(solution.patches[i]);
+    const float density = density_of(solution.patches[i]);
     work.rows.push_back(work.seen.size());
-    for (const Link& link : seen) {
-      work.seen.push_back(std::min(count, place_of(link.patch, work)));
+    for (const Link& link : links(solution.patches[i])) {
+      const std::uint32_t place = std::min(count, place_of(link.patch, work));
+      const bool both_ways = place < count && is_rare(solution.patches[i], link);
+      const float exchange = 1.0F / (both_ways ? density + density_of(link.patch) : density);
+      const std::uint32_t back = both_ways ? place : count;
+      work.seen.push_back(place);
+      work.seen_by.push_back(back);
+      work.exchanges.push_back(exchange);
+      work.wholes[i] += exchange;
+      work.wholes[back] += exchange;
+      work.arriving[back] += work.leaving[i] * exchange;
     }
   }
   if (i == count) {
@@ -250,15 +279,19 @@ std::int64_t Field::balance(Unfinished& work, std::int64_t rays) {
   const std::size_t first = work.balanced;
   const std::size_t end = rows_from(first, solution.patches.size(), rays);
   for (std::size_t i = first; i < end; ++i) {
-    Rgb sum = Rgb::Zero();
+    Rgb sum = work.arriving[i];
     for (std::size_t k = work.rows[i]; k < work.rows[i + 1]; ++k) {
-      sum += work.leaving[work.seen[k]];
+      sum += work.exchanges[k] * work.leaving[work.seen[k]];
     }
-    sum /= static_cast<float>(work.rows[i + 1] - work.rows[i]);
+    sum /= work.wholes[i];
     work.change = std::max(work.change, (sum - solution.reflected[i]).abs().maxCoeff());
     work.total += solution.direct[i] + sum.maxCoeff();
     solution.reflected[i] = sum;
-    work.leaving[i] = work.albedos[i] * (solution.direct[i] + sum);
+    const Rgb leaving = work.albedos[i] * (solution.direct[i] + sum);
+    const Rgb more = leaving - std::exchange(work.leaving[i], leaving);
+    for (std::size_t k = work.rows[i]; k < work.rows[i + 1]; ++k) {
+      work.arriving[work.seen_by[k]] += work.exchanges[k] * more;
+    }
   }
   work.balanced = end;
   return 1 + static_cast<std::int64_t>(end - first) / kRowsPerRay;

@@ -46,11 +46,15 @@ struct Unfinished {
   std::vector<rays::Ray> first;  // from the lamp, to find the lit patches
   std::size_t cast = 0;          // of `first`
   std::size_t followed = 0;      // patches of the solution whose reflected light has been followed
-  std::vector<std::uint32_t> places;  // by patch: its index, or kNoPatch
-  std::vector<Rgb> leaving;           // lx that leave each patch
-  std::vector<std::uint32_t> seen;    // those that each patch sees: indices
-  std::vector<std::size_t> rows;      // begin of each patch's part of `seen`, and the end
-  std::vector<Rgb> albedos;           // of the patches that are prepared for balance()
+  std::vector<std::uint32_t> places;   // by patch: its index, or kNoPatch
+  std::vector<Rgb> leaving;            // lx that leave each patch
+  std::vector<std::uint32_t> seen;     // those that each patch sees: indices
+  std::vector<std::uint32_t> seen_by;  // by entry of `seen`: the patch that it also counts for
+  std::vector<float> exchanges;        // m^2, by entry of `seen`: form factor times area
+  std::vector<std::size_t> rows;       // begin of each patch's part of `seen`, and the end
+  std::vector<float> wholes;           // m^2, by patch: sum of its exchanges
+  std::vector<Rgb> arriving;           // lx m^2, by patch: from those whose links count for it
+  std::vector<Rgb> albedos;            // of the patches that are prepared for balance()
   int bounces = 0;
   std::size_t balanced = 0;  // patches, in this bounce
   float change = 0.0F;       // lx, the largest in this bounce
@@ -150,6 +154,8 @@ class Field {
   const std::vector<Link>& links(std::uint32_t patch);
   Link link_of(const rays::Ray& ray, const rays::Hit& hit);
   std::int64_t update_links(std::uint32_t patch);
+  float density_of(std::uint32_t patch);
+  bool is_rare(std::uint32_t from, const Link& to);
   std::int64_t start(Unfinished& work, std::int64_t rays);
   std::int64_t spread(Unfinished& work, std::int64_t rays);
   void follow_patch(Unfinished& work);

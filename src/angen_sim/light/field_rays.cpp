@@ -14,6 +14,7 @@ namespace angen::light {
 namespace {
 
 constexpr std::size_t kFans = 32;      // different spreads of a patch's links
+constexpr std::uint64_t kSet = 4;      // of eight sets of fans, the best past doors and in gaps
 constexpr std::size_t kFirst = 2048;   // rays from any other lamp
 constexpr std::size_t kLattice = 128;  // rays from a directional lamp, per side
 constexpr double kMargin = 1e-4;       // m, so that a ray does not hit its own surface
@@ -27,7 +28,7 @@ struct Fan {
 
 Fan make_fan(std::size_t number, std::size_t links) {
   Fan fan;
-  Rng rng(0, hash_bytes("light links"), static_cast<std::int64_t>(number));
+  Rng rng(kSet, hash_bytes("light links"), static_cast<std::int64_t>(number));
   const double shift_u = rng.uniform(), shift_v = rng.uniform();
   for (std::size_t i = 0; i < links; ++i) {
     const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(links) + shift_u;

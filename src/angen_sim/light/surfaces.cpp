@@ -18,7 +18,8 @@ constexpr double kSiteLift = 0.02;  // m: leaves stand a gap of some mm above si
 // Of their spacing: the distance of neighbors, which are none diagonally, so that no gap joins
 // sides.
 constexpr double kNeighbor = 1.38;
-constexpr double kOff = 1e-3;  // m: a closer shape covers a surface
+constexpr double kLeastArea = 1e-9;  // m^2: that of a shape without extent is not 0
+constexpr double kOff = 1e-3;        // m: a closer shape covers a surface
 // Of the leaves of doors, in m: the greatest thickness, the least width and height, and a gap at an
 // edge that closed ones do not have.
 constexpr double kLeaf = 0.1, kLeastLeaf = 0.5, kGap = 0.05;
@@ -74,6 +75,16 @@ Eigen::Array2d Surfaces::step_of(const Key& key) const {
   return key[5] != 0 ? Eigen::Array2d(cells.step / cells.parts) : cells.step;
 }
 
+double Surfaces::area_of(const Key& key, const std::vector<Site>& sites) const {
+  const Lattice cells = lattice(static_cast<std::uint32_t>(key[0]), key[1]);
+  const Vec3 axis = cells.placement.pose.rotation * Vec3::Unit(cells.axis);
+  const int per_side = key[5] == 1 ? kFineSitesPerSide : kSitesPerSide;
+  const double across = step_of(key).prod() / (per_side * per_side);  // of a site, along the axis
+  double area = kLeastArea;
+  for (const Site& site : sites) area += across / std::abs(site.normal.dot(axis));
+  return area;
+}
+
 std::uint32_t Surfaces::at(std::uint32_t shape, const Vec3& point, const Vec3& normal) {
   const rays::Placement placement = scene_.placement(shape);
   const Eigen::Matrix3d back = placement.pose.rotation.toRotationMatrix().transpose();
@@ -125,7 +136,8 @@ std::uint32_t Surfaces::add(const Key& key, std::vector<Site> sites, bool divide
   std::uint32_t& number = known_[key];
   number = divided ? kDivided : kNoPatch;
   if (sites.empty()) return number;
-  Patch patch{key, HashKey{}(key), std::move(sites), ++serials_};
+  const double area = area_of(key, sites);
+  Patch patch{key, HashKey{}(key), std::move(sites), area, ++serials_};
   if (free_.empty()) {
     number = static_cast<std::uint32_t>(patches_.size());
     patches_.push_back(std::move(patch));

@@ -30,6 +30,7 @@ struct Patch {
   std::array<std::int32_t, 6> key;  // shape, face, depth, u, v; 0, 1 for a part, 2, 3, … for a side
   std::uint64_t hash = 0;
   std::vector<Site> sites;
+  double area = 0.0;         // m^2, of the surface that the sites stand for
   std::uint64_t serial = 0;  // unique over all patches ever made
   bool alive = true;         // not forgotten since
 
@@ -79,6 +80,7 @@ class Surfaces {
 
   Lattice lattice(std::uint32_t shape, int face) const;
   Eigen::Array2d step_of(const Key& key) const;
+  double area_of(const Key& key, const std::vector<Site>& sites) const;
   std::uint32_t make(const Key& key);
   std::uint32_t add(const Key& key, std::vector<Site> sites, bool divided);
   bool make_sides(const Key& key);
