@@ -159,7 +159,9 @@ def write_stl(meshes: Sequence[Mesh], path: Path) -> None:
 def _source(parent: etree._Element, name: str, values: np.ndarray) -> None:
     source = etree.SubElement(parent, "source", id=name)
     array = etree.SubElement(source, "float_array", id=f"{name}-array", count=str(values.size))
-    array.text = " ".join(f"{v:g}" for v in np.round(values.ravel(), 4) + 0.0)
+    # Twice: processors differ in a sine's last bit, which decides about halves.
+    rounded = np.round(np.round(values.ravel(), 9), 4)
+    array.text = " ".join(f"{v:g}" for v in rounded + 0.0)
     accessor = etree.SubElement(etree.SubElement(source, "technique_common"), "accessor",
                                 source=f"#{name}-array", count=str(len(values)), stride="3")
     for axis in "XYZ":
