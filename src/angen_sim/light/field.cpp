@@ -19,14 +19,10 @@ namespace {
 constexpr double kReach = 15.0;       // m around an 800 lm lamp, in which its light is followed
 constexpr float kDark = 1e-3F;        // lx: less reflected light is not followed
 constexpr double kBeyondSites = 0.5;  // m
-constexpr double kRare = 0.1;         // tried: 0.3 leaves more noise behind doors ajar
 constexpr double kSettled = 1e-4;     // of the mean: a change that ends the bounces
 constexpr int kMaxBounces = 200;
 // Costs of the parts of a solution, measured; they decide only how it is cut into ticks.
-constexpr std::int64_t kSumsPerRay = 500;
-constexpr std::int64_t kRowsPerRay = kSumsPerRay / kLinks;  // patches in balance()
-constexpr std::int64_t kCostToMake = 64;                    // a patch
-constexpr std::int64_t kBouncesToPrepare = 4;
+constexpr std::int64_t kCostToMake = 64;  // a patch
 constexpr std::size_t kFirstAtOnce = 64;
 
 double reach_of(const Lamp& lamp) {
@@ -34,23 +30,12 @@ double reach_of(const Lamp& lamp) {
   return kReach * std::max(1.0, std::sqrt(lamp.luminous_flux / 800.0));
 }
 
-std::uint32_t place_of(std::uint32_t patch, const Unfinished& work) {
-  return patch < work.places.size() ? work.places[patch] : kNoPatch;
-}
-
 /// Adds a patch to the solution, unless it contains the patch.
 void reach_patch(std::uint32_t patch, Unfinished& work) {
-  if (patch == kNoPatch || place_of(patch, work) != kNoPatch) return;
+  if (patch == kNoPatch || work.place_of(patch) != kNoPatch) return;
   if (work.places.size() <= patch) work.places.resize(patch + 1 + patch / 2, kNoPatch);
   work.places[patch] = static_cast<std::uint32_t>(work.solution.patches.size());
   work.solution.patches.push_back(patch);
-}
-
-/// The end of the rows from `first` on that `rays` pay for, of `count` in all.
-std::size_t rows_from(std::size_t first, std::size_t count, std::int64_t rays) {
-  const auto left = static_cast<std::int64_t>(count - first);
-  const std::int64_t affordable = std::clamp<std::int64_t>(rays, 1, left / kRowsPerRay + 1);
-  return first + static_cast<std::size_t>(std::min(left, affordable * kRowsPerRay));
 }
 
 std::uint64_t next_stamp() {
@@ -200,7 +185,7 @@ void Field::follow_patch(Unfinished& work) {
   const std::vector<Link>& seen = links(patch);
   Rgb sum = Rgb::Zero();
   for (const Link& link : seen) {
-    const std::uint32_t place = place_of(link.patch, work);
+    const std::uint32_t place = work.place_of(link.patch);
     if (place < i) sum += work.leaving[place];
   }
   solution.direct.push_back(direct(work.lamp, patch));
@@ -215,86 +200,11 @@ void Field::follow_patch(Unfinished& work) {
                : (at - work.lamp.pose.position).norm() < reach;
   };
   for (const Link& link : seen) {
-    if (link.patch == kNoPatch || place_of(link.patch, work) != kNoPatch || !near(link.patch)) {
+    if (link.patch == kNoPatch || work.place_of(link.patch) != kNoPatch || !near(link.patch)) {
       continue;
     }
     reach_patch(link.patch, work);
   }
-}
-
-/// Links of a patch per m^2.
-float Field::density_of(std::uint32_t patch) {
-  return static_cast<float>(static_cast<double>(links(patch).size()) / surfaces_[patch].area);
-}
-
-/// Whether few links are to be expected between the patches. In narrow gaps parts of cells see each
-/// other by many.
-bool Field::is_rare(std::uint32_t from, const Link& to) {
-  if (surfaces_[from].is_part() && surfaces_[to.patch].is_part()) return false;
-  const auto extent2 = [&](std::uint32_t patch) {
-    return static_cast<double>(links(patch).size()) * surfaces_[patch].area;
-  };
-  return to.range * to.range > kRare * std::sqrt(extent2(from) * extent2(to.patch));
-}
-
-/// Lists the patches that the next patches see. As light goes both ways, links to a patch and those
-/// back are samples of the same exchange, form factor times area, and rare ones count for both. Of
-/// many links the evenly spread ones of one patch are more accurate.
-std::int64_t Field::prepare_balance(Unfinished& work, std::int64_t rays) {
-  const Solution& solution = work.solution;
-  const auto count = static_cast<std::uint32_t>(solution.patches.size());
-  std::size_t i = work.albedos.size();
-  const std::size_t first = i;
-  const std::size_t end = rows_from(first, count, rays / kBouncesToPrepare);
-  work.wholes.resize(count + 1, 0.0F);
-  work.arriving.resize(count + 1, Rgb::Zero());
-  for (; i < end; ++i) {
-    work.albedos.push_back(albedo_of(solution.patches[i]));
-    work.leaving[i] = work.albedos[i] * (solution.direct[i] + solution.reflected[i]);
-    const float density = density_of(solution.patches[i]);
-    work.rows.push_back(work.seen.size());
-    for (const Link& link : links(solution.patches[i])) {
-      const std::uint32_t place = std::min(count, place_of(link.patch, work));
-      const bool both_ways = place < count && is_rare(solution.patches[i], link);
-      const float exchange = 1.0F / (both_ways ? density + density_of(link.patch) : density);
-      const std::uint32_t back = both_ways ? place : count;
-      work.seen.push_back(place);
-      work.seen_by.push_back(back);
-      work.exchanges.push_back(exchange);
-      work.wholes[i] += exchange;
-      work.wholes[back] += exchange;
-      work.arriving[back] += work.leaving[i] * exchange;
-    }
-  }
-  if (i == count) {
-    work.rows.push_back(work.seen.size());
-    work.leaving.push_back(Rgb::Zero());  // for links without a patch
-  }
-  return 1 + static_cast<std::int64_t>(i - first) * kBouncesToPrepare / kRowsPerRay;
-}
-
-/// Continues a bounce: a Gauss-Seidel step of the radiosity equation for each patch.
-std::int64_t Field::balance(Unfinished& work, std::int64_t rays) {
-  Solution& solution = work.solution;
-  const std::size_t first = work.balanced;
-  const std::size_t end = rows_from(first, solution.patches.size(), rays);
-  for (std::size_t i = first; i < end; ++i) {
-    Rgb sum = work.arriving[i];
-    for (std::size_t k = work.rows[i]; k < work.rows[i + 1]; ++k) {
-      sum += work.exchanges[k] * work.leaving[work.seen[k]];
-    }
-    sum /= work.wholes[i];
-    work.change = std::max(work.change, (sum - solution.reflected[i]).abs().maxCoeff());
-    work.total += solution.direct[i] + sum.maxCoeff();
-    solution.reflected[i] = sum;
-    const Rgb leaving = work.albedos[i] * (solution.direct[i] + sum);
-    const Rgb more = leaving - std::exchange(work.leaving[i], leaving);
-    for (std::size_t k = work.rows[i]; k < work.rows[i + 1]; ++k) {
-      work.arriving[work.seen_by[k]] += work.exchanges[k] * more;
-    }
-  }
-  work.balanced = end;
-  return 1 + static_cast<std::int64_t>(end - first) / kRowsPerRay;
 }
 
 bool Field::advance(Unfinished& work, std::int64_t& rays) {
@@ -311,7 +221,10 @@ bool Field::advance(Unfinished& work, std::int64_t& rays) {
   if (work.cast < work.first.size() && !take(start(work, rays))) return false;
   if (work.followed < patches.size() && !take(spread(work, rays))) return false;
   while (work.albedos.size() < patches.size()) {
-    if (!take(prepare_balance(work, rays))) return false;
+    if (!take(list_samples(work, rays))) return false;
+  }
+  while (work.rows.size() <= patches.size()) {
+    if (!take(list_exchanges(work, rays))) return false;
   }
   while (!patches.empty() && work.bounces < kMaxBounces) {
     const bool within = take(balance(work, rays));

@@ -40,21 +40,38 @@ struct Solution {
 struct Unfinished {
   explicit Unfinished(const Lamp& of) : lamp(of) {}
 
+  std::uint32_t place_of(std::uint32_t patch) const {
+    return patch < places.size() ? places[patch] : kNoPatch;
+  }
+
+  struct Sampling {        // how a patch samples what it sees
+    float density = 0.0F;  // links per m^2
+    float extent = 0.0F;   // m, root of its links times its area
+    bool is_part = false;  // of a divided cell
+  };
+  struct Sample {  // a link between patches
+    std::uint32_t from = 0, to = kNoPatch;
+    float range = 0.0F;               // m
+    std::uint32_t before = kNoPatch;  // the sample before this one to the same patch
+  };
+
   Lamp lamp;
   Solution solution;
   Eigen::AlignedBox3d world;     // m, bounds of static shapes
   std::vector<rays::Ray> first;  // from the lamp, to find the lit patches
   std::size_t cast = 0;          // of `first`
   std::size_t followed = 0;      // patches of the solution whose reflected light has been followed
-  std::vector<std::uint32_t> places;   // by patch: its index, or kNoPatch
-  std::vector<Rgb> leaving;            // lx that leave each patch
-  std::vector<std::uint32_t> seen;     // those that each patch sees: indices
-  std::vector<std::uint32_t> seen_by;  // by entry of `seen`: the patch that it also counts for
-  std::vector<float> exchanges;        // m^2, by entry of `seen`: form factor times area
-  std::vector<std::size_t> rows;       // begin of each patch's part of `seen`, and the end
-  std::vector<float> wholes;           // m^2, by patch: sum of its exchanges
-  std::vector<Rgb> arriving;           // lx m^2, by patch: from those whose links count for it
-  std::vector<Rgb> albedos;            // of the patches that are prepared for balance()
+  std::vector<std::uint32_t> places;  // by patch: its index, or kNoPatch
+  std::vector<Rgb> leaving;           // lx that leave each patch
+  std::vector<Sampling> samplings;    // by index, as what follows
+  std::vector<Rgb> albedos;
+  std::vector<Sample> samples;
+  std::vector<std::size_t> samples_of;  // begin of each patch's samples, and the end
+  std::vector<std::uint32_t> last_to;   // the last sample to each patch, or kNoPatch
+  std::vector<std::uint32_t> seen;      // the patches that each one sees
+  std::vector<float> factors;           // by entry of `seen`: form factor
+  std::vector<std::size_t> rows;        // begin of each patch's part of `seen`, and the end
+  std::vector<std::size_t> entries;     // by patch: its entry in the last row that has it
   int bounces = 0;
   std::size_t balanced = 0;  // patches, in this bounce
   float change = 0.0F;       // lx, the largest in this bounce
@@ -154,12 +171,11 @@ class Field {
   const std::vector<Link>& links(std::uint32_t patch);
   Link link_of(const rays::Ray& ray, const rays::Hit& hit);
   std::int64_t update_links(std::uint32_t patch);
-  float density_of(std::uint32_t patch);
-  bool is_rare(std::uint32_t from, const Link& to);
   std::int64_t start(Unfinished& work, std::int64_t rays);
   std::int64_t spread(Unfinished& work, std::int64_t rays);
   void follow_patch(Unfinished& work);
-  std::int64_t prepare_balance(Unfinished& work, std::int64_t rays);
+  std::int64_t list_samples(Unfinished& work, std::int64_t rays);
+  std::int64_t list_exchanges(Unfinished& work, std::int64_t rays);
   std::int64_t balance(Unfinished& work, std::int64_t rays);
   void finish(Unfinished& work);
   float direct(const Lamp& lamp, std::uint32_t patch) const;
