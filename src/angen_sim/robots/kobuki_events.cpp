@@ -25,8 +25,8 @@ void warn_missing(Params& params, const char* path, const char* what, const std:
 /// What touches some collisions now, or did since the last reading.
 class Touch {
  public:
-  /// Of the contact sensor that the parameter names. False, with a warning unless there is no name,
-  /// where it watches nothing.
+  /// Watches the collisions of the contact sensor that the parameter names. Returns whether there
+  /// are any; warns of a name that the model's contact sensors do not have.
   bool watch(const char* path, const std::string& name, Params& params, Wiring& wiring) {
     window_ = params.update_period();
     const std::optional<SensorPart> sensor = wiring.sensor(name);
