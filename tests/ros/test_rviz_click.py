@@ -83,8 +83,14 @@ def test_a_click_in_rviz_opens_a_door(angen: Angen, display: str, tmp_path: Path
                 return any(one.event_type == one.BUTTON_CLICK and one.marker_name == DOOR
                            for one in list(clicks.messages))
 
+            def opened() -> bool:
+                if states.messages[-1].mode == DoorState.CLOSED:  # two clicks came before an answer
+                    click()
+                    time.sleep(PAUSE)
+                return any(state.mode == DoorState.OPEN for state in list(states.messages))
+
             until(clicked, 'rviz sends the click', LIMIT)
-            states.wait(lambda state: state.mode == DoorState.OPEN, 'an open door')
+            until(opened, 'an open door')
     finally:
         for process in reversed(started):
             end(process)
