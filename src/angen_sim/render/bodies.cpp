@@ -88,6 +88,7 @@ void Patch::build_boxes() {
     for (const Eigen::Vector3f& corner : each.corners) box.extend(corner);
     boxes.push_back(box);
     faces_.push_back(each);
+    first_triangles_.push_back(i);
   }
   for (const PlacedHeightmap& heightmap : heightmaps_) {
     boxes.push_back(bounds_of(heightmap).cast<float>());
@@ -96,22 +97,26 @@ void Patch::build_boxes() {
 }
 
 bool Patch::find_in(const Hull& hull, Faces& found) const {
-  return !boxes_.any([&](const Boxes4& boxes) { return hull.overlaps(boxes); },
-                     [&](std::uint32_t i) {
-                       if (i >= faces_.size() || found.count == found.all.size()) return true;
-                       found.all[found.count++] = faces_[i];
-                       return false;
-                     });
+  return each_in(hull, [&](std::uint32_t, const Face& face) {
+    if (found.count == found.all.size()) return false;
+    found.all[found.count++] = face;
+    return true;
+  });
 }
 
-/// Whether a triangle a b c and the next one, a c d, are a quad; it may be concave.
+/// Whether a triangle a b c and the next one, a c d, are a convex quad of one finish.
 bool Patch::is_quad(std::size_t triangle) const {
   if (triangle + 1 >= triangles_.size()) return false;
   const auto& first = triangles_[triangle];
   const auto& second = triangles_[triangle + 1];
   const auto at = [&](std::uint32_t i) -> const Eigen::Vector3f& { return vertices_[i]; };
-  return at(first[0]) == at(second[0]) && at(first[2]) == at(second[1]) &&
-         std::abs(facets_[triangle].normal.dot(at(second[2]) - at(first[0]))) < kFlat;
+  const Eigen::Vector3f& a = at(first[0]);
+  const Eigen::Vector3f &b = at(first[1]), &c = at(first[2]), &d = at(second[2]);
+  const Eigen::Vector3f& normal = facets_[triangle].normal;
+  return a == at(second[0]) && c == at(second[1]) &&
+         facets_[triangle].finish == facets_[triangle + 1].finish &&
+         normal.dot(facets_[triangle + 1].normal) > 0.0F && std::abs(normal.dot(d - a)) < kFlat &&
+         normal.dot((a - d).cross(b - a)) > 0.0F && normal.dot((c - b).cross(d - c)) > 0.0F;
 }
 
 std::uint32_t Patch::first_of_face(std::uint32_t triangle) const {

@@ -53,9 +53,21 @@ class Patch {
   Eigen::Vector3f color(const Facet& facet, float u, float v) const;
   /// A triangle, with the one beside it if both are a quad.
   Face face(std::uint32_t triangle) const;
+  /// Calls visit(first triangle, face) for the faces in the hull, perhaps some beside it, until it
+  /// returns false; false then, and if a heightmap is in the hull.
+  template <class Visit>
+  bool each_in(const Hull& hull, const Visit& visit) const {
+    return !boxes_.any([&](const Boxes4& boxes) { return hull.overlaps(boxes); },
+                       [&](std::uint32_t i) {
+                         return i >= faces_.size() || !visit(first_triangles_[i], faces_[i]);
+                       });
+  }
   /// Adds the faces in the hull, perhaps some beside it; false if they are too many, or include a
   /// heightmap.
   bool find_in(const Hull& hull, Faces& faces) const;
+  bool has_texture(std::uint32_t triangle) const {
+    return finishes_[facets_[triangle].finish].texture != nullptr;
+  }
   bool is_empty() const { return triangles_.empty() && heightmaps_.empty(); }
   const Box& bounds() const { return boxes_.bounds(); }  // not of an empty one
   RTCScene scene() const { return scene_.get(); }
@@ -78,7 +90,8 @@ class Patch {
   std::vector<std::array<float, 6>> corners_;  // u v of the corners of triangles with textures
   rays::Embree<RTCScene> scene_;
   std::vector<Face> faces_;
-  BoxTree boxes_;  // of the faces, then of the heightmaps
+  std::vector<std::uint32_t> first_triangles_;  // of the faces
+  BoxTree boxes_;                               // of the faces, then of the heightmaps
 };
 
 }  // namespace angen::render

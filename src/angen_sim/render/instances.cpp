@@ -6,16 +6,11 @@
 #include "render/packets.h"
 
 namespace angen::render {
-namespace {
 
-Face in_world(const Placed& placed, Face face) {
-  for (Eigen::Vector3f& corner : face.corners) {
-    corner = placed.rotation * corner + placed.position;
-  }
+Face Placed::in_world(Face face) const {
+  for (Eigen::Vector3f& corner : face.corners) corner = rotation * corner + position;
   return face;
 }
-
-}  // namespace
 
 Instances::Instances() : seen_(rtcNewScene(rays::device())), opaque_(rtcNewScene(rays::device())) {
   for (const RTCScene scene : {seen_.get(), opaque_.get()}) {
@@ -88,10 +83,11 @@ void Instances::find_hits(const int* valid, const Among& among, RTCIntersectCont
   context.flags = flags;
   if (among.fixed) {
     intersect(valid, fixed().scene(), context, rays);
-    const auto number = static_cast<std::uint32_t>(placed_.size() - 1);
     for (int i = 0; i < 16; ++i) {
       const bool hit = rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-      if (hit && rays.hit.instID[0][i] == RTC_INVALID_GEOMETRY_ID) rays.hit.instID[0][i] = number;
+      if (hit && rays.hit.instID[0][i] == RTC_INVALID_GEOMETRY_ID) {
+        rays.hit.instID[0][i] = fixed_number();
+      }
     }
   }
   if (among.movers) intersect(valid, seen_.get(), context, rays);
@@ -109,11 +105,6 @@ void Instances::find_occluded(const int* wanted, const Among& among, RTCRay16& r
     any |= left[i];
   }
   if (any != 0) occlude(left, opaque_.get(), context, rays);
-}
-
-bool Instances::has_mover_in(const Hull& hull) const {
-  return boxes_.any([&](const Boxes4& boxes) { return hull.overlaps(boxes); },
-                    [](std::uint32_t) { return true; });
 }
 
 bool Instances::has_opaque_mover_in(const Box& box) const {
@@ -135,34 +126,30 @@ bool Instances::find_face(const Eigen::Vector3f& from, const Eigen::Vector3f& to
   if (ray.hit.geomID != 0) return true;  // a heightmap
   const bool moves = ray.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
   const Placed& placed = moves ? placed_[ray.hit.instID[0]] : placed_.back();
-  face = in_world(placed, placed.patch->face(ray.hit.primID));
+  face = placed.in_world(placed.patch->face(ray.hit.primID));
   return true;
 }
 
 void Instances::find_in(const Hull& hull, Obstacles& found) const {
   found.faces.count = 0;
-  found.has_mover = false;
   found.unknown = {false, false};
-  boxes_.any(
-      [&](const Boxes4& boxes) { return hull.overlaps(boxes); },
-      [&](std::uint32_t i) {
-        const Placed& placed = placed_[boxed_[i]];
-        if (placed.shines_through) return false;
-        found.has_mover = true;
-        const std::size_t before = found.faces.count;
-        if (!placed.patch->find_in(hull.seen_from(placed.rotation, placed.position), found.faces)) {
-          found.unknown.movers = true;
-          found.faces.count = before;
-        }
-        for (std::size_t k = before; k < found.faces.count; ++k) {
-          found.faces.all[k] = in_world(placed, found.faces.all[k]);
-        }
-        return false;
-      });
-  found.moving = found.faces.count;
+  any_mover_in(hull, [&](std::uint32_t number) {
+    const Placed& placed = placed_[number];
+    if (placed.shines_through) return false;
+    const std::size_t before = found.faces.count;
+    if (!placed.patch->find_in(placed.in_patch(hull), found.faces)) {
+      found.unknown.movers = true;
+      found.faces.count = before;
+    }
+    for (std::size_t k = before; k < found.faces.count; ++k) {
+      found.faces.all[k] = placed.in_world(found.faces.all[k]);
+    }
+    return false;
+  });
+  const std::size_t moving = found.faces.count;
   if (!fixed().find_in(hull, found.faces)) {
     found.unknown.fixed = true;
-    found.faces.count = found.moving;
+    found.faces.count = moving;
   }
 }
 

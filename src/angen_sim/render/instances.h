@@ -9,6 +9,9 @@ namespace angen::render {
 
 /// A patch with its place in the world.
 struct Placed {
+  Face in_world(Face face) const;
+  Hull in_patch(const Hull& hull) const { return hull.seen_from(rotation, position); }
+
   std::unique_ptr<Patch> patch;
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
@@ -26,9 +29,7 @@ struct Among {
 
 /// The opaque faces in a hull.
 struct Obstacles {
-  Faces faces;                  // first those of movers, then the fixed ones
-  std::size_t moving = 0;       // number of faces of movers
-  bool has_mover = false;       // the box of one overlaps the hull
+  Faces faces;
   Among unknown{false, false};  // have more faces than these, or others than polygons
 };
 
@@ -48,15 +49,20 @@ class Instances {
 
   const Placed& operator[](std::uint32_t number) const { return placed_[number]; }
   const Patch& fixed() const { return *placed_.back().patch; }
+  std::uint32_t fixed_number() const { return static_cast<std::uint32_t>(placed_.size() - 1); }
 
   /// Finds the first hits of the valid rays, which have none yet.
   void find_hits(const int* valid, const Among& among, RTCIntersectContextFlags flags,
                  RTCRayHit16& rays) const;
   /// Sets tfar of the rays with a hit on an opaque body below 0.
   void find_occluded(const int* wanted, const Among& among, RTCRay16& rays) const;
-  /// False only if no mover is in the hull.
-  bool has_mover_in(const Hull& hull) const;
-  /// The same of movers that throw shadows.
+  /// Whether visit(number) is true for one of the movers in the hull, perhaps some beside it.
+  template <class Visit>
+  bool any_mover_in(const Hull& hull, const Visit& visit) const {
+    return boxes_.any([&](const Boxes4& boxes) { return hull.overlaps(boxes); },
+                      [&](std::uint32_t i) { return visit(boxed_[i]); });
+  }
+  /// False only if no mover that throws shadows is in the box.
   bool has_opaque_mover_in(const Box& box) const;
   /// Finds the first opaque face on the way; one of 0 corners is not a polygon. False without one.
   bool find_face(const Eigen::Vector3f& from, const Eigen::Vector3f& to, Face& face) const;

@@ -242,8 +242,7 @@ void ColorWriter::shine(std::size_t lamp, std::size_t level, std::size_t square,
   }
   Tile& tile = tiles_[square - kFirstTile];
   if (!by_.reaches[lamp].intersects(tile.seen)) return;
-  const Among among = sight == Sight::kAll ? Among{false, false} : sights_.among(level);
-  render::shine(lit, instances_, among, tile);
+  render::shine(lit, instances_, sight == Sight::kAll ? nullptr : &sights_.obstacles(level), tile);
 }
 
 }  // namespace angen::render

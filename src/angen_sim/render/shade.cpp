@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kMin = 0.1F;      // lx; less is not worth a shadow ray
 constexpr float kFarAway = 1e4F;  // m, the farthest shadow of a directional lamp
+constexpr float kEdgeOn = 1e-6F;  // m from the lamp to the plane of a face that it sees as a line
 constexpr int kCodes = 1 << 14;
 
 /// sRGB bytes of evenly spaced linear values.
@@ -74,7 +75,28 @@ void set_segments(const Columns& from, const Columns& way, RTCRay16& rays) {
   }
 }
 
-void shine(const light::Lit& lit, const Instances& instances, const Among& among, Tile& tile) {
+void hide(const Faces& faces, const Eigen::Vector3f& from, const Columns& points, int* lit) {
+  const Columns way{points.x - from.x(), points.y - from.y(), points.z - from.z()};
+  const auto along = [&](const Eigen::Vector3f& vector) -> Lanes {
+    return way.x * vector.x() + (way.y * vector.y() + way.z * vector.z());
+  };
+  for (std::size_t n = 0; n < faces.count; ++n) {
+    const Face& face = faces.all[n];
+    const auto corner = [&](std::size_t k) { return face.corners[k] - from; };
+    const Eigen::Vector3f normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    const float volume = normal.dot(corner(0));
+    if (!(std::abs(volume) > kEdgeOn * normal.norm())) continue;
+    const float side = volume > 0.0F ? 1.0F : -1.0F;
+    Lanes inside = along(normal) / volume - 1.0F;  // below 0 for points in front of the plane
+    for (std::size_t k = 0; k < face.count; ++k) {
+      inside = inside.min(along(side * corner(k).cross(corner(k + 1 < face.count ? k + 1 : 0))));
+    }
+    for (int i = 0; i < kLanes; ++i) lit[i] = inside[i] >= 0.0F ? 0 : lit[i];
+  }
+}
+
+void shine(const light::Lit& lit, const Instances& instances, const Obstacles* obstacles,
+           Tile& tile) {
   Columns way;
   const Lanes facing = facing_illuminance(lit, tile, way);
   Lanes cosine = tile.normal.dot(way) / lengths(way);
@@ -82,20 +104,29 @@ void shine(const light::Lit& lit, const Instances& instances, const Among& among
     if (tile.through[i]) cosine[i] = std::abs(cosine[i]);
   }
   Lanes illuminance = facing * cosine;
-  alignas(64) int wanted[kLanes];
-  bool any = false;
-  for (int i = 0; i < kLanes; ++i) {
-    wanted[i] = tile.valid[i] != 0 && illuminance[i] > kMin ? -1 : 0;
-    if (wanted[i] == 0) illuminance[i] = 0.0F;
-    any = any || wanted[i] != 0;
-  }
-  if (!any) return;
-  if (lit.lamp.cast_shadows && !among.none()) {
-    alignas(64) RTCRay16 rays;
-    set_segments(tile.lifted, way, rays);
-    instances.find_occluded(wanted, among, rays);
+  alignas(64) int free[kLanes];
+  const auto drop_hidden = [&] {
+    bool any = false;
     for (int i = 0; i < kLanes; ++i) {
-      if (!(rays.tfar[i] >= 0.0F)) illuminance[i] = 0.0F;
+      if (free[i] == 0) illuminance[i] = 0.0F;
+      any = any || free[i] != 0;
+    }
+    return any;
+  };
+  for (int i = 0; i < kLanes; ++i) {
+    free[i] = tile.valid[i] != 0 && illuminance[i] > kMin ? -1 : 0;
+  }
+  if (!drop_hidden()) return;
+  if (lit.lamp.cast_shadows && obstacles != nullptr) {
+    hide(obstacles->faces, lit.lamp.pose.position.cast<float>(), tile.lifted, free);
+    if (!drop_hidden()) return;
+    if (!obstacles->unknown.none()) {
+      alignas(64) RTCRay16 rays;
+      set_segments(tile.lifted, way, rays);
+      instances.find_occluded(free, obstacles->unknown, rays);
+      for (int i = 0; i < kLanes; ++i) {
+        if (!(rays.tfar[i] >= 0.0F)) illuminance[i] = 0.0F;
+      }
     }
   }
   tile.light.x += illuminance * lit.lamp.color.x();

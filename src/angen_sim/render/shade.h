@@ -52,8 +52,13 @@ struct alignas(64) Tile {
 /// Sets rays from points along the ways from there.
 void set_segments(const Columns& from, const Columns& way, RTCRay16& rays);
 
-/// Adds the direct light of one lamp to each point; only those bodies may be in its way.
-void shine(const light::Lit& lit, const Instances& instances, const Among& among, Tile& tile);
+/// Sets `lit` to 0 for the points that one of the faces hides from that place.
+void hide(const Faces& faces, const Eigen::Vector3f& from, const Columns& points, int* lit);
+
+/// Adds the direct light of one lamp to each point; only those bodies may be in its way, none
+/// without them.
+void shine(const light::Lit& lit, const Instances& instances, const Obstacles* obstacles,
+           Tile& tile);
 
 /// sRGB bytes of luminances in cd/m^2.
 std::array<std::uint8_t, kLanes> shown(const Lanes& luminances);

@@ -32,21 +32,16 @@ Sight Sights::of(std::size_t lamp, std::size_t level, const Box& points) {
   const Obstacles& above = obstacles_[level - 1];
   if (level <= kLastSearch && !above.unknown.none()) return found(lamp, points, own);
   if (above.unknown.fixed && above.unknown.movers) {
-    own.faces.count = own.moving = 0;
+    own.faces.count = 0;
     own.unknown = above.unknown;
     return Sight::kSome;
   }
   return narrowed(hull_of(lamp, points), above, own);
 }
 
-Among Sights::among(std::size_t level) const {
-  const Obstacles& of = obstacles_[level];
-  return {of.unknown.fixed || of.faces.count > of.moving, of.unknown.movers || of.moving > 0};
-}
-
 Sight Sights::found(std::size_t lamp, const Box& points, Obstacles& obstacles) {
   const light::Lamp& at = lamps_[lamp].lamp;
-  obstacles.faces.count = obstacles.moving = 0;
+  obstacles.faces.count = 0;
   obstacles.unknown = {true, true};
   if (at.type == light::Lamp::Type::kDirectional) return Sight::kSome;
   if (!at.cast_shadows) return Sight::kAll;
@@ -64,13 +59,11 @@ Sight Sights::narrowed(const Hull& rays, const Obstacles& from, Obstacles& obsta
   Faces& faces = obstacles.faces;
   faces.count = 0;
   for (std::size_t i = 0; i < from.faces.count; ++i) {
-    if (i == from.moving) obstacles.moving = faces.count;
     const Face& face = from.faces.all[i];
     if (!rays.overlaps(face)) continue;
     if (rays.is_cut_by(face)) return Sight::kNone;
     faces.all[faces.count++] = face;
   }
-  if (from.moving >= from.faces.count) obstacles.moving = faces.count;
   obstacles.unknown = from.unknown;
   return obstacles.unknown.none() && faces.count == 0 ? Sight::kAll : Sight::kSome;
 }

@@ -23,9 +23,9 @@ class Sights {
   /// From points that are lifted off their surfaces: on level 0, or a part of the box of the last
   /// answer on the level above, if that was kSome.
   Sight of(std::size_t lamp, std::size_t level, const Box& points);
-  /// The bodies that may hide the lamp from some of the points of the last answer on that level, if
-  /// it was kSome.
-  Among among(std::size_t level) const;
+  /// What may hide the lamp from some of the points of the last answer on that level, if it was
+  /// kSome.
+  const Obstacles& obstacles(std::size_t level) const { return obstacles_[level]; }
 
  private:
   Hull hull_of(std::size_t lamp, const Box& points) const;

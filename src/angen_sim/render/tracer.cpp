@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
 
 #include "core/parallel.h"
+#include "render/rasterizer.h"
 
 namespace angen::render {
 namespace {
@@ -13,90 +13,9 @@ constexpr float kHousing = 0.5F;    // m, in depth: largest distance of a housin
 constexpr float kPastWall = 1e-5F;  // m
 constexpr int kMaxWalls = 8;
 constexpr auto kCoherent = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-constexpr int kTilesOfASquare = 16;        // whose movers are looked for at once
-constexpr int kSquare = 4 * kTile;         // pixels
-constexpr double kInexact = 1e5;           // m; hulls are inexact beyond
+constexpr float kInexact = 1e5F;           // m; hulls are inexact beyond
+constexpr float kDeeper = 1.01F;           // than the deepest of some rays of a square
 constexpr int kPixelsOfAThread = 1 << 13;  // fewer are not worth its start
-
-/// Bits 0, 2, 4, … as bits 0, 1, 2, …
-int every_other_bit(int of) {
-  int bits = 0;
-  for (int i = 0; i < kDivisions; ++i) bits |= (of >> (2 * i) & 1) << i;
-  return bits;
-}
-
-/// The camera's rays, one tile at a time. The length of a direction makes its range the depth.
-class Eye {
- public:
-  Eye(const PinholeCamera& camera, const Pose& pose)
-      : camera_(camera), origin_(pose.position.cast<float>()) {
-    const Eigen::Matrix3d rotation = pose.rotation.normalized().toRotationMatrix();
-    ahead_ = rotation.col(0);
-    right_ = -rotation.col(1) / camera.focal();
-    down_ = -rotation.col(2) / camera.focal();
-    for (int x = 0; x < camera.width + kBlock; ++x) {
-      columns_.push_back(ahead_ + (x - camera.center_x()) * right_);
-    }
-  }
-
-  /// Sets the values that all tiles share.
-  void begin(RTCRayHit16& rays) const {
-    for (int i = 0; i < kLanes; ++i) {
-      rays.ray.org_x[i] = origin_.x();
-      rays.ray.org_y[i] = origin_.y();
-      rays.ray.org_z[i] = origin_.z();
-      rays.ray.time[i] = 0.0F;
-      rays.ray.mask[i] = UINT32_MAX;
-      rays.ray.id[i] = 0;
-      rays.ray.flags[i] = 0;
-    }
-  }
-
-  /// False only if the rays of the square at that pixel meet no mover up to that depth.
-  bool may_meet_movers(int column, int row, float depth, const Instances& instances) const {
-    if (!camera_.distortion.none() || !(depth < kInexact)) return true;
-    Box ends;
-    for (const int x : {column, column + kSquare - 1}) {
-      for (const int y : {row, row + kSquare - 1}) {
-        ends.extend(origin_ + depth * toward(x, y).cast<float>());
-      }
-    }
-    return instances.has_mover_in(Hull(Box(origin_), ends));
-  }
-
-  void aim(int column, int row, int* valid, RTCRayHit16& rays) const {
-    for (int i = 0; i < kLanes; ++i) {
-      valid[i] = column + i % kTile < camera_.width && row + i / kTile < camera_.height ? -1 : 0;
-      rays.ray.tnear[i] = static_cast<float>(camera_.near);
-      rays.ray.tfar[i] = static_cast<float>(camera_.far);
-      rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-      rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    }
-    for (int y = 0; y < kTile; ++y) {
-      for (int x = 0; x < kTile; ++x) {
-        const Eigen::Vector3f direction = toward(column + x, row + y).cast<float>();
-        rays.ray.dir_x[kTile * y + x] = direction.x();
-        rays.ray.dir_y[kTile * y + x] = direction.y();
-        rays.ray.dir_z[kTile * y + x] = direction.z();
-      }
-    }
-  }
-
- private:
-  Vec3 toward(int column, int row) const {
-    double y = row - camera_.center_y();
-    if (camera_.distortion.none()) return columns_[static_cast<std::size_t>(column)] + y * down_;
-    double x = column - camera_.center_x();
-    const double focal = camera_.focal();
-    camera_.distortion.undistort(x / focal, y / focal, x, y);
-    return ahead_ + x * focal * right_ + y * focal * down_;
-  }
-
-  const PinholeCamera& camera_;
-  Eigen::Vector3f origin_;
-  Vec3 ahead_, right_, down_;
-  std::vector<Vec3> columns_;  // the directions at the height of the axis
-};
 
 bool hits(const RTCRayHit16& rays, int i) { return rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; }
 
@@ -127,64 +46,88 @@ void leave_housing(const Instances& instances, float far, const int* valid, RTCR
   }
 }
 
-struct alignas(64) TileRays {
-  int valid[kLanes];
-  RTCRayHit16 rays;
-  int column, row;
-};
-
 /// The work of one thread.
 class Tracer {
  public:
-  Tracer(const Eye& eye, const PinholeCamera& camera, const Instances& instances,
-         std::shared_ptr<Visitor> visitor)
-      : eye_(eye), camera_(camera), instances_(instances), visitor_(std::move(visitor)) {
+  Tracer(const Eye& eye, const Instances& instances, std::shared_ptr<Visitor> visitor)
+      : eye_(eye), instances_(instances), visitor_(std::move(visitor)), faces_(eye, instances) {
+    eye_.begin(probe_.rays);
     for (TileRays& tile : tiles_) eye_.begin(tile.rays);
   }
 
   void trace_row_of_blocks(int first_row) {
     visitor_->begin_row_of_blocks();
-    for (int column = 0; column < camera_.width; column += kBlock) {
+    for (int column = 0; column < eye_.camera().width; column += kBlock) {
       trace_block(column, first_row);
       visitor_->end_block();
     }
   }
 
  private:
+  bool is_in_image(int column, int row) const {
+    return column < eye_.camera().width && row < eye_.camera().height;
+  }
+
   void trace_block(int first_column, int first_row) {
+    const bool known = start_faces(first_column, first_row, kBlock);
     for (int first = 0; first < kTiles; first += kTilesOfASquare) {
       const int column = first_column + kTile * every_other_bit(first);
       const int row = first_row + kTile * every_other_bit(first >> 1);
-      if (column < camera_.width && row < camera_.height) trace_square(first, column, row);
+      if (!is_in_image(column, row)) continue;
+      trace_square(first, column, row, known || start_faces(column, row, kSquare));
     }
   }
 
-  /// Traces the fixed bodies first: most squares show no mover in front of them.
-  void trace_square(int first, int first_column, int first_row) {
+  /// Starts to look for fixed faces as deep as some rays of a square of pixels go.
+  bool start_faces(int column, int row, int size) {
+    if (!eye_.is_linear()) return false;
+    eye_.aim(column, row, size / kTile, probe_);
+    instances_.find_hits(probe_.valid, {true, false}, RTC_INTERSECT_CONTEXT_FLAG_NONE, probe_.rays);
+    float depth = 0.0F;
+    for (int i = 0; i < kLanes; ++i) {
+      if (probe_.valid[i] != 0) depth = std::max(depth, kDeeper * probe_.rays.ray.tfar[i]);
+    }
+    return depth < kInexact && faces_.start(column, row, size, depth);
+  }
+
+  /// Traces movers last: most squares show none that is not among the faces.
+  void trace_square(int first, int first_column, int first_row, bool has_faces) {
+    for (int k = 0; k < kTilesOfASquare; ++k) {
+      eye_.aim(first_column + kTile * every_other_bit(k),
+               first_row + kTile * every_other_bit(k >> 1), 1, tiles_[k]);
+    }
+    std::array<bool, kTilesOfASquare> found{};
+    if (has_faces) faces_.find_hits(first_column, first_row, tiles_, found);
     float depth = 0.0F;
     for (int k = 0; k < kTilesOfASquare; ++k) {
       TileRays& tile = tiles_[k];
-      tile.column = first_column + kTile * every_other_bit(k);
-      tile.row = first_row + kTile * every_other_bit(k >> 1);
-      if (tile.column >= camera_.width || tile.row >= camera_.height) continue;
-      eye_.aim(tile.column, tile.row, tile.valid, tile.rays);
-      instances_.find_hits(tile.valid, {true, false}, kCoherent, tile.rays);
+      if (!is_in_image(tile.column, tile.row)) continue;
+      if (!found[k]) instances_.find_hits(tile.valid, {true, false}, kCoherent, tile.rays);
       for (int i = 0; i < kLanes; ++i) depth = std::max(depth, tile.rays.ray.tfar[i]);
     }
-    const bool movers = eye_.may_meet_movers(first_column, first_row, depth, instances_);
+    // Whether movers are in view, and those that are not among the faces.
+    const bool is_exact = eye_.is_linear() && depth < kInexact;
+    const Hull view = eye_.hull(first_column, first_row, kSquare, depth);
+    const bool any = !is_exact || instances_.any_mover_in(view, [](std::uint32_t) { return true; });
+    const bool other = !is_exact || (any && instances_.any_mover_in(view, [&](std::uint32_t mover) {
+      return faces_.lacks(mover);
+    }));
     for (int k = 0; k < kTilesOfASquare; ++k) {
       TileRays& tile = tiles_[k];
-      if (tile.column >= camera_.width || tile.row >= camera_.height) continue;
-      if (movers) instances_.find_hits(tile.valid, {false, true}, kCoherent, tile.rays);
-      leave_housing(instances_, static_cast<float>(camera_.far), tile.valid, tile.rays);
+      if (!is_in_image(tile.column, tile.row)) continue;
+      if (found[k] ? other : any) {
+        instances_.find_hits(tile.valid, {false, true}, kCoherent, tile.rays);
+      }
+      leave_housing(instances_, static_cast<float>(eye_.camera().far), tile.valid, tile.rays);
       visitor_->add({first + k, tile.column, tile.row, tile.valid, tile.rays});
     }
   }
 
   const Eye& eye_;
-  const PinholeCamera& camera_;
   const Instances& instances_;
   std::shared_ptr<Visitor> visitor_;
+  Rasterizer faces_;
+  TileRays probe_;
   std::array<TileRays, kTilesOfASquare> tiles_;
 };
 
@@ -196,7 +139,7 @@ void trace(const PinholeCamera& camera, const Pose& pose, const Instances& insta
   const int worth = 1 + camera.width * camera.height / kPixelsOfAThread;
   const int rows = (camera.height + kBlock - 1) / kBlock;
   parallel(rows, std::min(threads, worth), [&]() -> std::function<void(int)> {
-    auto tracer = std::make_shared<Tracer>(eye, camera, instances, make());
+    auto tracer = std::make_shared<Tracer>(eye, instances, make());
     return [tracer](int row) { tracer->trace_row_of_blocks(row * kBlock); };
   });
 }

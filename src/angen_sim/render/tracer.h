@@ -24,6 +24,16 @@ constexpr int kFirstTile = 1 + 4 + 16;
 constexpr int kSquares = kFirstTile + kTiles;
 static_assert(kDivisions == 3);
 
+constexpr int kTilesOfASquare = 16;  // whose faces and movers are looked for at once
+constexpr int kSquare = 4 * kTile;   // pixels
+
+/// Bits 0, 2, 4, … as bits 0, 1, 2, …: the column of a tile in Z-order.
+constexpr int every_other_bit(int of) {
+  int bits = 0;
+  for (int i = 0; i < kDivisions; ++i) bits |= (of >> (2 * i) & 1) << i;
+  return bits;
+}
+
 /// The rays of a tile, with their hits. The length of a direction makes a range the depth.
 struct TracedTile {
   int number = 0;              // in its block

@@ -1,0 +1,79 @@
+// With the least distortion of the lens, rays are not linear in the pixel: that image is traced.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "core/random.h"
+#include "core/texture.h"
+#include "scene_view.h"
+
+namespace angen::render {
+namespace {
+
+constexpr float kDepthError = 1e-4F;  // relative
+constexpr int kColorError = 2;
+constexpr int kOther = 8;  // of 76,800 pixels, at edges
+
+Pose turned(Rng& rng) {
+  return {{0.4 + 4.0 * rng.uniform(), 5.0 * rng.uniform() - 2.5, 4.0 * rng.uniform() - 2.0},
+          from_rpy(6.0 * rng.uniform(), 6.0 * rng.uniform(), 6.0 * rng.uniform())};
+}
+
+std::shared_ptr<const Texture> ramp() {
+  Texture texture{16, 16, {}};
+  for (int i = 0; i < 3 * 16 * 16; ++i) texture.bytes.push_back(static_cast<std::uint8_t>(i / 3));
+  return std::make_shared<const Texture>(texture);
+}
+
+/// Many-sided and plain things that move or not, in front of the sky or in a room.
+struct Clutter : View {
+  explicit Clutter(std::int64_t number) {
+    Rng rng(1, hash_bytes("clutter"), number);
+    if (number % 2 == 0) scene.add(body(box(12.0, 7.0, 7.0), at(0.0)));
+    if (number % 3 == 0) scene.add(body(box(0.2, 0.3, 0.2), at(0.05)));  // the camera's housing
+    for (int i = 0; i < 40; ++i) {
+      const Vec3 size = 0.02 * Vec3::Ones() + 0.8 * Vec3(rng.uniform(), rng.uniform(), 0.02);
+      const Shape shape =
+          i % 7 == 0 ? round(Shape::Type::kSphere, 0.2) : box(size.x(), size.y(), size.z());
+      Body thing = body(shape, turned(rng), (0.9 * size).cast<float>());
+      if (i % 5 == 0) thing.surfaces[0].textures = {ramp()};
+      thing.moves = i % 2 == 0;
+      thing.holds_lamp = i % 11 == 0;
+      scene.add(thing);
+    }
+    for (int i = 0; i < 3; ++i) lamps.push_back(lamp(turned(rng).position, 800.0));
+  }
+
+  std::vector<light::Lit> lamps;
+};
+
+TEST(Rasterizer, FindsWhatRaysHit) {
+  for (std::int64_t number = 0; number < 24; ++number) {
+    const Clutter clutter(number);
+    const PinholeCamera& plain = clutter.pinhole;
+    PinholeCamera bent = plain;
+    bent.distortion.k1 = 1e-12;
+    const auto depths = clutter.scene.depths(plain, clutter.camera);
+    const auto traced = clutter.scene.depths(bent, clutter.camera);
+    const auto colors = clutter.scene.colors(plain, clutter.camera, clutter.lamps, kDim);
+    const auto traced_colors = clutter.scene.colors(bent, clutter.camera, clutter.lamps, kDim);
+    int deeper = 0, other = 0;
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+      const bool same = std::isnan(traced[i])
+                            ? std::isnan(depths[i])
+                            : std::abs(depths[i] / traced[i] - 1.0F) < kDepthError;
+      deeper += same ? 0 : 1;
+      bool alike = true;
+      for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) {
+        alike = alike && std::abs(colors[k] - traced_colors[k]) <= kColorError;
+      }
+      other += alike ? 0 : 1;
+    }
+    EXPECT_LE(deeper, kOther) << number;
+    EXPECT_LE(other, kOther) << number;
+  }
+}
+
+}  // namespace
+}  // namespace angen::render
