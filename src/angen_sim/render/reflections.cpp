@@ -9,6 +9,7 @@ namespace {
 constexpr float kSamePlace = 0.1F;    // m; reflected light is that of patches of 0.4 m
 constexpr float kSameCorner = 0.03F;  // m
 constexpr float kSameWay = 0.98F;     // cosine between normals
+constexpr float kSameHeight = 0.01F;  // m along the normal: what is in a gap has other light
 constexpr float kSpan = 0.25F;        // m, diagonal of a piece
 constexpr float kOffPlane = 1e-3F;    // m
 constexpr float kOnePlane = 0.9999F;  // cosine between normals
@@ -35,6 +36,14 @@ std::uint32_t seen_from(const Eigen::Vector3f& from, const Eigen::Vector3f* to, 
     if (rays.tfar[i] >= 0.0F) seen |= 1U << i;
   }
   return seen;
+}
+
+/// Whether light at one point is about that at another.
+bool is_alike(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
+              const Eigen::Vector3f& other, const Eigen::Vector3f& other_normal, float within) {
+  const Eigen::Vector3f way = point - other;
+  return normal.dot(other_normal) > kSameWay && way.squaredNorm() < within * within &&
+         std::abs(normal.dot(way)) < kSameHeight;
 }
 
 /// Whether all pixels show one plane.
@@ -72,7 +81,7 @@ const Reflections::Known* Reflections::Corner::find(const Eigen::Vector3f& point
                                                     float within) const {
   const auto end = known.begin() + std::min(count, known.size());
   const auto found = std::find_if(known.begin(), end, [&](const Known& one) {
-    return normal.dot(one.normal) > kSameWay && (point - one.point).squaredNorm() < within * within;
+    return is_alike(point, normal, one.point, one.normal, within);
   });
   return found == end ? nullptr : &*found;
 }
@@ -165,17 +174,12 @@ void Reflections::shine_each(Tile& tile) {
                                        &corner(tile, 0, 1), &corner(tile, 1, 1)};
   std::array<Known, kLanes> now;
   std::size_t count = 0;
-  const auto is_near = [](const Known& one, const Eigen::Vector3f& point,
-                          const Eigen::Vector3f& normal) {
-    return normal.dot(one.normal) > kSameWay &&
-           (point - one.point).squaredNorm() < kSamePlace * kSamePlace;
-  };
   for (int i = 0; i < kLanes; ++i) {
     if (tile.valid[i] == 0) continue;
     const Eigen::Vector3f point = tile.point[i], normal = tile.normal[i];
     const Known* found = nullptr;
     for (std::size_t k = 0; found == nullptr && k < count; ++k) {
-      if (is_near(now[k], point, normal)) found = &now[k];
+      if (is_alike(point, normal, now[k].point, now[k].normal, kSamePlace)) found = &now[k];
     }
     if (found == nullptr) {
       for (std::size_t k = 0; found == nullptr && k < 4; ++k) {

@@ -100,6 +100,42 @@ TEST(Picture, ReflectedLightOnAFlatPieceHasNoSteps) {
   }
 }
 
+/// Two plates with a gap of 2 cm between them, 3 cm over a floor. The plates reflect 30 lx, the
+/// floor nothing.
+TEST(Picture, ReflectedLightInAGapIsNotThatBesideIt) {
+  View view;
+  view.pinhole.width = 640;
+  view.pinhole.height = 480;
+  view.camera = {{0.0, 0.0, 2.0}, from_rpy(0.0, M_PI_2, M_PI_2)};  // x to the right
+  view.scene.add(body(box(50.0, 50.0, 1.0), at(0.0, 0.0, -0.5), {0.6F, 0.6F, 0.6F}));
+  for (const double side : {-1.0, 1.0}) {
+    view.scene.add(body(box(3.0, 6.0, 0.01), at(1.51 * side, 0.0, 0.025), {0.6F, 0.6F, 0.6F}));
+  }
+  std::vector<light::ReflectedLight::Piece> pieces;
+  for (int x = -14; x <= 14; ++x) {
+    for (int y = -14; y <= 14; ++y) {
+      const Eigen::Vector3f place(0.2F * static_cast<float>(x), 0.2F * static_cast<float>(y), 0.0F);
+      pieces.push_back({place, Eigen::Vector3f::UnitZ(), Eigen::Vector3f::Zero()});
+      const Eigen::Vector3f over = place + Eigen::Vector3f(0.1F, 0.0F, 0.03F);
+      pieces.push_back({over, Eigen::Vector3f::UnitZ(), Eigen::Vector3f::Constant(30.0F)});
+    }
+  }
+  Ambience ambience = kDark;
+  ambience.reflected = std::make_shared<const light::ReflectedLight>(pieces);
+  const std::vector<std::uint8_t> all = view.scene.colors(view.pinhole, view.camera, {}, ambience);
+  for (int row = 0; row < 480; ++row) {
+    for (int column = 0; column < 640; ++column) {
+      const double x = 1.97 * (column - view.pinhole.center_x()) / view.pinhole.focal();
+      const int shown = all[static_cast<std::size_t>(3 * (row * 640 + column))];
+      if (std::abs(x) > 0.01) {
+        ASSERT_NEAR(shown, expected_byte(0.6, 30.0), 2) << row << ' ' << column;
+      } else {
+        ASSERT_LT(shown, expected_byte(0.6, 5.0)) << row << ' ' << column;
+      }
+    }
+  }
+}
+
 TEST(Picture, IsTheSameOnAnyNumberOfThreads) {
   std::vector<std::uint8_t> colors;
   std::vector<float> depths;
