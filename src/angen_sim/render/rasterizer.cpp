@@ -22,18 +22,20 @@ bool Rasterizer::start(int column, int row, int size, float depth) {
   is_all_ = !(depth < far);
   least_ = 1.0F / std::min(depth, far);
   most_ = 1.0F / static_cast<float>(eye_.camera().near);
-  shown_.clear();
+  in_view_.clear();
   lacking_.clear();
   const Hull hull = eye_.hull(column, row, size, depth);
-  if (!add_all(hull, instances_.fixed_number())) return false;
+  if (!look_for(hull, instances_.fixed_number())) return false;
   instances_.any_mover_in(hull, [&](std::uint32_t number) {
-    const std::size_t before = shown_.size();
-    if (!add_all(instances_[number].in_patch(hull), number)) {
-      shown_.resize(before);
+    const std::size_t before = in_view_.size();
+    if (!look_for(instances_[number].in_patch(hull), number)) {
+      in_view_.resize(before);
       lacking_.push_back(number);
     }
     return false;
   });
+  shown_.clear();
+  for (const InView& each : in_view_) show(each);
   List& all = lists_[0];
   for (all.count = 0; all.count < shown_.size(); ++all.count) {
     all.all[all.count] = static_cast<std::uint8_t>(all.count);
@@ -41,31 +43,32 @@ bool Rasterizer::start(int column, int row, int size, float depth) {
   return true;
 }
 
-/// Adds the faces of an instance in the hull, which is in its frame. False if they are too many, or
-/// include a heightmap.
-bool Rasterizer::add_all(const Hull& hull, std::uint32_t instance) {
+/// Lists the faces of an instance in the hull, which is in its frame. False if they are too many,
+/// or include a heightmap.
+bool Rasterizer::look_for(const Hull& hull, std::uint32_t instance) {
   const Placed& placed = instances_[instance];
-  const auto add_in_world = [&](const Face& face, std::uint32_t triangle) {
-    return add(placed.instance ? placed.in_world(face) : face, instance, triangle);
+  const auto add = [&](const Face& face, std::uint32_t triangle, bool has_texture) {
+    if (in_view_.size() == kMost) return false;
+    in_view_.push_back(
+        {placed.instance ? placed.in_world(face) : face, instance, triangle, has_texture});
+    return true;
   };
   return placed.patch->each_in(hull, [&](std::uint32_t triangle, const Face& face) {
-    if (face.count < 4 || !placed.patch->has_texture(triangle)) return add_in_world(face, triangle);
+    if (!placed.patch->has_texture(triangle)) return add(face, triangle, false);
     const auto& [a, b, c, d] = face.corners;
-    return add_in_world({{a, b, c, a}, 3}, triangle) &&
-           add_in_world({{a, c, d, a}, 3}, triangle + 1);
+    return add({{a, b, c, a}, 3}, triangle, true) &&
+           (face.count < 4 || add({{a, c, d, a}, 3}, triangle + 1, true));
   });
 }
 
-/// False if there is no room for it.
-bool Rasterizer::add(const Face& face, std::uint32_t instance, std::uint32_t triangle) {
+void Rasterizer::show(const InView& of) {
   std::array<Vec3, 4> corners;
   for (std::size_t k = 0; k < 4; ++k) {
-    corners[k] = face.corners[k].cast<double>() - eye_.origin().cast<double>();
+    corners[k] = of.face.corners[k].cast<double>() - eye_.origin().cast<double>();
   }
   const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   const double volume = normal.dot(corners[0]);
-  if (!(std::abs(volume) > kEdgeOn * normal.norm())) return true;
-  if (shown_.size() == kMost) return false;
+  if (!(std::abs(volume) > kEdgeOn * normal.norm())) return;
   Shown& shown = shown_.emplace_back();
   for (std::size_t k = 0; k < 4; ++k) {
     Vec3 inward = corners[k].cross(corners[(k + 1) % 4]);
@@ -78,10 +81,9 @@ bool Rasterizer::add(const Face& face, std::uint32_t instance, std::uint32_t tri
   shown.closeness = static_cast<float>(normal.dot(first_) / volume);
   shown.closeness_right = static_cast<float>(normal.dot(right_) / volume);
   shown.closeness_down = static_cast<float>(normal.dot(down_) / volume);
-  shown.instance = instance;
-  shown.triangle = triangle;
-  shown.has_texture = instances_[instance].patch->has_texture(triangle);
-  return true;
+  shown.instance = of.instance;
+  shown.triangle = of.triangle;
+  shown.has_texture = of.has_texture;
 }
 
 void Rasterizer::find_hits(int column, int row, std::array<TileRays, kTilesOfASquare>& tiles,

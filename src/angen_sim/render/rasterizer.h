@@ -32,8 +32,14 @@ class Rasterizer {
                  std::array<bool, kTilesOfASquare>& found);
 
  private:
-  /// A face in view, as functions of the pixel: that of the first one, and what a pixel to the
-  /// right and one down adds.
+  /// A face in view.
+  struct InView {
+    Face face;  // world
+    std::uint32_t instance = 0, triangle = 0;
+    bool has_texture = false;
+  };
+  /// A face as functions of the pixel: their values at the first one, and what a pixel to the right
+  /// and one down adds.
   struct Shown {
     Eigen::Array4f inside, inside_right, inside_down;  // >= 0 on the inner side of each edge
     float closeness = 0.0F, closeness_right = 0.0F, closeness_down = 0.0F;  // 1 / depth
@@ -50,8 +56,8 @@ class Rasterizer {
     std::size_t count = 0;
   };
 
-  bool add_all(const Hull& hull, std::uint32_t instance);
-  bool add(const Face& face, std::uint32_t instance, std::uint32_t triangle);
+  bool look_for(const Hull& hull, std::uint32_t instance);
+  void show(const InView& of);
   void divide(const Square& square, const List& above, std::size_t level, TileRays* tiles,
               bool* found);
   bool choose(const Square& square, const List& from, List& to) const;
@@ -67,6 +73,7 @@ class Rasterizer {
   Vec3 first_, right_, down_;         // directions
   float least_ = 0.0F, most_ = 0.0F;  // closeness
   bool is_all_ = false;               // no ray goes farther
+  std::vector<InView> in_view_;
   std::vector<Shown> shown_;
   std::vector<std::uint32_t> lacking_;  // movers
   std::array<List, 4> lists_;           // by level
