@@ -220,8 +220,11 @@ bool Field::advance(Unfinished& work, std::int64_t& rays) {
   }
   if (work.cast < work.first.size() && !take(start(work, rays))) return false;
   if (work.followed < patches.size() && !take(spread(work, rays))) return false;
-  while (work.albedos.size() < patches.size()) {
-    if (!take(list_samples(work, rays))) return false;
+  while (work.samplings.size() < patches.size()) {
+    if (!take(list_samplings(work, rays))) return false;
+  }
+  while (work.arrived < patches.size()) {
+    if (!take(list_arrivals(work, rays))) return false;
   }
   while (work.rows.size() <= patches.size()) {
     if (!take(list_exchanges(work, rays))) return false;

@@ -49,10 +49,9 @@ struct Unfinished {
     float extent = 0.0F;   // m, root of its links times its area
     bool is_part = false;  // of a divided cell
   };
-  struct Sample {  // a link between patches
-    std::uint32_t from = 0, to = kNoPatch;
-    float range = 0.0F;               // m
-    std::uint32_t before = kNoPatch;  // the sample before this one to the same patch
+  struct Arrival {  // a link to a patch that counts as one from it
+    std::uint32_t from = 0;
+    std::uint32_t before = kNoPatch;  // the arrival before this one at the same patch
   };
 
   Lamp lamp;
@@ -65,13 +64,13 @@ struct Unfinished {
   std::vector<Rgb> leaving;           // lx that leave each patch
   std::vector<Sampling> samplings;    // by index, as what follows
   std::vector<Rgb> albedos;
-  std::vector<Sample> samples;
-  std::vector<std::size_t> samples_of;  // begin of each patch's samples, and the end
-  std::vector<std::uint32_t> last_to;   // the last sample to each patch, or kNoPatch
-  std::vector<std::uint32_t> seen;      // the patches that each one sees
-  std::vector<float> factors;           // by entry of `seen`: form factor
-  std::vector<std::size_t> rows;        // begin of each patch's part of `seen`, and the end
-  std::vector<std::size_t> entries;     // by patch: its entry in the last row that has it
+  std::vector<Arrival> arrivals;
+  std::vector<std::uint32_t> last_arrivals;  // at each patch, or kNoPatch
+  std::size_t arrived = 0;                   // patches whose links are among them
+  std::vector<std::uint32_t> seen;           // the patches that each one sees
+  std::vector<float> factors;                // by entry of `seen`: form factor
+  std::vector<std::size_t> rows;             // begin of each patch's part of `seen`, and the end
+  std::vector<std::size_t> entries;          // by patch: its entry in the last row that has it
   int bounces = 0;
   std::size_t balanced = 0;  // patches, in this bounce
   float change = 0.0F;       // lx, the largest in this bounce
@@ -174,7 +173,8 @@ class Field {
   std::int64_t start(Unfinished& work, std::int64_t rays);
   std::int64_t spread(Unfinished& work, std::int64_t rays);
   void follow_patch(Unfinished& work);
-  std::int64_t list_samples(Unfinished& work, std::int64_t rays);
+  std::int64_t list_samplings(Unfinished& work, std::int64_t rays);
+  std::int64_t list_arrivals(Unfinished& work, std::int64_t rays);
   std::int64_t list_exchanges(Unfinished& work, std::int64_t rays);
   std::int64_t balance(Unfinished& work, std::int64_t rays);
   void finish(Unfinished& work);

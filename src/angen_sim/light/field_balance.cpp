@@ -13,8 +13,8 @@ constexpr float kRare = 0.1F;  // tried: 0.3 leaves more noise behind doors ajar
 // Costs, measured; they decide only how a solution is cut into ticks.
 constexpr std::int64_t kSumsPerRay = 500;
 constexpr std::int64_t kRowsPerRay = kSumsPerRay / kLinks;  // patches in balance()
-constexpr std::int64_t kBouncesToList = 4;                  // samples
-constexpr std::int64_t kBouncesToMerge = 12;                // them, as exchanges
+constexpr std::int64_t kBouncesToList = 3;                  // arrivals
+constexpr std::int64_t kBouncesToMerge = 10;                // exchanges
 
 /// The end of the rows from `first` on that `rays` pay for, of `count` in all.
 std::size_t rows_from(std::size_t first, std::size_t count, std::int64_t rays) {
@@ -31,32 +31,38 @@ bool are_rare(const Unfinished::Sampling& a, const Unfinished::Sampling& b, floa
 
 }  // namespace
 
-/// Lists the links of the next patches, by the patches at both ends.
-std::int64_t Field::list_samples(Unfinished& work, std::int64_t rays) {
+/// Lists how the next patches sample what they see, and the light that leaves them at first.
+std::int64_t Field::list_samplings(Unfinished& work, std::int64_t rays) {
   const Solution& solution = work.solution;
-  const auto count = static_cast<std::uint32_t>(solution.patches.size());
-  const std::size_t first = work.albedos.size();
-  const std::size_t end = rows_from(first, count, rays / kBouncesToList);
-  work.last_to.resize(count, kNoPatch);
+  const std::size_t first = work.samplings.size();
+  const std::size_t end = rows_from(first, solution.patches.size(), rays);
   for (std::size_t i = first; i < end; ++i) {
     const Patch& patch = surfaces_[solution.patches[i]];
-    const std::vector<Link>& seen = links(solution.patches[i]);
-    const double links = static_cast<double>(seen.size());
-    work.samplings.push_back({static_cast<float>(links / patch.area),
-                              static_cast<float>(std::sqrt(links * patch.area)), patch.is_part()});
+    const double count = static_cast<double>(links(solution.patches[i]).size());
+    work.samplings.push_back({static_cast<float>(count / patch.area),
+                              static_cast<float>(std::sqrt(count * patch.area)), patch.is_part()});
     work.albedos.push_back(albedo_of(solution.patches[i]));
     work.leaving[i] = work.albedos[i] * (solution.direct[i] + solution.reflected[i]);
-    work.samples_of.push_back(work.samples.size());
-    for (const Link& link : seen) {
+  }
+  return 1 + static_cast<std::int64_t>(end - first) / kRowsPerRay;
+}
+
+/// Lists the rare links of the next patches by the patches that they hit.
+std::int64_t Field::list_arrivals(Unfinished& work, std::int64_t rays) {
+  const std::vector<std::uint32_t>& patches = work.solution.patches;
+  const std::size_t first = work.arrived;
+  const std::size_t end = rows_from(first, patches.size(), rays / kBouncesToList);
+  work.last_arrivals.resize(patches.size(), kNoPatch);
+  for (std::size_t i = first; i < end; ++i) {
+    for (const Link& link : links(patches[i])) {
       const std::uint32_t to = work.place_of(link.patch);
-      std::uint32_t before = kNoPatch;
-      if (to != kNoPatch) {
-        before = std::exchange(work.last_to[to], static_cast<std::uint32_t>(work.samples.size()));
-      }
-      work.samples.push_back({static_cast<std::uint32_t>(i), to, link.range, before});
+      if (to == kNoPatch || !are_rare(work.samplings[i], work.samplings[to], link.range)) continue;
+      const auto number = static_cast<std::uint32_t>(work.arrivals.size());
+      work.arrivals.push_back(
+          {static_cast<std::uint32_t>(i), std::exchange(work.last_arrivals[to], number)});
     }
   }
-  if (end == count) work.samples_of.push_back(work.samples.size());
+  work.arrived = end;
   return 1 + static_cast<std::int64_t>(end - first) * kBouncesToList / kRowsPerRay;
 }
 
@@ -64,13 +70,13 @@ std::int64_t Field::list_samples(Unfinished& work, std::int64_t rays) {
 /// back are samples of the same exchange, form factor times area, and rare ones count for both. Of
 /// many links the evenly spread ones of one patch are more accurate.
 std::int64_t Field::list_exchanges(Unfinished& work, std::int64_t rays) {
-  const std::size_t count = work.solution.patches.size();
+  const std::vector<std::uint32_t>& patches = work.solution.patches;
   if (work.rows.empty()) {
     work.rows.push_back(0);
-    work.entries.resize(count, 0);
+    work.entries.resize(patches.size(), 0);
   }
   const std::size_t first = work.rows.size() - 1;
-  const std::size_t end = rows_from(first, count, rays / kBouncesToMerge);
+  const std::size_t end = rows_from(first, patches.size(), rays / kBouncesToMerge);
   for (std::size_t i = first; i < end; ++i) {
     const Unfinished::Sampling& own = work.samplings[i];
     const std::size_t begin = work.seen.size();
@@ -86,20 +92,19 @@ std::int64_t Field::list_exchanges(Unfinished& work, std::int64_t rays) {
       }
       work.factors[entry] += exchange;
     };
-    for (std::size_t k = work.samples_of[i]; k < work.samples_of[i + 1]; ++k) {
-      const Unfinished::Sample& link = work.samples[k];
-      const bool rare = link.to != kNoPatch && are_rare(own, work.samplings[link.to], link.range);
-      add(link.to, 1.0F / (rare ? own.density + work.samplings[link.to].density : own.density));
+    for (const Link& link : links(patches[i])) {
+      const std::uint32_t to = work.place_of(link.patch);
+      const bool rare = to != kNoPatch && are_rare(own, work.samplings[to], link.range);
+      add(to, 1.0F / (rare ? own.density + work.samplings[to].density : own.density));
     }
-    for (std::uint32_t k = work.last_to[i]; k != kNoPatch; k = work.samples[k].before) {
-      const Unfinished::Sample& link = work.samples[k];
-      const Unfinished::Sampling& other = work.samplings[link.from];
-      if (are_rare(other, own, link.range)) add(link.from, 1.0F / (own.density + other.density));
+    for (std::uint32_t k = work.last_arrivals[i]; k != kNoPatch; k = work.arrivals[k].before) {
+      const std::uint32_t from = work.arrivals[k].from;
+      add(from, 1.0F / (own.density + work.samplings[from].density));
     }
     for (std::size_t k = begin; k < work.seen.size(); ++k) work.factors[k] /= whole;
     work.rows.push_back(work.seen.size());
   }
-  if (end == count) work.samples = {};
+  if (end == patches.size()) work.arrivals = {};
   return 1 + static_cast<std::int64_t>(end - first) * kBouncesToMerge / kRowsPerRay;
 }
 
