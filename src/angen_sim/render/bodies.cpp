@@ -76,19 +76,24 @@ Patch::Patch(const std::vector<std::pair<const Body*, Pose>>& bodies)
   attach_triangles();
   attach_heightmaps();
   rtcCommitScene(scene_.get());
-  build_boxes();
+  build_faces();
 }
 
-void Patch::build_boxes() {
+void Patch::build_faces() {
   std::vector<Box> boxes;
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-    if (first_of_face(i) != i) continue;
-    const Face each = face(i);
+  const auto corner = [&](std::size_t t, std::size_t i) { return vertices_[triangles_[t][i]]; };
+  for (std::uint32_t i = 0; i < triangles_.size();) {
+    const bool quad = is_quad(i);
+    const Face face{
+        {corner(i, 0), corner(i, 1), corner(i, 2), quad ? corner(i + 1, 2) : corner(i, 0)},
+        quad ? 4U : 3U};
     Box box;
-    for (const Eigen::Vector3f& corner : each.corners) box.extend(corner);
+    for (const Eigen::Vector3f& each : face.corners) box.extend(each);
     boxes.push_back(box);
-    faces_.push_back(each);
+    face_of_.resize(i + (quad ? 2 : 1), static_cast<std::uint32_t>(faces_.size()));
+    faces_.push_back(face);
     first_triangles_.push_back(i);
+    i = static_cast<std::uint32_t>(face_of_.size());
   }
   for (const PlacedHeightmap& heightmap : heightmaps_) {
     boxes.push_back(bounds_of(heightmap).cast<float>());
@@ -117,19 +122,6 @@ bool Patch::is_quad(std::size_t triangle) const {
          facets_[triangle].finish == facets_[triangle + 1].finish &&
          normal.dot(facets_[triangle + 1].normal) > 0.0F && std::abs(normal.dot(d - a)) < kFlat &&
          normal.dot((a - d).cross(b - a)) > 0.0F && normal.dot((c - b).cross(d - c)) > 0.0F;
-}
-
-std::uint32_t Patch::first_of_face(std::uint32_t triangle) const {
-  return !is_quad(triangle) && triangle > 0 && is_quad(triangle - 1) ? triangle - 1 : triangle;
-}
-
-Face Patch::face(std::uint32_t triangle) const {
-  const std::uint32_t first = first_of_face(triangle);
-  const auto corner = [&](std::size_t t, std::size_t i) { return vertices_[triangles_[t][i]]; };
-  const bool quad = is_quad(first);
-  return {{corner(first, 0), corner(first, 1), corner(first, 2),
-           quad ? corner(first + 1, 2) : corner(first, 0)},
-          quad ? 4U : 3U};
 }
 
 void Patch::attach_triangles() {

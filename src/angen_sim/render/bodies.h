@@ -52,7 +52,7 @@ class Patch {
   /// The color at Embree's coordinates u v of a triangle.
   Eigen::Vector3f color(const Facet& facet, float u, float v) const;
   /// A triangle, with the one beside it if both are a quad.
-  Face face(std::uint32_t triangle) const;
+  const Face& face(std::uint32_t triangle) const { return faces_[face_of_[triangle]]; }
   /// Calls visit(first triangle, face) for the faces in the hull, perhaps some beside it, until it
   /// returns false; false then, and if a heightmap is in the hull.
   template <class Visit>
@@ -74,13 +74,12 @@ class Patch {
 
  private:
   bool is_quad(std::size_t triangle) const;
-  std::uint32_t first_of_face(std::uint32_t triangle) const;
   void append(const Surface& surface, const Pose& pose);
   void append_part(const Surface& surface, const TriangleMesh& mesh, std::size_t part);
   void append_heightmap(const Surface& surface, const Pose& at);
   void attach_triangles();
   void attach_heightmaps();
-  void build_boxes();
+  void build_faces();
 
   std::vector<Eigen::Vector3f> vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
@@ -90,7 +89,8 @@ class Patch {
   std::vector<std::array<float, 6>> corners_;  // u v of the corners of triangles with textures
   rays::Embree<RTCScene> scene_;
   std::vector<Face> faces_;
-  std::vector<std::uint32_t> first_triangles_;  // of the faces
+  std::vector<std::uint32_t> first_triangles_;  // by face
+  std::vector<std::uint32_t> face_of_;          // by triangle
   BoxTree boxes_;                               // of the faces, then of the heightmaps
 };
 

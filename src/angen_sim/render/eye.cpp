@@ -41,6 +41,7 @@ void Eye::begin(RTCRayHit16& rays) const {
     rays.ray.mask[i] = UINT32_MAX;
     rays.ray.id[i] = 0;
     rays.ray.flags[i] = 0;
+    rays.hit.u[i] = rays.hit.v[i] = 0.0F;
   }
 }
 

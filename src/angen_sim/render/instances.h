@@ -51,7 +51,7 @@ class Instances {
   const Patch& fixed() const { return *placed_.back().patch; }
   std::uint32_t fixed_number() const { return static_cast<std::uint32_t>(placed_.size() - 1); }
 
-  /// Finds the first hits of the valid rays, which have none yet.
+  /// Finds the first hits of the valid rays that are nearer than those they have.
   void find_hits(const int* valid, const Among& among, RTCIntersectContextFlags flags,
                  RTCRayHit16& rays) const;
   /// Sets tfar of the rays with a hit on an opaque body below 0.

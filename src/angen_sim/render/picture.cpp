@@ -226,7 +226,7 @@ void ColorWriter::write(const Tile& tile) {
   }
 }
 
-/// Adds a lamp's light to a square. Of the rays to it, only those are cast that may differ.
+/// Adds a lamp's light to a square, which is divided where only a part of it sees the lamp.
 void ColorWriter::shine(std::size_t lamp, std::size_t level, std::size_t square, Sight sight) {
   const light::Lit& lit = by_.lamps[lamp];
   const Box& points = points_[square];

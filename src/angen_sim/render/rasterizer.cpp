@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/shade.h"
+
 namespace angen::render {
 namespace {
 
@@ -19,9 +21,9 @@ bool Rasterizer::start(int column, int row, int size, float depth) {
   right_ = eye_.toward(column + 1, row) - first_;
   down_ = eye_.toward(column, row + 1) - first_;
   const auto far = static_cast<float>(eye_.camera().far);
-  is_all_ = !(depth < far);
-  least_ = 1.0F / std::min(depth, far);
-  most_ = 1.0F / static_cast<float>(eye_.camera().near);
+  reaches_far_ = !(depth < far);
+  least_closeness_ = 1.0F / std::min(depth, far);
+  most_closeness_ = 1.0F / static_cast<float>(eye_.camera().near);
   in_view_.clear();
   lacking_.clear();
   const Hull hull = eye_.hull(column, row, size, depth);
@@ -71,7 +73,7 @@ void Rasterizer::show(const InView& of) {
   if (!(std::abs(volume) > kEdgeOn * normal.norm())) return;
   Shown& shown = shown_.emplace_back();
   for (std::size_t k = 0; k < 4; ++k) {
-    Vec3 inward = corners[k].cross(corners[(k + 1) % 4]);
+    Vec3 inward = corners[k].cross(corners[(k + 1) % 4]);  // 0 at the fourth edge of a triangle
     if (volume < 0.0) inward = -inward;
     const auto i = static_cast<Eigen::Index>(k);
     shown.inside[i] = static_cast<float>(inward.dot(first_));
@@ -134,9 +136,9 @@ bool Rasterizer::choose(const Square& square, const List& from, List& to) const 
         std::minmax({face.closeness_down * top, face.closeness_down * bottom});
     const float least = (face.closeness + least_right) + least_down;
     const float most = (face.closeness + most_right) + most_down;
-    if (!(most >= least_) || most < covered) continue;
+    if (!(most >= least_closeness_) || most < covered) continue;
     closest[to.count] = most;
-    if (least > covered && least >= least_ && most <= most_ &&
+    if (least > covered && least >= least_closeness_ && most <= most_closeness_ &&
         (((face.inside + a.min(b)) + c.min(d)) >= 0.0F).all()) {
       covered = least;
       covering = to.count;
@@ -178,13 +180,13 @@ bool Rasterizer::compare(const Square& tile, const List& faces, TileRays& to) co
     }
     for (int i = 0; i < kLanes; ++i) {
       const bool is_first = inside[i] >= 0.0F && closeness[i] > closest[i] &&
-                            closeness[i] >= least_ && closeness[i] <= most_;
+                            closeness[i] >= least_closeness_ && closeness[i] <= most_closeness_;
       closest[i] = is_first ? closeness[i] : closest[i];
       first[i] = is_first ? static_cast<int>(faces.all[n]) : first[i];
     }
   }
   for (int i = 0; i < kLanes; ++i) {
-    if (first[i] < 0 && to.valid[i] != 0 && !is_all_) return false;
+    if (first[i] < 0 && to.valid[i] != 0 && !reaches_far_) return false;
   }
   for (int i = 0; i < kLanes; ++i) {
     if (first[i] < 0) continue;

@@ -7,7 +7,6 @@
 
 #include "render/eye.h"
 #include "render/instances.h"
-#include "render/shade.h"
 
 namespace angen::render {
 
@@ -70,9 +69,9 @@ class Rasterizer {
   const Instances& instances_;
   // Of the square that was started:
   int column_ = 0, row_ = 0;
-  Vec3 first_, right_, down_;         // directions
-  float least_ = 0.0F, most_ = 0.0F;  // closeness
-  bool is_all_ = false;               // no ray goes farther
+  Vec3 first_, right_, down_;                             // directions
+  float least_closeness_ = 0.0F, most_closeness_ = 0.0F;  // closeness
+  bool reaches_far_ = false;                              // no ray goes farther
   std::vector<InView> in_view_;
   std::vector<Shown> shown_;
   std::vector<std::uint32_t> lacking_;  // movers

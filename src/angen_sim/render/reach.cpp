@@ -10,6 +10,7 @@ namespace {
 constexpr int kRays = 4096;
 constexpr float kFar = 1e4F;         // m, range of light outdoors
 constexpr float kBeside = 0.3F;      // m: margin for surfaces between two rays
+constexpr double kStart = 1e-3;      // m; the lamp may be in a surface
 constexpr std::size_t kKnown = 256;  // positions; moving lamps leave old ones
 
 Eigen::AlignedBox3f everywhere() {
@@ -32,7 +33,7 @@ Eigen::AlignedBox3f reach_from(RTCScene scene, const Vec3& position) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit ray{};
-    rays::aim(ray.ray, position, way.cast<double>(), 0.0, kFar);
+    rays::aim(ray.ray, position, way.cast<double>(), kStart, kFar);
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene, &context, &ray);
     box.extend(origin + ray.ray.tfar * way);

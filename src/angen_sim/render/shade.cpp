@@ -10,8 +10,9 @@
 namespace angen::render {
 namespace {
 
-constexpr float kMin = 0.1F;      // lx; less is not worth a shadow ray
-constexpr float kFarAway = 1e4F;  // m, the farthest shadow of a directional lamp
+constexpr float kMin = 0.1F;            // lx; less is not worth a test for shadows
+constexpr float kBeforeLamp = 0.9999F;  // of a shadow ray; the lamp may be in a surface
+constexpr float kFarAway = 1e4F;        // m, the farthest shadow of a directional lamp
 constexpr float kEdgeOn = 1e-6F;  // m from the lamp to the plane of a face that it sees as a line
 constexpr int kCodes = 1 << 14;
 
@@ -75,7 +76,8 @@ void set_segments(const Columns& from, const Columns& way, RTCRay16& rays) {
   }
 }
 
-void hide(const Faces& faces, const Eigen::Vector3f& from, const Columns& points, int* lit) {
+void drop_hidden(const Faces& faces, const Eigen::Vector3f& from, const Columns& points,
+                 int* seen) {
   const Columns way{points.x - from.x(), points.y - from.y(), points.z - from.z()};
   const auto along = [&](const Eigen::Vector3f& vector) -> Lanes {
     return way.x * vector.x() + (way.y * vector.y() + way.z * vector.z());
@@ -87,11 +89,12 @@ void hide(const Faces& faces, const Eigen::Vector3f& from, const Columns& points
     const float volume = normal.dot(corner(0));
     if (!(std::abs(volume) > kEdgeOn * normal.norm())) continue;
     const float side = volume > 0.0F ? 1.0F : -1.0F;
-    Lanes inside = along(normal) / volume - 1.0F;  // below 0 for points in front of the plane
+    // Only signs count: of the side of the plane, then of each edge.
+    Lanes inside = along(normal) / volume - 1.0F;
     for (std::size_t k = 0; k < face.count; ++k) {
       inside = inside.min(along(side * corner(k).cross(corner(k + 1 < face.count ? k + 1 : 0))));
     }
-    for (int i = 0; i < kLanes; ++i) lit[i] = inside[i] >= 0.0F ? 0 : lit[i];
+    for (int i = 0; i < kLanes; ++i) seen[i] = inside[i] >= 0.0F ? 0 : seen[i];
   }
 }
 
@@ -104,31 +107,32 @@ void shine(const light::Lit& lit, const Instances& instances, const Obstacles* o
     if (tile.through[i]) cosine[i] = std::abs(cosine[i]);
   }
   Lanes illuminance = facing * cosine;
-  alignas(64) int free[kLanes];
-  const auto drop_hidden = [&] {
-    bool any = false;
-    for (int i = 0; i < kLanes; ++i) {
-      if (free[i] == 0) illuminance[i] = 0.0F;
-      any = any || free[i] != 0;
-    }
-    return any;
-  };
+  alignas(64) int seen[kLanes];
   for (int i = 0; i < kLanes; ++i) {
-    free[i] = tile.valid[i] != 0 && illuminance[i] > kMin ? -1 : 0;
+    seen[i] = tile.valid[i] != 0 && illuminance[i] > kMin ? -1 : 0;
   }
-  if (!drop_hidden()) return;
+  const auto any = [&] {
+    return std::any_of(seen, seen + kLanes, [](int each) { return each != 0; });
+  };
+  if (!any()) return;
   if (lit.lamp.cast_shadows && obstacles != nullptr) {
-    hide(obstacles->faces, lit.lamp.pose.position.cast<float>(), tile.lifted, free);
-    if (!drop_hidden()) return;
+    const Eigen::Vector3f lamp = lit.lamp.pose.position.cast<float>();
+    drop_hidden(obstacles->faces, lamp, tile.lifted, seen);
+    if (!any()) return;
     if (!obstacles->unknown.none()) {
+      if (lit.lamp.type != light::Lamp::Type::kDirectional) {
+        way = {lamp.x() - tile.lifted.x, lamp.y() - tile.lifted.y, lamp.z() - tile.lifted.z};
+      }
       alignas(64) RTCRay16 rays;
       set_segments(tile.lifted, way, rays);
-      instances.find_occluded(free, obstacles->unknown, rays);
+      std::fill(rays.tfar, rays.tfar + kLanes, kBeforeLamp);
+      instances.find_occluded(seen, obstacles->unknown, rays);
       for (int i = 0; i < kLanes; ++i) {
-        if (!(rays.tfar[i] >= 0.0F)) illuminance[i] = 0.0F;
+        if (!(rays.tfar[i] >= 0.0F)) seen[i] = 0;
       }
     }
   }
+  for (int i = 0; i < kLanes; ++i) illuminance[i] = seen[i] != 0 ? illuminance[i] : 0.0F;
   tile.light.x += illuminance * lit.lamp.color.x();
   tile.light.y += illuminance * lit.lamp.color.y();
   tile.light.z += illuminance * lit.lamp.color.z();

@@ -52,11 +52,12 @@ struct alignas(64) Tile {
 /// Sets rays from points along the ways from there.
 void set_segments(const Columns& from, const Columns& way, RTCRay16& rays);
 
-/// Sets `lit` to 0 for the points that one of the faces hides from that place.
-void hide(const Faces& faces, const Eigen::Vector3f& from, const Columns& points, int* lit);
+/// Sets `seen`, which has a number for each point, to 0 where one of the faces is between the point
+/// and that place.
+void drop_hidden(const Faces& faces, const Eigen::Vector3f& from, const Columns& points, int* seen);
 
-/// Adds the direct light of one lamp to each point; only those bodies may be in its way, none
-/// without them.
+/// Adds the direct light of one lamp to each point. `obstacles`: what may hide the lamp; null if
+/// nothing does.
 void shine(const light::Lit& lit, const Instances& instances, const Obstacles* obstacles,
            Tile& tile);
 

@@ -1,7 +1,5 @@
 #include "render/sight.h"
 
-#include "render/shade.h"
-
 namespace angen::render {
 namespace {
 
@@ -10,10 +8,9 @@ constexpr std::size_t kLastSearch = 1;
 
 }  // namespace
 
-// A lifted ray ends beside the lamp by as much.
 Hull Sights::hull_of(std::size_t lamp, const Box& points) const {
   const Eigen::Vector3f position = lamps_[lamp].lamp.pose.position.cast<float>();
-  return {Box(position.array() - kLift, position.array() + kLift), points};
+  return {Box(position), points};
 }
 
 /// Whether the first face on the way from one point to the other hides the lamp.

@@ -50,7 +50,10 @@ void leave_housing(const Instances& instances, float far, const int* valid, RTCR
 class Tracer {
  public:
   Tracer(const Eye& eye, const Instances& instances, std::shared_ptr<Visitor> visitor)
-      : eye_(eye), instances_(instances), visitor_(std::move(visitor)), faces_(eye, instances) {
+      : eye_(eye),
+        instances_(instances),
+        visitor_(std::move(visitor)),
+        rasterizer_(eye, instances) {
     eye_.begin(probe_.rays);
     for (TileRays& tile : tiles_) eye_.begin(tile.rays);
   }
@@ -78,7 +81,8 @@ class Tracer {
     }
   }
 
-  /// Starts to look for fixed faces as deep as some rays of a square of pixels go.
+  /// Looks for the faces in view of a square, as deep as 16 of its rays go. False if all of its
+  /// rays must be traced.
   bool start_faces(int column, int row, int size) {
     if (!eye_.is_linear()) return false;
     eye_.aim(column, row, size / kTile, probe_);
@@ -87,17 +91,17 @@ class Tracer {
     for (int i = 0; i < kLanes; ++i) {
       if (probe_.valid[i] != 0) depth = std::max(depth, kDeeper * probe_.rays.ray.tfar[i]);
     }
-    return depth < kInexact && faces_.start(column, row, size, depth);
+    return depth < kInexact && rasterizer_.start(column, row, size, depth);
   }
 
-  /// Traces movers last: most squares show none that is not among the faces.
+  /// Finds the hits of a square; rays are traced where its faces are not known.
   void trace_square(int first, int first_column, int first_row, bool has_faces) {
     for (int k = 0; k < kTilesOfASquare; ++k) {
       eye_.aim(first_column + kTile * every_other_bit(k),
                first_row + kTile * every_other_bit(k >> 1), 1, tiles_[k]);
     }
     std::array<bool, kTilesOfASquare> found{};
-    if (has_faces) faces_.find_hits(first_column, first_row, tiles_, found);
+    if (has_faces) rasterizer_.find_hits(first_column, first_row, tiles_, found);
     float depth = 0.0F;
     for (int k = 0; k < kTilesOfASquare; ++k) {
       TileRays& tile = tiles_[k];
@@ -106,12 +110,13 @@ class Tracer {
       for (int i = 0; i < kLanes; ++i) depth = std::max(depth, tile.rays.ray.tfar[i]);
     }
     // Whether movers are in view, and those that are not among the faces.
-    const bool is_exact = eye_.is_linear() && depth < kInexact;
-    const Hull view = eye_.hull(first_column, first_row, kSquare, depth);
-    const bool any = !is_exact || instances_.any_mover_in(view, [](std::uint32_t) { return true; });
-    const bool other = !is_exact || (any && instances_.any_mover_in(view, [&](std::uint32_t mover) {
-      return faces_.lacks(mover);
-    }));
+    bool any = true, other = true;
+    if (eye_.is_linear() && depth < kInexact) {
+      const Hull view = eye_.hull(first_column, first_row, kSquare, depth);
+      any = instances_.any_mover_in(view, [](std::uint32_t) { return true; });
+      other = any && instances_.any_mover_in(
+                         view, [&](std::uint32_t mover) { return rasterizer_.lacks(mover); });
+    }
     for (int k = 0; k < kTilesOfASquare; ++k) {
       TileRays& tile = tiles_[k];
       if (!is_in_image(tile.column, tile.row)) continue;
@@ -126,7 +131,7 @@ class Tracer {
   const Eye& eye_;
   const Instances& instances_;
   std::shared_ptr<Visitor> visitor_;
-  Rasterizer faces_;
+  Rasterizer rasterizer_;
   TileRays probe_;
   std::array<TileRays, kTilesOfASquare> tiles_;
 };

@@ -58,8 +58,8 @@ class Visitor {
   virtual void end_block() {}
 };
 
-/// Traces all tiles on up to `threads` threads. Each makes its own visitor, which gets rows of
-/// blocks in any order.
+/// Finds the hits of all tiles on up to `threads` threads. Each makes its own visitor, which gets
+/// rows of blocks in any order.
 void trace(const PinholeCamera& camera, const Pose& pose, const Instances& instances, int threads,
            const std::function<std::unique_ptr<Visitor>()>& make);
 

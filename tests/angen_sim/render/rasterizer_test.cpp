@@ -1,9 +1,14 @@
-// With the least distortion of the lens, rays are not linear in the pixel: that image is traced.
+#include "render/rasterizer.h"
+
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
+#include <vector>
 
+#include "core/mesh_look.h"
 #include "core/random.h"
 #include "core/texture.h"
 #include "scene_view.h"
@@ -52,6 +57,75 @@ struct Clutter : View {
   std::vector<light::Lit> lamps;
 };
 
+/// The pixel at which a point 2 m ahead is seen.
+std::size_t pixel_of(const PinholeCamera& lens, double left, double up) {
+  const double column = lens.center_x() - lens.focal() * left / 2.0;
+  const double row = lens.center_y() - lens.focal() * up / 2.0;
+  return static_cast<std::size_t>(std::lround(row)) * static_cast<std::size_t>(lens.width) +
+         static_cast<std::size_t>(std::lround(column));
+}
+
+/// Two triangles of a sheet 2 m ahead, with corners to the left and up.
+Body sheet(const std::array<Vec3, 4>& corners) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  for (const Vec3& corner : corners) mesh->vertices.push_back(corner.cast<float>());
+  mesh->triangles = {{0, 1, 2}, {0, 2, 3}};
+  Shape shape;
+  shape.type = Shape::Type::kMesh;
+  shape.mesh = mesh;
+  return body(shape, at(2.0));
+}
+
+TEST(Rasterizer, FindsTheFacesOfARoom) {
+  const Body room = body(box(8.0, 6.0, 3.0), at(0.0)), shelf = body(box(0.3, 1.0, 0.1), at(2.0));
+  Instances instances;
+  instances.set_fixed(std::make_unique<Patch>(
+      std::vector<std::pair<const Body*, Pose>>{{&room, room.pose}, {&shelf, shelf.pose}}));
+  instances.commit();
+  const PinholeCamera lens;
+  const Eye eye(lens, {{0.5, 0.2, 0.3}, from_rpy(0.0, 0.3, 0.4)});
+  Rasterizer rasterizer(eye, instances);
+  std::array<TileRays, kTilesOfASquare> tiles;
+  for (int k = 0; k < kTilesOfASquare; ++k) {
+    eye.begin(tiles[static_cast<std::size_t>(k)].rays);
+    eye.aim(128 + kTile * every_other_bit(k), 64 + kTile * every_other_bit(k >> 1), 1,
+            tiles[static_cast<std::size_t>(k)]);
+  }
+  std::array<bool, kTilesOfASquare> found{};
+  ASSERT_TRUE(rasterizer.start(128, 64, kSquare, 10.0F));
+  rasterizer.find_hits(128, 64, tiles, found);
+  for (const bool each : found) EXPECT_TRUE(each);
+  ASSERT_TRUE(rasterizer.start(128, 64, kSquare, 0.1F));
+  rasterizer.find_hits(128, 64, tiles, found);
+  for (const bool each : found) EXPECT_FALSE(each);
+}
+
+TEST(Rasterizer, SeesBothTrianglesOfADart) {
+  View view;
+  view.scene.add(sheet({{{0, 0, 0}, {0, 0.8, -0.5}, {0, 0, 0.8}, {0, -0.8, -0.5}}}));
+  const std::vector<float> depths = view.scene.depths(view.pinhole, view.camera);
+  EXPECT_NEAR(depths[pixel_of(view.pinhole, 0.4, -0.1)], 2.0, 1e-4);
+  EXPECT_NEAR(depths[pixel_of(view.pinhole, -0.4, -0.1)], 2.0, 1e-4);
+  EXPECT_TRUE(std::isnan(depths[pixel_of(view.pinhole, 0.0, -0.2)]));
+}
+
+TEST(Rasterizer, TrianglesOfOnePlaneKeepTheirColors) {
+  Body two = sheet({{{0, 0.5, -0.5}, {0, -0.5, -0.5}, {0, -0.5, 0.5}, {0, 0.5, 0.5}}});
+  auto look = std::make_shared<MeshLook>();
+  look->parts = {{0, {1, 0, 0, 1}, ""}, {1, {0, 1, 0, 1}, ""}};
+  two.surfaces[0].look = look;
+  View view;
+  view.scene.add(two);
+  const auto colors = view.scene.colors(view.pinhole, view.camera, {}, kDim);
+  const std::size_t right = 3 * pixel_of(view.pinhole, -0.2, -0.2);
+  const std::size_t left = 3 * pixel_of(view.pinhole, 0.2, 0.2);
+  EXPECT_EQ(colors[right], expected_byte(1.0, 2.5));
+  EXPECT_EQ(colors[right + 1], 0);
+  EXPECT_EQ(colors[left], 0);
+  EXPECT_EQ(colors[left + 1], expected_byte(1.0, 2.5));
+}
+
+// With the least distortion of the lens, rays are not linear in the pixel: that image is traced.
 TEST(Rasterizer, FindsWhatRaysHit) {
   for (std::int64_t number = 0; number < 24; ++number) {
     const Clutter clutter(number);

@@ -249,6 +249,21 @@ TEST(Picture, ABoxThrowsAShadowWhereTheLampIsHidden) {
   EXPECT_GT(view.color(column_of(1.2), row_of(-0.85), lamps).x(), 50);
 }
 
+// Whether the faces in the way are few or too many to be listed.
+TEST(Picture, ALampInThePlaneOfTheCeilingLightsTheFloor) {
+  View view;
+  view.camera = {{0.0, 0.0, 1.5}, from_rpy(0.0, M_PI_2, 0.0)};
+  view.scene.add(body(box(9.0, 9.0, 1.0), at(0.0, 0.0, -0.5), {0.6F, 0.6F, 0.6F}));
+  view.scene.add(body(box(9.0, 9.0, 0.1), at(0.0, 0.0, 2.55)));
+  const std::vector<light::Lit> lamps{lamp({1.0, 0.0, 2.5}, 4.0 * M_PI * 100.0)};
+  const int expected = expected_byte(0.6, 100.0 * 2.5 / std::pow(1.0 + 2.5 * 2.5, 1.5));
+  EXPECT_NEAR(view.color(160, 120, lamps)[0], expected, 1);
+  for (int i = 0; i < 30; ++i) {
+    view.scene.add(body(box(1e-3, 1e-3, 1e-3), at(0.5, 0.01 * (i - 14.7), 1.25)));
+  }
+  EXPECT_NEAR(view.color(160, 120, lamps)[0], expected, 1);
+}
+
 TEST(Picture, ALampShinesThroughItsOwnShade) {
   View view;
   view.camera = {{0.0, 0.0, 2.0}, from_rpy(0.0, M_PI_2, 0.0)};

@@ -68,15 +68,13 @@ Box points_on_a_surface(Rng& rng) {
   return {low, low + size};
 }
 
-/// Expects that some rays from the points are as the answer says. They end where the surface that
-/// they start from is lifted to.
+/// Expects that some rays from the points to the lamp are as the answer says.
 void expect_seen(const Room& room, const light::Lit& lamp, const Box& points, Sight sight,
                  Rng& rng) {
   for (int k = 0; k < 20 && sight != Sight::kSome; ++k) {
     const Eigen::Vector3f share = Vec3(rng.uniform(), rng.uniform(), rng.uniform()).cast<float>();
     const Eigen::Vector3f from = points.min() + share.cwiseProduct(points.sizes());
-    const Eigen::Vector3f beside = kLift * (2.0F * share.array() - 1.0F).matrix();
-    const Eigen::Vector3f to = lamp.lamp.pose.position.cast<float>() + beside;
+    const Eigen::Vector3f to = lamp.lamp.pose.position.cast<float>();
     ASSERT_EQ(room.sees(from, to), sight == Sight::kAll);
   }
 }
@@ -96,16 +94,16 @@ void expect_hidden_by(const Room& room, const light::Lit& lamp, const Box& point
                       const Obstacles& obstacles, Rng& rng) {
   const Eigen::Vector3f to = lamp.lamp.pose.position.cast<float>();
   Columns from;
-  int lit[kLanes];
+  int known[kLanes];
   for (int i = 0; i < kLanes; ++i) {
     const Eigen::Vector3f share = Vec3(rng.uniform(), rng.uniform(), rng.uniform()).cast<float>();
     from.set(i, points.min() + share.cwiseProduct(points.sizes()));
-    lit[i] = -1;
+    known[i] = -1;
   }
-  hide(obstacles.faces, to, from, lit);
+  drop_hidden(obstacles.faces, to, from, known);
   for (int i = 0; i < kLanes; ++i) {
     const bool seen = room.sees(from[i], to);
-    const bool is_lit = lit[i] != 0 && room.sees(from[i], to, obstacles.unknown);
+    const bool is_lit = known[i] != 0 && room.sees(from[i], to, obstacles.unknown);
     ASSERT_TRUE(is_lit == seen || passes_an_edge(room, from[i], to));
   }
 }
