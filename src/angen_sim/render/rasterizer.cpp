@@ -95,23 +95,23 @@ void Rasterizer::find_hits(int column, int row, std::array<TileRays, kTilesOfASq
 
 void Rasterizer::divide(const Square& square, const List& above, std::size_t level, TileRays* tiles,
                         bool* found) {
-  const int count = square.size * square.size / kLanes, part = count / 4;
+  const int count = square.size * square.size / kLanes;
   List& own = lists_[level];
-  const bool covers = choose(square, above, own);
-  if (!covers && count == 1) {
+  if (choose(square, above, own)) {
+    for (int k = 0; k < count; ++k) {
+      const Square tile{square.x + kTile * every_other_bit(k),
+                        square.y + kTile * every_other_bit(k >> 1), kTile};
+      fill(tile, shown_[own.all[0]], tiles[k].rays);
+      found[k] = true;
+    }
+  } else if (count == 1) {
     *found = compare(square, own, *tiles);
-    return;
-  }
-  const int half = square.size / 2;
-  for (int k = 0; covers && k < count; ++k) {
-    const Square tile{square.x + kTile * every_other_bit(k),
-                      square.y + kTile * every_other_bit(k >> 1), kTile};
-    fill(tile, shown_[own.all[0]], tiles[k].rays);
-    found[k] = true;
-  }
-  for (int k = 0; !covers && k < 4; ++k) {
-    divide({square.x + half * (k & 1), square.y + half * (k >> 1), half}, own, level + 1,
-           tiles + k * part, found + k * part);
+  } else {
+    const int half = square.size / 2, part = count / 4;
+    for (int k = 0; k < 4; ++k) {
+      divide({square.x + half * (k & 1), square.y + half * (k >> 1), half}, own, level + 1,
+             tiles + k * part, found + k * part);
+    }
   }
 }
 

@@ -25,8 +25,8 @@ class Rasterizer {
   bool lacks(std::uint32_t mover) const {
     return std::find(lacking_.begin(), lacking_.end(), mover) != lacking_.end();
   }
-  /// Sets the hits of the tiles, in Z-order, of a square within the one that was started. `found`
-  /// is set to false for a tile with a ray that has no hit up to that depth.
+  /// Sets the hits of the tiles, in Z-order, of a square of kSquare pixels within the one that was
+  /// started. `found` is set to false for a tile with a ray that has no hit up to that depth.
   void find_hits(int column, int row, std::array<TileRays, kTilesOfASquare>& tiles,
                  std::array<bool, kTilesOfASquare>& found);
 
@@ -70,7 +70,7 @@ class Rasterizer {
   // Of the square that was started:
   int column_ = 0, row_ = 0;
   Vec3 first_, right_, down_;                             // directions
-  float least_closeness_ = 0.0F, most_closeness_ = 0.0F;  // closeness
+  float least_closeness_ = 0.0F, most_closeness_ = 0.0F;  // 1/m
   bool reaches_far_ = false;                              // no ray goes farther
   std::vector<InView> in_view_;
   std::vector<Shown> shown_;
