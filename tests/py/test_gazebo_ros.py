@@ -7,6 +7,7 @@ from pathlib import Path
 
 import angen
 import pytest
+import rospkg
 from gazebo_ros import server, spawn
 
 
@@ -96,6 +97,11 @@ def test_gazebos_worlds_exist_by_their_names(name: str) -> None:
     assert world.warnings == [] and len(world.models) > 1
     launch = server.own_folder() / 'launch' / f'{name}_world.launch'
     assert f'worlds/{name}.world' in launch.read_text()
+
+
+@pytest.mark.parametrize('name', ['gazebo_plugins', 'hector_gazebo_plugins'])
+def test_packages_that_robots_depend_on_exist(name: str) -> None:
+    assert rospkg.RosPack().get_manifest(name).license
 
 
 def test_a_declaration_after_a_comment_is_taken_out(tmp_path: Path) -> None:

@@ -84,6 +84,7 @@ TEST(Ies, ABrokenFileIsAnErrorWithItsLine) {
   expect(kHead + "1 1000 1 2.5 2 1 2 0 0 0\n", "5", "number of vertical angles");
   expect(kHead + "1 1000 1 3 99999999 1 2 0 0 0\n", "5", "number of horizontal angles");
   expect(kHead + "1 1000 1 3 2 2 2 0 0 0\n", "5", "type C");
+  expect(kHead + "1 1000 1 3 2 3 2 0 0 0\n", "5", "type C");
   expect(kHead + "1 1000 1 3 2 1 7 0 0 0\n", "5", "unit");
   expect(kHead + kNumbers + "0 45 40\n", "7", "do not ascend");
   expect(kHead + kNumbers + "0 45 80\n0 90\n", "7", "vertical angles do not go");

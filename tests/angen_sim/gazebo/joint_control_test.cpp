@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "angen_sim/robots/robot.h"
+#include "document/xml.h"
 
 namespace angen::node {
 namespace {
@@ -74,6 +75,16 @@ struct Arms {
 };
 
 double wave(double time) { return 0.5 * (1.0 - std::cos(2.0 * time)); }
+
+TEST(JointControl, TheNamespaceIsTheElementsTextOrTheModelsName) {
+  const auto space = [](const std::string& inner) {
+    return control_space(load::parse_xml("<plugin>" + inner + "</plugin>", "p.xml"), "bot");
+  };
+  EXPECT_EQ(space(""), "/bot");
+  EXPECT_EQ(space("<robotNamespace/>"), "/");
+  EXPECT_EQ(space("<robotNamespace></robotNamespace>"), "/");
+  EXPECT_EQ(space("<robotNamespace>left</robotNamespace>"), "/left");
+}
 
 TEST(JointControl, PositionsOfEachTickAreFollowed) {
   Arms arms("Position");

@@ -107,7 +107,7 @@ std::vector<std::string> loose_models() {
 }
 
 // With --gtest_repeat=16 it does 2,080 spawns, as each repetition takes the next seed. In them the
-// balance rises by at most 0.18 J; with a push that gives speed by 28 kJ. In the first 130 a desk
+// balance rises by at most 0.015 J; with a push that gives speed by 28 kJ. In the first 130 a desk
 // is turned by the push while it tips, which would give it 0.92 J if its spin did not turn with it.
 TEST(PartingEnergy, ASpawnInTheFlatGainsNone) {
   static std::uint64_t seed = 5;

@@ -267,6 +267,7 @@ TEST(Messages, AMissIsInfiniteInALaserScan) {
   EXPECT_EQ(scan.scan_time, 0.1F);
   EXPECT_EQ(scan.range_min, 0.2F);
   EXPECT_EQ(scan.range_max, 8.0F);
+  EXPECT_EQ(scan.intensities, std::vector<float>(2, 0.0F));  // one a ray, as Gazebo's
 }
 
 }  // namespace
