@@ -16,6 +16,9 @@ namespace {
 constexpr std::size_t kMaxWays = 1024;  // about, from the points of all free movers
 constexpr double kGrazing = 0.15;       // least cosine in areas, which are inaccurate below
 constexpr std::size_t kStride = 797;    // odd, so that each direction is used once
+// Differences of light between neighboring directions that are refined.
+constexpr float kStepLux = 2.0F;    // lx
+constexpr float kStepShare = 2.0F;  // of the mean over all directions
 constexpr std::uint32_t kNoMover = UINT32_MAX;
 constexpr double kGatherMargin = 1e-4;  // m, so that a ray does not hit its own surface
 constexpr rays::Mobilities kMovable = rays::kAll & ~rays::only(rays::Mobility::kStatic);
@@ -286,6 +289,56 @@ Rgb Gather::on_mover(const Mover& mover, const Source& source, std::size_t i, bo
   return direct + reflected / static_cast<float>(ways_);
 }
 
+/// lx that leave the surface at the ray's end; `coarse` if a free mover is before it.
+Rgb Gather::leaving(const rays::Ray& ray, const Source& source, std::size_t i, const Rgb& coarse) {
+  rays::Hit hit;
+  scene_.cast(&ray, &hit, 1, rays::kAll);
+  if (hit.hit() && scene_.mobility(hit.shape) == rays::Mobility::kMoving) return coarse;
+  extend(reach_, ray, hit.range);
+  const Surface seen = surface(ray, hit);
+  if ((seen.albedo == 0.0F).all()) return Rgb::Zero();
+  const double lux = illuminance(source.lamp, seen.position, seen.normal);
+  const bool lit = lux > 0.0 && sees_one(scene_, source.lamp, seen.position, i, rays::kAll);
+  return seen.albedo * ((lit ? static_cast<float>(lux) : 0.0F) +
+                        left_ * field_.reflected(source.solution, seen.patch, source.stale));
+}
+
+/// Replaces the light of a direction by the mean of finer ones where it varies strongly, as at the
+/// edge of a door that is ajar, and follows such edges.
+void Gather::refine(const Source& source, std::vector<Rgb>& leaving) {
+  const std::vector<Rgb> coarse = leaving;
+  float sum = 0.0F;
+  for (const Rgb& light : coarse) sum += light.maxCoeff();
+  const float step = std::max(kStepLux, kStepShare * sum / static_cast<float>(kDirections));
+  std::vector<std::size_t> edges;
+  std::vector<bool> listed(kDirections, false);
+  const auto list = [&](std::size_t i) {
+    if (!listed[i]) edges.push_back(i);
+    listed[i] = true;
+  };
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    for (const std::size_t other : beside(i)) {
+      if ((coarse[i] - coarse[other]).abs().maxCoeff() > step) list(i);
+    }
+  }
+  const Eigen::Matrix3d rotation = pose_.rotation.toRotationMatrix();
+  for (std::size_t n = 0; n < edges.size(); ++n) {
+    const std::size_t i = edges[n];
+    Rgb mean = Rgb::Zero(), least = coarse[i], most = coarse[i];
+    std::size_t which = i;
+    for (const Vec3& local : fine_directions(i)) {
+      const rays::Ray ray{pose_.position, (rotation * local).normalized(), kGatherMargin};
+      const Rgb light = this->leaving(ray, source, which += kStride, coarse[i]);
+      mean += light / static_cast<float>(kFineDirections);
+      least = least.min(light);
+      most = most.max(light);
+    }
+    leaving[i] = mean;
+    if ((most - least).maxCoeff() <= step) continue;
+    for (const std::size_t other : beside(i)) list(other);
+  }
+}
+
 Gathered Gather::gather(const Source& source, Eigen::AlignedBox3d& reach) {
   if (!movers_known()) find_movers();
   relocate();
@@ -304,20 +357,23 @@ Gathered Gather::gather(const Source& source, Eigen::AlignedBox3d& reach) {
   for (std::size_t i = 0; on_movers.empty() && from.any && i < kDirections; ++i) {
     mean += (from.direct[i] + from.reflected[i]) / count;
   }
-  Gathered out;
-  const std::vector<float>& weights = view_weights();
+  std::vector<Rgb> leaving(kDirections, Rgb::Zero());  // lx
   for (std::size_t i = 0; i < kDirections; ++i) {
-    Rgb leaving = Rgb::Zero();
     if (before_[i] != kNoMover) {
-      leaving = movers_[before_[i]].surface.albedo * on_movers[before_[i]];
+      leaving[i] = movers_[before_[i]].surface.albedo * on_movers[before_[i]];
     } else if (from.any) {
       const bool dark = from.direct[i] == 0.0F || shaded(lamp, surfaces_[i], i);
       const Rgb reflected =
           between_[i].x() < 0.0F ? Rgb(left_ * from.reflected[i]) : Rgb(between_[i] * mean);
-      leaving = surfaces_[i].albedo * ((dark ? 0.0F : from.direct[i]) + reflected);
+      leaving[i] = surfaces_[i].albedo * ((dark ? 0.0F : from.direct[i]) + reflected);
     }
-    out.illuminance += leaving / count;
-    out.view += leaving * weights[i];
+  }
+  refine(source, leaving);
+  Gathered out;
+  const std::vector<float>& weights = view_weights();
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    out.illuminance += leaving[i] / count;
+    out.view += leaving[i] * weights[i];
   }
   reach.extend(reach_);
   if (in_play) extend(reach, lamp);

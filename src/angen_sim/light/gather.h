@@ -84,6 +84,8 @@ class Gather {
   void relocate();
   bool shaded(const Lamp& lamp, const Surface& surface, std::size_t i) const;
   const Received& received(const Source& source);
+  void refine(const Source& source, std::vector<Rgb>& leaving);
+  Rgb leaving(const rays::Ray& ray, const Source& source, std::size_t i, const Rgb& coarse);
   Rgb on_mover(const Mover& mover, const Source& source, std::size_t i, bool& in_play) const;
 
   const rays::Scene& scene_;

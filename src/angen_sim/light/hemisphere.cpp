@@ -7,6 +7,19 @@
 namespace angen::light {
 namespace {
 
+// Points i / n, radical inverse of i, have one in each cell of the lattice, and one of n / 128
+// successive ones: the first digits of i are its ring, the last ones its part of the circle.
+constexpr std::size_t kParts = 128;  // of a circle
+static_assert(kDirections % kParts == 0);
+
+std::size_t reversed(std::size_t part) {
+  std::size_t out = 0;
+  for (std::size_t bit = 1; bit < kParts; bit *= 2) out = 2 * out + (part & bit ? 1 : 0);
+  return out;
+}
+
+Vec3 about_x(const Vec3& about_z) { return {about_z.z(), about_z.x(), about_z.y()}; }
+
 const double kViewTangent = std::tan(M_PI / 6);  // half of 60 degrees
 
 }  // namespace
@@ -21,9 +34,27 @@ double view_area() { return 4 * kViewTangent * kViewTangent; }
 const std::vector<Vec3>& gather_directions() {
   static const std::vector<Vec3> all = [] {
     std::vector<Vec3> turned;
-    for (const Vec3& d : cosine_directions(kDirections)) turned.emplace_back(d.z(), d.x(), d.y());
+    for (const Vec3& d : cosine_directions(kDirections)) turned.push_back(about_x(d));
     return turned;
   }();
+  return all;
+}
+
+std::array<std::size_t, 4> beside(std::size_t i) {
+  const std::size_t ring = i / kParts * kParts, part = i % kParts;
+  const std::size_t around = reversed(part);
+  return {ring + reversed((around + 1) % kParts), ring + reversed((around + kParts - 1) % kParts),
+          i < kParts ? i : i - kParts, i + kParts < kDirections ? i + kParts : i};
+}
+
+std::array<Vec3, kFineDirections> fine_directions(std::size_t i) {
+  constexpr std::size_t kAll = kDirections * kFineDirections;
+  std::array<Vec3, kFineDirections> all;
+  for (std::size_t k = 0; k < kFineDirections; ++k) {
+    const std::size_t at = (i / kParts * kFineDirections + k) * kParts + i % kParts;
+    all[k] = about_x(cosine_direction((static_cast<double>(at) + 0.5) / kAll,
+                                      radical_inverse(static_cast<unsigned>(at))));
+  }
   return all;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/pose.h"
@@ -8,9 +9,18 @@
 namespace angen::light {
 
 constexpr std::size_t kDirections = 2048;
+constexpr std::size_t kFineDirections = 8;  // in the cell of one of them
 
-/// Cosine-weighted, in the frame of the place, which faces x.
+/// Cosine-weighted, in the frame of the place, which faces x. There is one in each cell of a
+/// lattice: 16 rings, each with 128 parts of its circle, all of the same weight.
 const std::vector<Vec3>& gather_directions();
+
+/// The directions of the four cells beside that of direction `i`; itself beyond the outermost and
+/// the innermost ring.
+std::array<std::size_t, 4> beside(std::size_t i);
+
+/// More directions in the cell of direction `i`, evenly spread.
+std::array<Vec3, kFineDirections> fine_directions(std::size_t i);
 
 /// Weight of each direction in the view; their sum is 1.
 const std::vector<float>& view_weights();

@@ -128,7 +128,7 @@ TEST(Converged, InTheGapBehindAChest) {
     Lighting lighting(scene);
     lighting.add(lamp, 1.0);
     for (const Vec3& at : {Vec3(2.3, 0.05, 0.6), Vec3(2.5, 0.04, 0.9), Vec3(2.1, 0.02, 0.3)}) {
-      expect_converged(scene, lighting, lamp, facing(at, Vec3::UnitY()), 200'000, 0.06);
+      expect_converged(scene, lighting, lamp, facing(at, Vec3::UnitY()), 200'000, 0.02);
     }
   }
 }
@@ -174,8 +174,8 @@ TEST(Converged, BehindTheDoorOfABathroom) {
     double angle;         // rad
     double share, least;  // of the light, and lx
   };
-  for (const Case& with : {Case{0.0, 0.02, 0.05}, Case{0.09, 0.0, 0.15}, Case{-0.09, 0.0, 0.15},
-                           Case{0.35, 0.06, 0.05}, Case{-0.35, 0.06, 0.05}}) {
+  for (const Case& with : {Case{0.0, 0.02, 0.05}, Case{0.09, 0.02, 0.05}, Case{-0.09, 0.02, 0.05},
+                           Case{0.35, 0.02, 0.05}, Case{-0.35, 0.02, 0.05}}) {
     const Bathroom flat(with.angle);
     for (const Pose& at :
          {facing(Vec3(3.98, 1.2, 1.0), -Vec3::UnitX()), facing(Vec3(3.2, 1.2, 0.02), Vec3::UnitZ()),
@@ -187,19 +187,18 @@ TEST(Converged, BehindTheDoorOfABathroom) {
 }
 
 // Beside the leaf, cells of the floor are bright on one side and dark on the other, and so is the
-// leaf along its width.
+// leaf along its width. From the corridor few directions meet the lit surfaces past the leaf.
 TEST(Converged, PastADoorAjarBySomeDegrees) {
-  const Bathroom flat(0.2);
-  double read = 0.0, truth = 0.0, variance = 0.0;
-  for (const Pose& at :
-       {facing(Vec3(3.98, 1.2, 1.0), -Vec3::UnitX()), facing(Vec3(3.2, 2.0, 2.48), -Vec3::UnitZ()),
-        facing(Vec3(3.98, 3.0, 1.5), -Vec3::UnitX())}) {
-    const Traced traced = trace(flat.scene, flat.lamp, at, 400'000);
-    read += lux(flat.lighting, at);
-    truth += traced.lux;
-    variance += traced.deviation * traced.deviation;
+  for (const double angle : {0.15, 0.2}) {
+    const Bathroom flat(angle);
+    for (const Pose& at :
+         {facing(Vec3(3.98, 1.2, 1.0), -Vec3::UnitX()),
+          facing(Vec3(3.2, 2.0, 2.48), -Vec3::UnitZ()),
+          facing(Vec3(3.98, 3.0, 1.5), -Vec3::UnitX()), facing(Vec3(3.4, 1.8, 0.03), Vec3::UnitZ()),
+          facing(Vec3(3.95, 2.2, 0.6), -Vec3::UnitX())}) {
+      expect_converged(flat.scene, flat.lighting, flat.lamp, at, 400'000);
+    }
   }
-  EXPECT_NEAR(read, truth, 0.03 * truth + 2.0 * std::sqrt(variance));
 }
 
 TEST(Converged, PersonInTheRoom) {
