@@ -24,7 +24,7 @@ constexpr double kMaxLag = 0.08;         // rad
 constexpr double kStallSpeed = 0.004;    // rad/s
 constexpr double kLoadShare = 4.0;       // of i / p, 1/s, in which it finds its load
 constexpr double kHandForce = 60.0;      // N, at the edge
-constexpr double kUprightAxis = 0.999;   // |z| of the axis of an upright leaf
+constexpr double kUprightAxis = 0.97;    // |z| of the axis of an upright leaf: 14 deg
 constexpr Nanoseconds kHandleTime = 3 * kSecond;
 
 constexpr PidGains kGains{70.0, 200.0, 25.0, 100.0, -100.0, 120.0, -120.0};

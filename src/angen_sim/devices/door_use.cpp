@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <unordered_map>
 
 #include "devices/floor_map.h"
 
@@ -14,7 +16,8 @@ constexpr double kAlone = 0.8;                    // m, a leaf this wide suffice
 constexpr double kStoreyWithin = 1.0;             // m, from a person's feet to the foot of a door
 constexpr double kReach = 1.1;                    // m from a person's middle to a handle
 constexpr double kAtSpot = 0.07;                  // m
-constexpr double kBeforeHandle = 0.5;             // m, to push
+constexpr double kBeforeHandle = 0.5;             // m, to push or slide
+constexpr double kHandleInside = 0.07;            // m, of a leaf's edge
 constexpr double kOutOfSwing = 0.37;              // m beyond the leaf's edge
 constexpr double kBehind = 0.4;                   // m past a door, to close it
 constexpr double kForgets = 4.0;                  // m
@@ -45,18 +48,52 @@ std::optional<double> meeting(const Surroundings::Vec2& a, const Surroundings::V
   return first;
 }
 
+using HomeDoors = std::unordered_map<std::string_view, const HomeDoor*>;
+
+HomeDoors by_name(const Home& home) {
+  HomeDoors doors;
+  for (const HomeDoor& door : home.doors) {
+    if (door.kind == HomeDoor::Kind::kDoor) doors.emplace(door.name, &door);
+  }
+  return doors;
+}
+
+const HomeDoor* described(const HomeDoors& doors, const std::string& name) {
+  const auto found = doors.find(name);
+  return found == doors.end() ? nullptr : found->second;
+}
+
 /// The other leaf of a double door, where one alone is narrow and both open to the same side.
 void find_partner(const Home& home, const std::vector<DoorSeen>& doors, DoorSeen& door) {
   if (door.width >= kAlone) return;
-  std::string partner;
-  for (const HomeDoor& each : home.doors) {
-    if (each.name == door.name && each.kind == HomeDoor::Kind::kDoor) partner = each.partner;
-  }
+  const HomeDoor* found = described(by_name(home), door.name);
+  const std::string partner = found == nullptr ? "" : found->partner;
   for (const DoorSeen& other : doors) {
-    if (other.name != partner || door.into.dot(other.into) < 0.9) continue;
+    if (other.name != partner || other.slides != door.slides) continue;
+    if (!door.slides && door.into.dot(other.into) < 0.9) continue;
     door.partner = other.name;
     door.partner_mode = other.mode;
   }
+}
+
+/// Where its leaf turns or slides; false where that is not known.
+bool place(const Reading& state, const HomeDoor* home, DoorSeen& door) {
+  door.slides = state.find("opens") == nullptr;
+  if (!door.slides) {
+    const auto& hinge = state.get<std::vector<double>>("hinge");
+    const double shut = state.get<double>("shut");
+    const double turned = std::copysign(M_PI / 2, state.get<double>("opens"));
+    door.hinge << hinge[0], hinge[1];
+    door.along << std::cos(shut), std::sin(shut);
+    door.into << std::cos(shut + turned), std::sin(shut + turned);
+    return true;
+  }
+  if (home == nullptr) return false;
+  const double yaw = home->pose.yaw;
+  door.along << std::cos(yaw), std::sin(yaw);
+  door.into << -std::sin(yaw), std::cos(yaw);
+  door.hinge = home->pose.position.head<2>() - 0.5 * door.width * door.along;
+  return true;
 }
 
 }  // namespace
@@ -64,21 +101,21 @@ void find_partner(const Home& home, const std::vector<DoorSeen>& doors, DoorSeen
 bool DoorSeen::is_passable() const { return gap >= std::min(kNeeded, 0.9 * width); }
 
 std::vector<DoorSeen> doors_seen(const View& view, double z) {
+  const HomeDoors home_doors = by_name(view.home());
   std::vector<DoorSeen> doors;
-  for (const DeviceView& device : view.devices("opens")) {
+  for (const DeviceView& device : view.devices("gap")) {
     if (device.kind != "door") continue;
-    const auto& hinge = device.state.get<std::vector<double>>("hinge");
-    if (std::abs(hinge.at(2) - z) > kStoreyWithin) continue;
     DoorSeen door;
     door.name = std::string(device.name);
     door.mode = device.state.get<std::string>("mode");
-    door.hinge << hinge[0], hinge[1];
-    const double shut = device.state.get<double>("shut");
-    const double turned = std::copysign(M_PI / 2, device.state.get<double>("opens"));
-    door.along << std::cos(shut), std::sin(shut);
-    door.into << std::cos(shut + turned), std::sin(shut + turned);
     door.width = device.state.get<double>("width");
     door.gap = device.state.get<double>("gap");
+    const HomeDoor* home = described(home_doors, door.name);
+    if (!place(device.state, home, door)) continue;
+    // A hinge may be at any height of its leaf.
+    const double foot = home != nullptr ? home->pose.position.z()
+                                        : device.state.get<std::vector<double>>("hinge").at(2);
+    if (std::abs(foot - z) > kStoreyWithin) continue;
     doors.push_back(std::move(door));
   }
   return doors;
@@ -128,10 +165,16 @@ bool DoorUse::refresh(const View& view, double z) {
   return false;
 }
 
-// To push: close. To pull: at arm's length from the handle, out of the leaf's way, where a wall
-// leaves it room.
+// That of a sliding leaf is reached from before its middle.
+DoorUse::Vec2 DoorUse::handle() const {
+  const double at = door_.slides ? 0.5 * door_.width : door_.width - kHandleInside;
+  return door_.hinge + at * door_.along;
+}
+
+// To push or slide: close. To pull: at arm's length from the handle, out of the leaf's way, where a
+// wall leaves it room.
 DoorUse::Vec2 DoorUse::free_spot(const View& view, const Vec3& feet) const {
-  if (side_ < 0.0) return handle() - kBeforeHandle * door_.into;
+  if (door_.slides || side_ < 0.0) return handle() + side_ * kBeforeHandle * door_.into;
   const std::vector<Vec2> places = spots();
   for (const Vec2& place : places) {
     if (FloorMap(view, feet, place, FloorMap::Extent::kStraight).is_free(place)) return place;
@@ -245,7 +288,7 @@ DoorUse::Advice DoorUse::pass(const Vec2& at, Nanoseconds now, Outputs& outputs)
     return {};
   }
   const double past = -side_ * door_.into.dot(from_hinge);
-  const bool swings_here = side_ < 0.0;
+  const bool swings_here = side_ < 0.0 && !door_.slides;
   const double clear = swings_here ? from_hinge.norm() - door_.width - kOutOfSwing : 0.0;
   if (past < kBehind || clear < 0.0) return {};
   if (!closes_) {

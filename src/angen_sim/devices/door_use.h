@@ -20,6 +20,7 @@ struct DoorSeen {
   Vec2 into = Vec2::UnitY();   // unit, towards the side that the leaf opens to
   double width = 0.0;          // m
   double gap = 0.0;            // m, free width
+  bool slides = false;         // to neither side
   std::string partner;         // the other leaf of a double door, where one alone is narrow
   std::string partner_mode;
 
@@ -66,7 +67,7 @@ class DoorUse {
   Advice fail(Nanoseconds now);
   Advice pass(const Vec2& at, Nanoseconds now, Outputs& outputs);
   bool moves() const { return door_.mode == "OPENING" || door_.partner_mode == "OPENING"; }
-  Vec2 handle() const { return door_.hinge + (door_.width - 0.07) * door_.along; }
+  Vec2 handle() const;
   /// The person's place to open the door.
   Vec2 free_spot(const View& view, const Vec3& feet) const;
   /// The places from which it can pull, the best first.
