@@ -233,7 +233,7 @@ Nanoseconds Person::rests_until(const View& view) const {
   const Vec3& at = body.pose.position;
   if (order_) {
     if (order_->unreachable) return kForever;
-    const bool stays = order_->arrived && (order_->to - at.head<2>()).norm() < kPushedAway;
+    const bool stays = order_->arrived && (order_->to - at.head<2>()).norm() < order_->stays_within;
     return stays ? kForever : refresh_.next(view.time());
   }
   const Path::Place place = path_.at(clock_);

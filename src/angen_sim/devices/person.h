@@ -65,6 +65,7 @@ class Person : public Device {
   void note_held(const Vec2& at);
   bool gives_way(const LinkView& body, const View& view, bool renew, Outputs& outputs);
   bool must_give_up(Nanoseconds now) const;
+  bool lingers(const Vec2& at, Nanoseconds now);
   bool is_freed(const LinkView& body, const View& view);
   void go_round(const LinkView& body, const View& view, bool renew, Outputs& outputs);
   Scan scan_surroundings(const LinkView& body, const View& view);
@@ -109,6 +110,8 @@ class Person : public Device {
   bool waits_at_door_ = false;   // until another opens it
   bool waits_ = false;           // until it sees a free way
   Nanoseconds waits_since_ = 0;  // that
+  Vec2 circle_ = Vec2::Zero();   // middle of the one that it has not left …
+  Nanoseconds entered_at_ = 0;   // … since then
   Nanoseconds away_until_ = 0;   // of stepping back
   Vec2 back_to_ = Vec2::Zero();  // where it does so
   Nanoseconds retry_at_ = 0;     // if it sees a free way
@@ -121,7 +124,8 @@ class Person : public Device {
     bool pushes = false;
     bool arrived = false;
     bool planned = false;
-    bool unreachable = false;  // it has given up
+    bool unreachable = false;           // it has given up
+    double stays_within = kPushedAway;  // m of the goal, once it has arrived
   };
   std::optional<Order> order_;      // in place of its path
   std::optional<Route> route_;      // to its goal; none: straight

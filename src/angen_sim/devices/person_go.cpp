@@ -11,6 +11,8 @@ namespace angen::devices {
 namespace {
 
 constexpr double kArrived = 0.03;   // m: nearer than this an order is carried out
+constexpr double kCloseBy = 0.22;   // m: so is one that something holds nearer than this
+constexpr double kMoved = 0.05;     // m, of one that has arrived: it stays
 constexpr double kNearGoal = 0.06;  // m from its goal, where it fits in place of it
 constexpr double kOpenToll = 3.0;   // m that a door which it can open counts
 constexpr double kWaitToll = 30.0;  // m that another shut door counts
@@ -24,6 +26,8 @@ constexpr Nanoseconds kTimeout = 3 * kSecond;     // after this time it makes ro
 constexpr Nanoseconds kAway = 5 * kSecond;        // at least: a door opens in less
 constexpr Nanoseconds kGivesUp = 15 * kSecond;    // without progress towards where it was sent
 constexpr Nanoseconds kStagnates = 10 * kSecond;  // without, and it is held although it moves
+constexpr double kCircle = 1.5;  // m, of radius: who has not left it for this time …
+constexpr Nanoseconds kLingers = 40 * kSecond;  // … and twice that of the way out gives up
 constexpr Nanoseconds kFirstBlind = 10 * kSecond;
 constexpr Nanoseconds kBackStep = kSecond / 20;
 constexpr std::size_t kMaxKeptCells = 500'000;  // 6.5 MB
@@ -68,13 +72,17 @@ FloorMap Person::map_of_storey(const View& view, const Vec3& feet) {
 void Person::go(const View& view, bool renew, Outputs& outputs) {
   const LinkView body = view.link(body_);
   const Vec2 at = body.pose.position.head<2>();
-  const bool there =
-      (order_->to - at).norm() < (order_->arrived && resting_ ? kPushedAway : kArrived);
+  const double away = (order_->to - at).norm();
+  const double near = held_ ? kCloseBy : kArrived;
+  const bool there = away < (order_->arrived && resting_ ? order_->stays_within : near);
   if (!there && !order_->planned) {
-    best_at_ = view.time();
+    best_at_ = entered_at_ = view.time();
+    circle_ = at;
     if (!plan(view, body, false)) give_up(outputs);
   }
+  if (!there && lingers(at, view.time()) && !order_->unreachable) give_up(outputs);
   if (there || order_->unreachable) {
+    if (!resting_) order_->stays_within = std::max(kPushedAway, away + kMoved);
     order_->arrived = !order_->unreachable;
     held_ = false;
     if (!resting_) stand(outputs);
@@ -191,6 +199,16 @@ bool Person::gives_way(const LinkView& body, const View& view, bool renew, Outpu
 
 bool Person::must_give_up(Nanoseconds now) const {
   return order_ && !order_->pushes && now - waits_since_ > kGivesUp;
+}
+
+// New plans that come to nothing may follow each other for ever.
+bool Person::lingers(const Vec2& at, Nanoseconds now) {
+  const bool rests = order_->arrived && resting_;  // until something pushes it away
+  if (rests || waits_at_door_ || order_->pushes || (at - circle_).norm() > kCircle) {
+    circle_ = at;
+    entered_at_ = now;
+  }
+  return now - entered_at_ > kLingers + from_seconds(2.0 * kCircle / speed_);
 }
 
 bool Person::is_freed(const LinkView& body, const View& view) {
