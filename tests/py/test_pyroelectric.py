@@ -71,13 +71,14 @@ def test_the_world_says_how_warm_the_room_is():
     assert fluxes[0] > 1e-7 and fluxes[1] == 0.0
 
 
-def flux_of_a_person(celsius: float) -> float:
+def flux_of_a_person(celsius: float, given: str = '') -> float:
     """For a person before the PIR, in air of that temperature."""
     w = angen.World.from_text(f'''<sdf version="1.6"><world name="w">
       <atmosphere type="adiabatic"><temperature>{celsius + 273.15}</temperature></atmosphere>
       <model name="floor"><static>true</static><link name="l"><collision name="c"><geometry><box>
         <size>20 20 0.02</size></box></geometry></collision></link></model>
-      {PIR}<actor name="anna"><pose>4 -0.4 0.02 0 0 0</pose></actor></world></sdf>''')
+      {PIR}<actor name="anna"><pose>4 -0.4 0.02 0 0 0</pose><plugin name="person"
+      filename="libperson_controller.so">{given}</plugin></actor></world></sdf>''')
     w.run(1.0)
     return w.sensor('pir', 'eye')['flux']
 
@@ -91,6 +92,16 @@ def test_a_person_radiates_by_the_law_of_skin_and_clothing_in_any_air(celsius):
         return 0.12 * skin ** 4 + 0.88 * clothing ** 4 - air ** 4
     ratio = flux_of_a_person(celsius) / flux_of_a_person(18.0)
     assert ratio == pytest.approx(radiance(celsius + 273.15) / radiance(18.0 + 273.15), rel=0.01)
+
+
+@pytest.mark.parametrize('given', ['skin', 'clothing'])
+def test_what_is_not_given_follows_the_air(given):
+    """At 30 degrees C, of a person whose skin or clothing has the temperature that is given."""
+    air = 303.15
+    skin, clothing = 307.0 + 0.12 * (air - 295.15), air + 0.35 * (306.5 - air)
+    parameter = (f'<skin_temperature>{skin}</skin_temperature>' if given == 'skin' else
+                 f'<clothing_temperature>{clothing}</clothing_temperature>')
+    assert flux_of_a_person(30.0, parameter) == pytest.approx(flux_of_a_person(30.0), rel=1e-6)
 
 
 def test_does_not_see_a_turtlebot_a_door_or_a_lamp(world):

@@ -90,7 +90,8 @@ void Person::configure(Params& params, Wiring& wiring) {
                         "of head and hands, seen by PIRs; follows the air unless given", kPositive);
   clothing_ = params.number("clothing_temperature", 299.0, "K",
                             "of the rest of its surface; follows the air unless given", kPositive);
-  follows_air_ = !params.has("skin_temperature") && !params.has("clothing_temperature");
+  skin_follows_ = !params.has("skin_temperature");
+  clothing_follows_ = !params.has("clothing_temperature");
   surfaces_ = wiring.surfaces("");
   refresh_ = Refresh(params.number(
       "update_rate", 20.0, "Hz", "how often its state is published while it walks", kRefreshRate));
@@ -182,9 +183,8 @@ void Person::feel_air(const View& view, Outputs& outputs) {
   if (std::abs(air - air_) < kFelt && std::abs(humidity - humidity_) < kFeltHumidity) return;
   humidity_ = humidity;
   air_ = air;
-  if (!follows_air_) return;
-  skin_ = kSkinAtRest + kSkinPerKelvin * (air - kRoomAir);
-  clothing_ = air + kClothingShare * (kCoveredSkin - air);
+  if (skin_follows_) skin_ = kSkinAtRest + kSkinPerKelvin * (air - kRoomAir);
+  if (clothing_follows_) clothing_ = air + kClothingShare * (kCoveredSkin - air);
   const double mean =
       std::pow(kBareShare * std::pow(skin_, 4) + (1.0 - kBareShare) * std::pow(clothing_, 4), 0.25);
   for (const SurfaceRef surface : surfaces_) outputs.temperature(surface, mean, mean, 0.0);

@@ -88,7 +88,8 @@ class Person : public Device {
   Refresh refresh_;
   double skin_ = 0.0;      // K
   double clothing_ = 0.0;  // K
-  bool follows_air_ = true;
+  bool skin_follows_ = true;
+  bool clothing_follows_ = true;
   double air_ = 0.0;          // K, around it, which they follow
   double humidity_ = 50.0;    // percent, of that
   Nanoseconds felt_at_ = -1;  // that, as a multiple of a period
