@@ -50,6 +50,10 @@ TEXTS = {
     'chain': (chain(900), 'a chain of more than 200 joints'),
     'moving chain': (chain(900, 'continuous'), 'a chain of more than 200 joints'),
     'links': (chain(10_000), 'more than 1000 links'),
+    'address': ('<model name="m"><include><uri>model://' + '../' * 300_000
+                + 'x</uri></include></model>', "model 'model://"),
+    'library': ('<model name="m"><link name="l"/><plugin name="p" filename="' + 'a' * 1_000_000
+                + '"/></model>', 'is not found'),
     'pixels': (camera(4000, 4000, 1.0), 'must have at most 3840 x 2160'),
     'pixels a second': (camera(3000, 2000, 100.0), 'pixels a second, must be at most'),
     'points': (camera(4096, 4096, 1.0, 'libgazebo_ros_openni_kinect.so'), 'must have at most 3840'),

@@ -8,11 +8,14 @@ namespace angen {
 
 namespace {
 
+constexpr std::size_t kLongest = 256;  // of names that are compared whole
+
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
 }  // namespace
 
 std::size_t edits(const std::string& a, const std::string& b) {
+  if (std::max(a.size(), b.size()) > kLongest) return std::max(a.size(), b.size());
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0);
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -28,7 +31,6 @@ std::size_t edits(const std::string& a, const std::string& b) {
 
 std::vector<std::string> nearest_names(const std::string& name, std::vector<std::string> known,
                                        std::size_t count) {
-  constexpr std::size_t kLongest = 256;  // longer names are compared up to here
   const std::string given = name.substr(0, kLongest);
   std::vector<std::pair<std::size_t, std::string>> ranked;
   ranked.reserve(known.size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <climits>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
@@ -30,6 +31,8 @@ Strictness strictness_of(const char* given) {
   if (text.empty()) return Strictness::kAuto;
   throw Error("ANGEN_STRICT is '" + printable(text, 80) + "'; give true or false");
 }
+
+constexpr std::size_t kShownUri = 500;  // bytes
 
 struct Address {
   std::string scheme;  // "" or "model", "file", …
@@ -179,7 +182,7 @@ SearchPaths SearchPaths::from_environment(const std::string& beside) {
 std::optional<std::string> find_uri(const std::string& uri, const std::string& from,
                                     Session& session) {
   const Address address = split(uri);
-  if (address.path.empty()) return std::nullopt;
+  if (address.path.empty() || address.path.size() >= PATH_MAX) return std::nullopt;
   if (address.path[0] == '/') {
     return address.scheme.empty() || address.scheme == "file"
                ? existing(address.path, session.sources)
@@ -209,21 +212,22 @@ std::string searched_places(const std::string& uri, const std::string& from, Ses
 std::string need_uri(const std::string& uri, const std::string& what, const Source& at,
                      Session& session) {
   const Address address = split(uri);
+  const std::string shown = printable(uri, kShownUri);
   if (address.path.empty()) {
     throw Error(at, "the <uri> of this " + what + " is empty; write model://NAME/… or file://…");
   }
   static const std::set<std::string> schemes = {"model", "file", "package", ""};
   if (schemes.count(address.scheme) == 0) {
     throw Error(
-        at, "unknown uri '" + uri + "'; " + what + "s are read from model://NAME/… and file://…");
+        at, "unknown uri '" + shown + "'; " + what + "s are read from model://NAME/… and file://…");
   }
   if (auto found = find_uri(uri, at.file, session)) {
     // The user has named it, not a document.
-    if (!at.file.empty()) check_allowed(*found, what + " '" + uri + "'", at, session);
+    if (!at.file.empty()) check_allowed(*found, what + " '" + shown + "'", at, session);
     if (what == "model" || is_plain_file(*found)) return *found;
-    throw Error(at, what + " '" + uri + "' is not a regular file (" + *found + "); name one");
+    throw Error(at, what + " '" + shown + "' is not a regular file (" + *found + "); name one");
   }
-  throw Error(at, what + " '" + uri + "' is not found; " + hint(uri, address, what, at, session));
+  throw Error(at, what + " '" + shown + "' is not found; " + hint(uri, address, what, at, session));
 }
 
 void warn_or_throw_missing(const Element& element, const Error& error, Session& session) {
