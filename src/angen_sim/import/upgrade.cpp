@@ -45,17 +45,17 @@ std::string with_underscores(std::string name, const std::string& separator) {
 }
 
 // Until 1.7 a name could hold "::", as those of models that Gazebo once saved flat. A '/' Gazebo
-// takes in every version.
+// takes in every version. Topics are often called as their model, so texts like its name stay.
 void split_names(Element& element, const std::string& separator,
                  std::map<std::string, std::string>& found, Session& session) {
   static const std::set<std::string> named = {"link",   "joint", "collision", "visual",
-                                              "sensor", "light", "frame"};
+                                              "sensor", "light", "frame",     "model"};
   const std::string name = named.count(element.name) != 0 ? name_of(element) : "";
   if (name.find(separator) != std::string::npos) {
     set_attribute(element, "name", with_underscores(name, separator));
     session.warn_or_throw(Error(element.source, tag_of(element) + ": names hold no '" + separator +
                                                     "'; it is '" + name_of(element) + "' here"));
-    found[name] = name_of(element);
+    if (element.name != "model") found[name] = name_of(element);
   }
   for (Element& child : element.children) {
     if (child.name != "plugin") split_names(child, separator, found, session);
@@ -139,11 +139,16 @@ void read_joint_type(Element& joint) {
 // Gazebo reads the first shape; of polylines all count.
 void keep_one_shape(Element& geometry, Session& session) {
   auto& all = geometry.children;
-  if (all.size() < 2 || all[0].name == "polyline") return;
-  session.warn_or_throw(Error(all[1].source, "a second shape in one <geometry>; keep one: <" +
-                                                 all[0].name + "> is taken, <" + all[1].name +
-                                                 "> is left out"));
-  all.erase(all.begin() + 1, all.end());
+  if (all.empty()) return;
+  const bool prism = all[0].name == "polyline";
+  const auto others = std::stable_partition(all.begin() + 1, all.end(), [&](const Element& shape) {
+    return prism && shape.name == "polyline";
+  });
+  if (others == all.end()) return;
+  session.warn_or_throw(Error(others->source, "a second shape in one <geometry>; keep one: <" +
+                                                  all[0].name + "> is taken, <" + others->name +
+                                                  "> is left out"));
+  all.erase(others, all.end());
 }
 
 // SDF 1.3 named the step and the rate otherwise.

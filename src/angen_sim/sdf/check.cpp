@@ -26,7 +26,6 @@ namespace {
 
 const std::set<std::string> kJoints = {"fixed", "revolute",  "continuous", "prismatic",
                                        "ball",  "universal", "screw"};
-const std::set<std::string> kOthersJoints = {"gearbox"};  // of Gazebo, not of ours
 const std::set<std::string> kLights = {"point", "spot", "directional"};
 
 std::string listed(const std::set<std::string>& names) {
@@ -181,12 +180,12 @@ void check_joint(Element& joint, const std::set<std::string>& known, Session& se
   check_axes(joint, session);
 }
 
-/// Why Gazebo would leave a joint out, or a type that only Gazebo has; nothing otherwise.
+/// Why Gazebo would leave a joint out, or a type that we lack; nothing otherwise.
 std::optional<Error> left_out(const Element& joint, const std::set<std::string>& known) {
   const std::string* type = joint.attribute("type");
-  if (type != nullptr && kOthersJoints.count(*type) != 0) {
-    return Error(joint.source, "unknown joint type '" + *type + "'; known are " + listed(kJoints) +
-                                   "; " + tag_of(joint) + " is left out");
+  if (type != nullptr && kJoints.count(*type) == 0) {
+    return Error(joint.source, "unknown joint type '" + printable(*type) + "'; known are " +
+                                   listed(kJoints) + "; " + tag_of(joint) + " is left out");
   }
   for (const char* end : {"parent", "child"}) {
     const Element* element = joint.child(end);

@@ -116,8 +116,9 @@ Shape shape_of(const Reader& element, Pose& pose, Session& session) {
   }
   const auto type = round.find(name);
   if (type == round.end()) {
-    throw Error(element.element().source,
-                "unknown shape <" + name + ">; known shapes are " + kShapes);
+    session.warn_or_throw(Error(element.element().source,
+                                "unknown shape <" + name + ">; known shapes are " + kShapes));
+    return shape;  // none, as a mesh that is missing
   }
   shape.type = type->second;
   shape.radius = length_of(element, "radius");
@@ -139,27 +140,31 @@ void check_size(const Shape& shape, const Element& element) {
               "<" + element.name + "> is " + number_text(largest) + " m large; " + problem);
 }
 
-const Element& shape_in(const Reader& part) {
+/// Null where there is none and the document is tolerant.
+const Element* shape_in(const Reader& part, Session& session) {
   const Element* geometry = part.child("geometry");
   const Element& element = part.element();
   if (geometry == nullptr) {
-    throw Error(element.source, tag_of(element) + " has no <geometry>; give it one, such as <box>");
+    session.warn_or_throw(
+        Error(element.source, tag_of(element) + " has no <geometry>; give it one, such as <box>"));
+    return nullptr;
   }
   const bool single = geometry->children.empty() || geometry->children[0].name != "polyline";
   if (single && geometry->children.size() > 1) {
     throw Error(geometry->children[1].source, "a second shape in one <geometry>; keep one");
   }
-  if (geometry->children.empty()) {
-    throw Error(geometry->source,
-                std::string("<geometry> has no shape; known shapes are ") + kShapes);
-  }
-  return geometry->children[0];
+  if (!geometry->children.empty()) return &geometry->children[0];
+  session.warn_or_throw(
+      Error(geometry->source, std::string("<geometry> has no shape; known shapes are ") + kShapes));
+  return nullptr;
 }
 
 }  // namespace
 
 std::vector<PlacedShape> shapes_of(const Reader& part, const Pose& pose, Session& session) {
-  const Element& element = shape_in(part);
+  const Element* found = shape_in(part, session);
+  if (found == nullptr) return {{{}, pose}};
+  const Element& element = *found;
   const Reader reader(element, session);
   std::vector<PlacedShape> placed;
   if (element.name == "image") {

@@ -64,6 +64,19 @@ TEST(Others, ASecondShapeIsLeftOut) {
   EXPECT_NE(warnings_of(world).find("w.world:2: a second shape"), std::string::npos);
 }
 
+TEST(Others, APartWithAnotherShapeOrNoneHasNone) {
+  for (const char* geometry :
+       {"<geometry><ellipsoid><radii>1 2 3</radii></ellipsoid></geometry>", "<geometry/>", ""}) {
+    const std::string text = in_link("<collision name='c'>\n" + std::string(geometry) +
+                                     "</collision><visual name='v'>" + geometry + "</visual>");
+    const desc::World world = read_loosely(text);
+    ASSERT_EQ(world.models.at(0).links[0].collisions.size(), 1U) << geometry;
+    EXPECT_EQ(world.models[0].links[0].collisions[0].shape.type, Shape::Type::kEmpty) << geometry;
+    EXPECT_NE(warnings_of(world).find("w.world:"), std::string::npos) << geometry;
+    EXPECT_THROW(read(text), Error) << geometry;
+  }
+}
+
 TEST(Others, ASlashInANameIsAnUnderscore) {
   const desc::World world = read_loosely(in_model(
       "<link name='a/b'/><link name='c'/><joint name='j/k' type='fixed'>"
@@ -74,6 +87,17 @@ TEST(Others, ASlashInANameIsAnUnderscore) {
   EXPECT_EQ(model.joints[0].name, "j_k");
   EXPECT_EQ(model.joints[0].parent, "a_b");
   EXPECT_EQ(model.plugins[0].element.child_text("bodyName"), "a_b");
+}
+
+TEST(Others, ASlashInAModelsNameIsAnUnderscore) {
+  const std::string text =
+      "<sdf version='1.6'><world name='w'><model name='robot/one'><link name='l'/><plugin name='p' "
+      "filename='libgazebo_ros_p3d.so'><topicName>robot/one</topicName></plugin></model></world>"
+      "</sdf>";
+  const desc::World world = read_loosely(text);
+  EXPECT_EQ(world.models.at(0).name, "robot_one");
+  EXPECT_EQ(world.models[0].plugins[0].element.child_text("topicName"), "robot/one");
+  EXPECT_THROW(read(text), Error);
 }
 
 TEST(Others, AJointOfTwoCrossedAxesIsUniversal) {
@@ -116,6 +140,16 @@ TEST(Others, AJointWithoutAnAxisHasThoseOfOde) {
   ASSERT_EQ(hinge.models[0].joints[0].axes.size(), 1U);
   EXPECT_EQ(hinge.models[0].joints[0].axes[0].xyz, Vec3::UnitX());
   EXPECT_THROW(read(joint("universal")), Error);
+}
+
+// SDF 1.2 lists it; Gazebo reports it and goes on.
+TEST(Others, APistonIsLeftOut) {
+  const std::string text = in_model(
+      two_links() + "\n<joint name='j' type='piston'><parent>a</parent><child>b</child></joint>");
+  const desc::World world = read_loosely(text);
+  EXPECT_TRUE(world.models.at(0).joints.empty());
+  EXPECT_NE(warnings_of(world).find("w.world:2: unknown joint type 'piston'"), std::string::npos);
+  EXPECT_THROW(read(text), Error);
 }
 
 TEST(Others, JointsOfUnknownLinksAreLeftOut) {
@@ -199,6 +233,14 @@ TEST(Others, APolylineThatCrossesItselfIsNone) {
   EXPECT_THROW(read_loosely(in_link("<collision name='c'><geometry>" + polyline("0 0,1 1,1 0,0 1") +
                                     "</geometry></collision>")),
                Error);
+}
+
+TEST(Others, AShapeAfterAPolylineIsLeftOut) {
+  const desc::World world = read_loosely(
+      in_link("<collision name='c'><geometry>" + polyline("0 0,1 0,0 1") + polyline("5 5,6 5,5 6") +
+              "\n<box><size>1 1 1</size></box></geometry></collision>"));
+  EXPECT_EQ(world.models[0].links[0].collisions[0].shape.type, Shape::Type::kMesh);
+  EXPECT_NE(warnings_of(world).find("w.world:2: a second shape"), std::string::npos);
 }
 
 TEST(Others, ASensorWithoutGravityTakesNoneFromItsRobot) {
