@@ -352,6 +352,12 @@ def test_unknown_joints_of_a_configuration_are_passed_over(gazebo: Gazebo) -> No
     assert gazebo.call("get_joint_properties", joint_name="slide::along").position == near([0.25])
 
 
+def test_a_joint_of_a_configuration_may_name_its_model(gazebo: Gazebo) -> None:
+    gazebo.call("set_model_configuration", model_name="slide", joint_names=["slide::along"],
+                joint_positions=[0.75])  # as in Gazebo, whose joints have scoped names
+    assert gazebo.call("get_joint_properties", joint_name="slide::along").position == near([0.75])
+
+
 def test_topics_have_the_rate_that_was_set(gazebo: Gazebo) -> None:
     gazebo.unpause()
     with Inbox("/gazebo/model_states", ModelStates) as inbox:

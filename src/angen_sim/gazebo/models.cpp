@@ -78,6 +78,12 @@ std::string get_world(Inbox& inbox, gazebo_msgs::GetWorldProperties::Response& r
   return "GetWorldProperties: got properties";
 }
 
+// The name of a joint, which may have that of its model before it.
+std::string within(const std::string& model, const std::string& joint) {
+  const std::string scope = model + "::";
+  return joint.compare(0, scope.size(), scope) == 0 ? joint.substr(scope.size()) : joint;
+}
+
 std::string configure(Inbox& inbox, const gazebo_msgs::SetModelConfiguration::Request& request) {
   if (request.joint_names.size() != request.joint_positions.size()) {
     throw Error("joint name and position list have different lengths");
@@ -86,17 +92,24 @@ std::string configure(Inbox& inbox, const gazebo_msgs::SetModelConfiguration::Re
   const auto structure = structure_of(inbox);
   const desc::Model& model = *structure->models[model_named(*structure, request.model_name)];
   sim::SetJoints to{request.model_name, {}, {}};
+  std::vector<std::string> unknown;
   for (std::size_t i = 0; i < request.joint_names.size(); ++i) {
-    const bool known =
-        std::any_of(model.joints.begin(), model.joints.end(),
-                    [&](const auto& joint) { return joint.name == request.joint_names[i]; });
+    const std::string name = within(request.model_name, request.joint_names[i]);
+    const bool known = std::any_of(model.joints.begin(), model.joints.end(),
+                                   [&](const auto& joint) { return joint.name == name; });
     if (!known) {
-      ROS_WARN("set_model_configuration: %s has no joint '%s'", request.model_name.c_str(),
-               printable(request.joint_names[i]).c_str());
+      unknown.push_back(printable(name));
       continue;
     }
-    to.joints.push_back(request.joint_names[i]);
+    to.joints.push_back(name);
     to.positions.push_back(request.joint_positions[i]);
+  }
+  if (!unknown.empty()) {
+    ROS_WARN("set_model_configuration: %s has no joint '%s'%s", request.model_name.c_str(),
+             unknown[0].c_str(),
+             unknown.size() == 1
+                 ? ""
+                 : (" (and " + std::to_string(unknown.size() - 1) + " others)").c_str());
   }
   edit(inbox, to);
   return "SetModelConfiguration: success";
