@@ -59,6 +59,17 @@ def test_an_empty_path_is_named() -> None:
     assert done.stderr == "'': not a path; give the file of a world\n"
 
 
+@pytest.mark.parametrize("seed", ["1e30", "0.5", "-1", "x"])
+def test_a_seed_that_is_none_is_an_error(master: Master, tmp_path: Path, seed: str) -> None:
+    world = tmp_path / "small.world"
+    world.write_text(WORLD)
+    done = subprocess.run([str(node_binary()), str(world), f"_seed:={seed}"], text=True,
+                          env=master.environment, capture_output=True, timeout=60, check=False)
+    master.api.deleteParam("/test", "/angen/seed")
+    assert done.returncode == 1
+    assert "~seed" in done.stderr and "must be" in done.stderr
+
+
 def test_interrupt_ends_it(master: Master, tmp_path: Path) -> None:
     own = Master(tmp_path)
     try:

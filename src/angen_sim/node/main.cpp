@@ -46,7 +46,8 @@ constexpr char kUsage[] =
     "saves the world in FILE and ends with exit code 75.\n";
 
 constexpr std::uint64_t kDefaultSeed = 1;
-constexpr double kLongestTime = 9e9;  // s, so that it fits into nanoseconds
+constexpr double kGreatestSeed = 9007199254740992.0;  // 2^53: up to here a double has each number
+constexpr double kLongestTime = 9e9;                  // s, so that it fits into nanoseconds
 
 std::atomic<bool> stop{false};
 
@@ -278,7 +279,12 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
   settings.models = replay ? replay->models() : folder_of(path) + "/models";
   settings.topics = angen::node::topics_named(param_or<std::string>("~topics", "sensor"));
   const auto rescue_path = param_or<std::string>("~rescue", angen::node::default_rescue_path());
-  const auto seed = static_cast<std::uint64_t>(number_param("~seed", kDefaultSeed, 0.0));
+  const double seed_given = number_param("~seed", kDefaultSeed, 0.0);
+  if (seed_given > kGreatestSeed || seed_given != std::floor(seed_given)) {
+    throw angen::Error("~seed is " + angen::number_text(seed_given) +
+                       ", must be a whole number of at most 2^53");
+  }
+  const auto seed = static_cast<std::uint64_t>(seed_given);
   const bool usable = simulation && simulation->seed() == seed;
   if (!replay && !usable) simulation = make(path, seed);
   Simulation& running = replay ? replay->simulation() : *simulation;
