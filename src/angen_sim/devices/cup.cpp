@@ -155,8 +155,7 @@ void Cup::update(const View& view, Outputs& outputs) {
 }
 
 double Cup::air(const View& view) const {
-  const double here = air_at(view, view.link(body_).pose.position).temperature;
-  return std::isnan(here) ? view.ambient_temperature() - kKelvin : here;
+  return air_temperature(view, view.link(body_).pose.position) - kKelvin;
 }
 
 // Newton's law, exactly, since it was computed last.

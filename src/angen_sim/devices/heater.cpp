@@ -1,12 +1,22 @@
 // libheater.so
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "devices/approach.h"
+#include "devices/refresh.h"
 #include "plugin/register.h"
+#include "plugin/rooms.h"
 
 namespace angen::devices {
+
+namespace {
+
+constexpr double kSameAir = 0.02;  // K
+constexpr double kAirRate = 0.1;   // Hz: how often it follows the air of its room
+
+}  // namespace
 
 /// An electric heater: its electric power is heat in its room, and its casing warms.
 class Heater : public Device {
@@ -16,10 +26,9 @@ class Heater : public Device {
     level_ = params.number("level", 0.0, "%", "level at the start", {0.0, 100.0});
     full_rise_ = params.number("surface_rise", 40.0, "K",
                                "its surface is warmer than the air at 100 %", {0.0, 1000.0});
-    rise_.time_constant =
+    heat_.time_constant =
         params.number("surface_time_constant", 300.0, "s", "of its warming", {0.0, 1e6});
-    rise_.limit = full_rise_ * level_ / 100.0;
-    rise_.value = params.number("surface_start", rise_.limit, "K",
+    start_rise_ = params.number("surface_start", full_rise_ * level_ / 100.0, "K",
                                 "by which its surface is warmer at the start; as after a long "
                                 "time at its level unless given",
                                 {-1000.0, 1000.0});
@@ -36,8 +45,9 @@ class Heater : public Device {
   }
 
   void update(const View& view, Outputs& outputs) override {
-    rise_.advance(to_seconds(view.step()));
-    if (last_level_ != level_) warm(view, outputs);
+    heat_.advance(to_seconds(view.step()));
+    const bool other_air = feel_air(view);
+    if (other_air || last_level_ != level_) warm(outputs);
     if (last_level_ && *last_level_ != level_) {
       const bool same = (*last_level_ > 0.0) == (level_ > 0.0);
       outputs.event(same ? "set" : level_ > 0.0 ? "on" : "off", "");
@@ -45,14 +55,17 @@ class Heater : public Device {
     last_level_ = level_;
   }
 
-  void skip(Nanoseconds time) override { rise_.advance(to_seconds(time)); }
+  void skip(Nanoseconds time) override { heat_.advance(to_seconds(time)); }
 
   void save(SavedParams& params) const override {
     params.number("level", level_);
-    params.number("surface_start", rise_.value);
+    params.number("surface_start", unknown_air_ > 0 ? start_rise_ : heat_.value - air_);
   }
 
-  Nanoseconds idle_until(const View&) const override { return kForever; }
+  Nanoseconds idle_until(const View& view) const override {
+    if (unknown_air_ > 0) return 0;
+    return climates(view).empty() ? kForever : air_due_.next(view.time());
+  }
 
   void report(const View&, Reading& state) const override {
     state.set("on", level_ > 0.0);
@@ -61,17 +74,34 @@ class Heater : public Device {
   }
 
  private:
-  void warm(const View& view, Outputs& outputs) {
-    rise_.limit = full_rise_ * level_ / 100.0;
-    const double air = view.ambient_temperature();
+  // Whether the air of its room is another one.
+  bool feel_air(const View& view) {
+    if (!air_due_.due(view.time(), view.step()) && unknown_air_ == 0) return false;
+    const double air = air_temperature(view, view.pose().position);
+    const bool starts = unknown_air_ > 0;
+    if (starts) {
+      --unknown_air_;
+      heat_.value = air + start_rise_;
+    }
+    if (!starts && std::abs(air - air_) < kSameAir) return false;
+    air_ = air;
+    return true;
+  }
+
+  void warm(Outputs& outputs) {
+    heat_.limit = air_ + full_rise_ * level_ / 100.0;
     for (const SurfaceRef surface : surfaces_) {
-      outputs.temperature(surface, air + rise_.value, air + rise_.limit, rise_.time_constant);
+      outputs.temperature(surface, heat_.value, heat_.limit, heat_.time_constant);
     }
   }
 
   double full_power_ = 0.0;  // W at 100 %
   double full_rise_ = 0.0;   // K at 100 %
-  Approach rise_;            // K, of its surface over the air
+  double start_rise_ = 0.0;  // K, of its surface over the air
+  Approach heat_;            // K, of its surface
+  double air_ = 0.0;         // K
+  int unknown_air_ = 2;      // updates, until a climate has reported the air that it starts at
+  Refresh air_due_{kAirRate};
   std::vector<SurfaceRef> surfaces_;
   double level_ = 0.0;                // percent
   std::optional<double> last_level_;  // percent, none before the first update

@@ -107,8 +107,7 @@ class Plant : public Device {
     if (before == dried_at_) return;  // at the start lamps have not been switched yet
     const Pose up = leaves(view);
     const AirHere here = air_at(view, up.position);
-    const double temperature =
-        std::isnan(here.temperature) ? view.ambient_temperature() - kKelvin : here.temperature;
+    const double temperature = air_temperature(view, up.position) - kKelvin;
     const double humidity = std::isnan(here.humidity) ? 50.0 : here.humidity;
     if (view.time() >= lit_at_) {
       light_ = view.illuminance(probe_, up).illuminance;

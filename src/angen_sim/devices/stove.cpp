@@ -19,6 +19,7 @@ constexpr double kRate = 1.0;        // Hz: plates take minutes
 constexpr double kHot = 60.0;        // degrees Celsius: the residual heat lamp is lit above
 constexpr double kHotAgain = 2.0;    // K that it has to cool below that
 constexpr double kCelsius = 273.15;  // K
+constexpr double kSameAir = 0.02;    // K: by less the course of a plate as PIRs see it stays
 constexpr Nanoseconds kTimeout = kSecond / 10;  // a climate has published its state by then
 constexpr Range kPlateRange{-60.0, 2000.0};
 
@@ -109,10 +110,11 @@ class Stove : public Device {
     const bool was_on = on_;
     const bool was_hot = hot_;
     on_ = false;
+    const bool other_air = first || std::abs(air_ - seen_air_) > kSameAir;
+    if (other_air) seen_air_ = air_;
     for (Plate& plate : plates_) {
       plate.step(to_seconds(stepped_at_ - before), air_);
-      if (first) plate.rise = plate.temperature - air_;
-      if (first || plate.heated_at != plate.level) plate.warm(view, outputs);
+      if (other_air || plate.heated_at != plate.level) plate.warm(air_, outputs);
       plate.heated_at = plate.level;
       on_ = on_ || plate.level > 0.0;
     }
@@ -157,7 +159,6 @@ class Stove : public Device {
     double temperature = 0.0;  // degrees Celsius
     double level = 0.0;        // percent
     double heated_at = 0.0;    // percent, since the last step
-    double rise = 0.0;         // K over the air, as PIRs see it
     std::vector<SurfaceRef> surfaces = {};
 
     double limit(double percent) const { return power * percent / 100.0 / loss; }
@@ -167,13 +168,12 @@ class Stove : public Device {
       const double left = std::exp(-seconds * loss / capacity);
       const double hottest = air + limit(heated_at);
       temperature = hottest + (temperature - hottest) * left;
-      rise = limit(heated_at) + (rise - limit(heated_at)) * left;
     }
 
-    void warm(const View& view, Outputs& outputs) const {
-      const double air = view.ambient_temperature();
+    void warm(double air, Outputs& outputs) const {
+      const double hottest = air + limit(level);
       for (const SurfaceRef surface : surfaces) {
-        outputs.temperature(surface, air + rise, air + limit(level), capacity / loss);
+        outputs.temperature(surface, temperature + kCelsius, hottest + kCelsius, capacity / loss);
       }
     }
   };
@@ -194,7 +194,8 @@ class Stove : public Device {
   }
 
   std::vector<Plate> plates_;
-  double air_ = 0.0;  // degrees Celsius
+  double air_ = 0.0;       // degrees Celsius
+  double seen_air_ = 0.0;  // the same, when PIRs were last told
   bool started_ = false;
   bool updated_ = false;
   bool on_ = false;

@@ -6,6 +6,7 @@
 #include "devices/approach.h"
 #include "devices/refresh.h"
 #include "plugin/register.h"
+#include "plugin/rooms.h"
 
 namespace angen::devices {
 
@@ -29,9 +30,9 @@ class WarmSurface : public Device {
       const std::vector<SurfaceRef> found = wiring.surfaces(visual);
       surfaces_.insert(surfaces_.end(), found.begin(), found.end());
     }
-    given_ = params.has("temperature");
     const double start = params.number("temperature", 295.15, "K",
-                                       "at the start; as the world's air unless given", kKelvin);
+                                       "at the start; as the air around unless given", kKelvin);
+    if (params.has("temperature")) unknown_air_ = 0;
     targeted_ = params.has("target");
     const double target =
         params.number("target", start, "K", "its target; as at the start unless given", kKelvin);
@@ -41,8 +42,7 @@ class WarmSurface : public Device {
   }
 
   Verdict command(const Command& command, const View& view) override {
-    const double target =
-        command.verb == "Temperature" ? command.number : view.ambient_temperature();
+    const double target = command.verb == "Temperature" ? command.number : air(view);
     return Verdict::accept([this, target] {
       heat_.limit = target;
       targeted_ = true;
@@ -51,10 +51,14 @@ class WarmSurface : public Device {
   }
 
   void update(const View& view, Outputs& outputs) override {
-    if (std::exchange(first_, false)) {
-      if (!given_) heat_.value = view.ambient_temperature();
-      if (!targeted_) heat_.limit = heat_.value;
-    } else {
+    const bool first = std::exchange(first_, false);
+    if (unknown_air_ > 0) {
+      --unknown_air_;
+      heat_.value = air(view);
+      set_ = false;
+    }
+    if (!targeted_) heat_.limit = heat_.value;
+    if (!first) {
       heat_.advance(to_seconds(view.step()));
     }
     if (!std::exchange(set_, true)) {
@@ -70,6 +74,7 @@ class WarmSurface : public Device {
   void skip(Nanoseconds time) override { heat_.advance(to_seconds(time)); }
 
   Nanoseconds idle_until(const View& view) const override {
+    if (unknown_air_ > 0) return 0;
     return changes_ ? due_.next(view.time()) : kForever;
   }
 
@@ -86,9 +91,11 @@ class WarmSurface : public Device {
   }
 
  private:
+  static double air(const View& view) { return air_temperature(view, view.pose().position); }
+
   std::vector<SurfaceRef> surfaces_;
   Approach heat_;          // K
-  bool given_ = false;     // its temperature at the start
+  int unknown_air_ = 2;    // updates, until a climate has reported the air that it starts at
   bool targeted_ = false;  // as well, its target; or commanded
   bool first_ = true;
   bool set_ = false;  // whether the world has its present target
@@ -102,7 +109,7 @@ ANGEN_REGISTER_DEVICE(WarmSurface,
                           .model("warm_surface")
                           .example("set warm_surface panel1 temperature 320")
                           .verb("Temperature", "kelvin", "K", kKelvin, "sets its target")
-                          .verb("Air", "sets its target to the temperature of the world's air")
+                          .verb("Air", "sets its target to the temperature of the air around")
                           .number("temperature", "K", "of the surface, once a second")
                           .shown(1)
                           .number("target", "K", "that it approaches")

@@ -1,5 +1,6 @@
 #include "plugin/rooms.h"
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -70,6 +71,12 @@ AirHere air_at(const View& view, const Vec3& point) {
                climate.state.get<double>("outside_humidity")};
   }
   return outside;
+}
+
+double air_temperature(const View& view, const Vec3& point) {
+  constexpr double kZeroCelsius = 273.15;  // K
+  const double here = air_at(view, point).temperature;
+  return std::isnan(here) ? view.ambient_temperature() : here + kZeroCelsius;
 }
 
 }  // namespace angen

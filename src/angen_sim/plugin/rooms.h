@@ -48,4 +48,7 @@ struct AirHere {
 /// where the world has no climate.
 AirHere air_at(const View& view, const Vec3& point);
 
+/// K, of the air at a point; that of the world where it has no climate.
+double air_temperature(const View& view, const Vec3& point);
+
 }  // namespace angen

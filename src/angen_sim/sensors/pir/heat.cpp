@@ -19,7 +19,6 @@ constexpr double kZoneCells = 3.0;
 constexpr int kFewest = 12;  // cells on a side
 constexpr int kMaxCells = 64;
 constexpr double kSameAir = 0.01;                    // K
-constexpr double kZeroCelsius = 273.15;              // K
 constexpr double kWatchCell = 0.02;                  // rad between the rays that bound its view
 constexpr std::size_t kEach = 4;                     // of the rays to a surface, one is probed
 constexpr std::size_t kFewProbed = 24;               // of fewer rays all are tested
@@ -156,8 +155,7 @@ bool Heat::follow_air(const View& view) {
   const Nanoseconds now = view.time() / kSecond;
   if (now == felt_at_) return false;
   felt_at_ = now;
-  const double here = air_at(view, view.pose().position).temperature + kZeroCelsius;
-  const double air = std::isnan(here) ? view.ambient_temperature() : here;
+  const double air = air_temperature(view, view.pose().position);
   if (std::abs(air - air_) < kSameAir) return false;
   const double before = radiating_.flux(view.time());
   air_ = air;
