@@ -21,8 +21,9 @@ constexpr double kMaxLag = 0.02;                   // m
 constexpr double kStallSpeed = 0.005;              // m/s
 constexpr Nanoseconds kDwell = kSecond;            // between the doors' opening and their shutting
 constexpr double kSlips = 0.1;                     // m/s, against its way: its load is another one
+constexpr double kOverspeed = 1.15;                // of its greatest velocity: EN 81-20, 5.6.2.2.1
 constexpr Nanoseconds kWeighs = kSecond;           // by its brake, on the way
-constexpr Nanoseconds kWeighsAgain = 3 * kSecond;  // while it is blocked
+constexpr Nanoseconds kWeighsAgain = 3 * kSecond;  // while it is blocked or lags
 
 // Gains and limits are times the moving mass; the limits exclude the weight.
 constexpr PidGains kGains{200.0, 200.0, 25.0, 5.0, -5.0, 5.0, -5.0};
@@ -61,6 +62,7 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   servo.near_error = kNearError;
   servo.stall_speed = kStallSpeed;
   servo_ = Servo(servo);
+  overspeed_ = kOverspeed * servo.max_velocity;
   brake_force_ =
       params.number("brake_force", 30000.0, "N", "brake of the cabin at rest", kPositive);
   weighing_.configure(params);
@@ -221,8 +223,8 @@ void Elevator::move(const View& view, Outputs& outputs) {
   const JointView lift = view.joint(lift_);
   const double command =
       servo_.update(height_of(target_), lift.position, lift.velocity, to_seconds(view.step()));
-  const bool slips = (rises_ ? -lift.velocity : lift.velocity) > kSlips;
-  if (!plain_ && (slips || (servo_.blocked() && view.time() >= weighs_at_))) {
+  const bool lags = servo_.blocked() || servo_.lagged() > to_seconds(kWeighs);
+  if (!plain_ && (strays(lift.velocity) || (lags && view.time() >= weighs_at_))) {
     outputs.motor(lift_, 0.0, brake_force_);
     phase_ = Phase::kWeighing;
     weighs_at_ = view.time() + kWeighs;
@@ -236,6 +238,12 @@ void Elevator::move(const View& view, Outputs& outputs) {
   phase_ = Phase::kStanding;
   stay_at(target_, view);
   outputs.event("arrived", "floor " + std::to_string(target_));
+}
+
+// Against its way, or ahead of its setpoint: its load is another one.
+bool Elevator::strays(double velocity) const {
+  const double way = rises_ ? 1.0 : -1.0;
+  return way * velocity < -kSlips || way * velocity > overspeed_ || way * servo_.lag() < -kMaxLag;
 }
 
 // Something may have come aboard, or gone, since the doors are shut.
@@ -310,8 +318,6 @@ std::string Elevator::detail_of(Mode mode) const {
   if (mode != Mode::kOverloaded) return "floor " + std::to_string(target_);
   return weighing_.detail();
 }
-
-std::vector<double> Elevator::stops() const { return heights_; }
 
 void Elevator::save(SavedParams& params) const {
   params.unset("call");

@@ -26,7 +26,7 @@ class Elevator : public Device {
   void update(const View& view, Outputs& outputs) override;
   void report(const View& view, Reading& state) const override;
   void save(SavedParams& params) const override;
-  std::vector<double> stops() const override;
+  std::vector<double> stops() const override { return heights_; }
   Nanoseconds idle_until(const View& view) const override;
 
  private:
@@ -43,6 +43,7 @@ class Elevator : public Device {
   void stand(const View& view, Outputs& outputs);
   void serve_next_stop(const View& view, Outputs& outputs);
   void move(const View& view, Outputs& outputs);
+  bool strays(double velocity) const;
   void weigh_on_the_way(const View& view, Outputs& outputs);
   double weigh(const JointView& lift, const View& view) const;
   std::string detail_of(Mode mode) const;
@@ -66,6 +67,7 @@ class Elevator : public Device {
   std::vector<double> heights_;  // m, of the floors over floor 0
   Weighing weighing_;
   double brake_force_ = 0.0;  // N
+  double overspeed_ = 0.0;    // m/s
   double door_force_ = 0.0;   // N
 
   Phase phase_ = Phase::kStanding;

@@ -12,6 +12,7 @@ constexpr double kPushedBack = 5.0;  // freed distances
 constexpr double kStanding = 0.5;    // of the rate: an obstacle may stop it
 constexpr double kFlies = 0.5;       // of its greatest velocity, at which it leaves an obstacle
 constexpr double kLoadRamp = 250.0;  // per s: a blow is no load
+constexpr double kLags = 0.9;        // of its greatest lag, at which the setpoint waits now and then
 
 }  // namespace
 
@@ -26,6 +27,7 @@ void Servo::start(double position, double velocity, double load) {
   velocity_ = velocity;
   profile_.start(position, velocity);
   pid_.reset();
+  lagged_ = 0.0;
   target_ = position;
   came_to_ = position;
   stalled_ = 0.0;
@@ -46,11 +48,12 @@ double Servo::update(double target, double position, double velocity, double dt,
   target_ = target;
   watch(target, position, velocity, dt);
   if (plain) return pid_.update_plain(target - position, -velocity, dt);
-  const double lag = profile_.position() - position;
-  const bool waits = std::abs(lag) > settings_.max_lag;
-  if (waits) profile_.start(position + std::copysign(settings_.max_lag, lag));
+  lag_ = profile_.position() - position;
+  lagged_ = std::abs(lag_) > kLags * settings_.max_lag ? lagged_ + dt : 0.0;
+  const bool waits = std::abs(lag_) > settings_.max_lag;
+  if (waits) profile_.start(position + std::copysign(settings_.max_lag, lag_));
   // It waits for an obstacle ahead of the joint, not on the way back.
-  const bool returns = lag * (target - profile_.position()) < 0.0;
+  const bool returns = lag_ * (target - profile_.position()) < 0.0;
   if (!waits || returns) profile_.advance(target, dt);
   const double error = profile_.position() - position;
   const double error_rate = profile_.velocity() - velocity;

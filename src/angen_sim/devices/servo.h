@@ -44,6 +44,10 @@ class Servo {
   /// The command (unit of gains.cmd_max) for the next dt seconds, of at most `most`.
   double update(double target, double position, double velocity, double dt,
                 double most = std::numeric_limits<double>::infinity());
+  /// From the joint to its setpoint at the last update.
+  double lag() const { return lag_; }
+  /// s for which the joint has been as far from its setpoint as it may be.
+  double lagged() const { return lagged_; }
   /// The load that it has found.
   double load() const { return load_; }
 
@@ -59,6 +63,8 @@ class Servo {
   ServoSettings settings_;
   Profile profile_;
   Pid pid_;
+  double lag_ = 0.0;
+  double lagged_ = 0.0;  // s
   double load_ = 0.0;
   double steady_load_ = 0.0;  // when it last came on
   double acted_ = 0.0;        // the last command

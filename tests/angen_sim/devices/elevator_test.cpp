@@ -263,6 +263,51 @@ TEST(Elevator, ALoadThatComesOnTheWayIsLiftedOrTold) {
   }
 }
 
+// The drive knows the mass that it weighed: with another one the cabin would fall, or fly up.
+TEST(Elevator, ALoadThatComesOrLeavesOnTheWayDoesNotMakeItFast) {
+  for (const bool up : {true, false}) {
+    for (const bool comes : {true, false}) {
+      for (const double load : {100.0, 600.0}) {
+        for (const double wait : {0.5, 3.0}) {  // s, since the cabin moves
+          SCOPED_TRACE(::testing::Message() << (up ? "up " : "down ") << comes << " " << load
+                                            << " kg after " << wait << " s");
+          Bench bench;
+          Rig& rig = add_elevator(bench);
+          if (!up) {
+            rig.command("Floor1");
+            ASSERT_GT(bench.run_until(15.0, [&] { return standing_open(rig, 1); }), 0.0);
+          }
+          const auto add = [&] {
+            return bench.add(box("load", {0, 0, height(rig) + 0.21}, {0.4, 0.4, 0.4}, load));
+          };
+          physics::ModelId id;
+          if (!comes) id = add();
+          bench.run(3.0);
+          rig.command(up ? "Floor1" : "Floor0");
+          bench.run_until(8.0, [&] { return rig.mode() == (up ? "UP" : "DOWN"); });
+          bench.run(wait);
+          // What appears above a cabin that sinks with v lands on it with 2 v.
+          const double lands = 2.0 * std::abs(rig.at("lift").velocity) + 0.05;
+          if (comes) {
+            add();
+          } else {
+            bench.world.remove(id);
+          }
+          double fastest = 0.0;
+          const double took = bench.run_until(30.0, [&] {
+            fastest = std::max(fastest, std::abs(rig.at("lift").velocity));
+            return standing_open(rig, up ? 1 : 0);
+          });
+          EXPECT_GT(took, 0.0);
+          EXPECT_LT(fastest, !up && comes ? std::max(1.2, lands) : 1.2);
+          bench.run(1.0);
+          EXPECT_NEAR(rig.state().get<double>("load"), comes ? load : 0.0, 0.01 * load + 0.5);
+        }
+      }
+    }
+  }
+}
+
 // EN 81-20, 5.3.6.2.2.1: its doors close with 150 N at most, and open again before they touch.
 TEST(Elevator, ItsLeavesDoNotHurtAPersonInTheDoor) {
   for (const double x : {0.0, 0.12, -0.16}) {
