@@ -12,7 +12,7 @@ constexpr double kPushedBack = 5.0;  // freed distances
 constexpr double kStanding = 0.5;    // of the rate: an obstacle may stop it
 constexpr double kFlies = 0.5;       // of its greatest velocity, at which it leaves an obstacle
 constexpr double kLoadRamp = 250.0;  // per s: a blow is no load
-constexpr double kLags = 0.9;        // of its greatest lag, at which the setpoint waits now and then
+constexpr double kLags = 0.9;        // of its greatest lag: its setpoint waits now and then
 
 }  // namespace
 
@@ -51,9 +51,13 @@ double Servo::update(double target, double position, double velocity, double dt,
   lag_ = profile_.position() - position;
   lagged_ = std::abs(lag_) > kLags * settings_.max_lag ? lagged_ + dt : 0.0;
   const bool waits = std::abs(lag_) > settings_.max_lag;
-  if (waits) profile_.start(position + std::copysign(settings_.max_lag, lag_));
+  const double led =
+      waits ? position + std::copysign(settings_.max_lag, lag_) : profile_.position();
   // It waits for an obstacle ahead of the joint, not on the way back.
-  const bool returns = lag_ * (target - profile_.position()) < 0.0;
+  const bool returns = lag_ * (target - led) < 0.0;
+  // Behind a joint that has run ahead it has its speed, and brakes it: from rest it would drive it.
+  const bool brakes = returns && lag_ * velocity < 0.0;
+  if (waits) profile_.start(led, brakes ? velocity : 0.0);
   if (!waits || returns) profile_.advance(target, dt);
   const double error = profile_.position() - position;
   const double error_rate = profile_.velocity() - velocity;
@@ -66,7 +70,9 @@ double Servo::update(double target, double position, double velocity, double dt,
 
 // The load is the change of its momentum less the last command.
 void Servo::observe(double velocity, double dt, double most) {
-  const double rubs = velocity == 0.0 ? 0.0 : std::copysign(settings_.friction, velocity);
+  // A joint that friction holds trembles: which way it rubs is not known.
+  const bool moves = std::abs(velocity) > settings_.stall_speed;
+  const double rubs = moves ? std::copysign(settings_.friction, velocity) : 0.0;
   const double expected = (acted_ - settings_.damping * velocity - rubs + load_) * dt;
   const double change = settings_.inertia * (velocity - std::exchange(velocity_, velocity));
   const bool at_rest = std::abs(velocity) < settings_.arrive_speed;

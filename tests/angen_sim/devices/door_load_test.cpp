@@ -110,5 +110,68 @@ TEST(DoorLoad, ArrivesAgainstAClosersSpringAndALeaningFrame) {
   }
 }
 
+struct Trip {
+  double took = -1.0;    // s, until it is within 20 mrad for good
+  double rests = 0.0;    // rad, after 10 s
+  double fastest = 0.0;  // rad/s
+  double beyond = 0.0;   // rad, past its target
+};
+
+/// A leaf of other measures under a steady torque (N m), from an angle to another.
+Trip trip(const DoorMeasures& measures, const Parameters& parameters, double from, double to,
+          double torque, bool is_there_before) {
+  Bench bench;
+  Rig& leaf = bench.add(door(measures), "libdoor_world_plugin.so", "door", parameters);
+  const physics::JointId hinge = bench.world.joints(leaf.id()).at(1);
+  leaf.command("Set " + std::to_string(from));
+  bench.run(6.0);
+  if (is_there_before) bench.run(1.0, [&] { bench.world.add_force(hinge, torque); });
+  EXPECT_TRUE(leaf.command("Set " + std::to_string(to)).accepted);
+  Trip result;
+  double time = 0.0;  // s
+  bench.run(10.0, [&] {
+    time += 1e-3;
+    bench.world.add_force(hinge, torque);
+    const JointView at = leaf.at("hinge");
+    result.fastest = std::max(result.fastest, std::abs(at.velocity));
+    const bool is_there = std::abs(at.position - to) < 0.02;
+    if (!is_there || result.took < 0.0) result.took = is_there ? time : -1.0;
+    result.beyond = std::max(result.beyond, (at.position - to) * (to > from ? 1.0 : -1.0));
+  });
+  result.rests = leaf.at("hinge").position;
+  return result;
+}
+
+// A setpoint that starts from rest again before a leaf that runs ahead would drive it further.
+TEST(DoorLoad, AHeavyLeafDoesNotRunAway) {
+  DoorMeasures measures;
+  measures.mass = 53.5;
+  measures.width = 1.04;
+  const double free = trip(measures, {}, -1.2, -0.7, 0.0, false).took;
+  for (const double torque : {-43.6, -30.0, 43.6}) {
+    const Trip found = trip(measures, {}, -1.2, -0.7, torque, false);
+    printf("53.5 kg and %.1f N m: %.2f s (%.2f s without), %.2f rad/s at most, %.3f rad too far\n",
+           torque, found.took, free, found.fastest, found.beyond);
+    EXPECT_GT(found.took, 0.0) << torque;
+    EXPECT_LT(found.took, 2.0 * free) << torque;
+    EXPECT_LT(found.beyond, 0.2) << torque;
+    EXPECT_NEAR(found.rests, -0.7, 0.003) << torque;
+  }
+}
+
+// A held joint trembles: its friction has no direction that the load could be found from.
+TEST(DoorLoad, FrictionDoesNotHoldALeafOffItsTarget) {
+  DoorMeasures measures;
+  measures.mass = 38.9;
+  measures.width = 1.08;
+  measures.friction = 3.0;
+  measures.damping = 0.0;
+  for (const double torque : {-18.0, 0.0, 12.0, 18.0}) {
+    const Trip found = trip(measures, {{"max_velocity", "1"}}, -0.65, -0.1, torque, true);
+    printf("3 N m of friction and %.0f N m: rests at %.4f rad\n", torque, found.rests);
+    EXPECT_NEAR(found.rests, -0.1, 0.02) << torque;
+  }
+}
+
 }  // namespace
 }  // namespace angen::test
