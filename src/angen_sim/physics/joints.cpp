@@ -170,6 +170,10 @@ void correct_positions(const Joint& joint, bool on) {
   const double erp = on ? kStopErp : 0.0;
   set_param(joint, dParamStopERP, erp);
   if (joint.axes.size() > 1) set_param(joint, dParamStopERP + dParamGroup2 - dParamGroup1, erp);
+  // Of their own, where others have the world's.
+  if (joint.type == Type::kBall) {
+    dJointSetBallParam(joint.main.get(), dParamERP, on ? kJointErp : 0.0);
+  }
   if (joint.thread == nullptr) return;
   dJointSetDBallParam(joint.thread.get(), dParamERP, on ? kJointErp : 0.0);
 }

@@ -39,7 +39,7 @@ Bounds effort_bounds(const Joint& joint, double velocity);
 /// Sets motor, or dry friction where there is none, of a joint that ODE has.
 void apply_motor(const Joint& joint);
 
-/// Whether its stops, and the thread of a screw, correct positions.
+/// Whether its stops, a ball joint and the thread of a screw correct positions.
 void correct_positions(const Joint& joint, bool on);
 
 /// Sets stops and motor of a latched joint that ODE has, or gives it its own again.
