@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -20,6 +21,8 @@ constexpr double kOneLevel = 0.3;    // m between slabs of one floor, as in room
 constexpr double kInFloor = 0.1;     // m that walls may begin over their floor
 constexpr double kLowest = 1.9;      // m between two storeys
 constexpr double kDoor = 1.7;        // m: lower leaves are windows
+constexpr double kFlat = 0.99;       // cosine of the slope of a floor
+constexpr double kOneFace = 0.001;   // m between heights of one face
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 struct Wall {
@@ -61,6 +64,27 @@ std::vector<Storey> numbered(std::vector<double> floors) {
   return storeys;
 }
 
+// The height at which most of a mesh lies flat, on its upper side: a ramp in it may end higher.
+double flat_top(const TriangleMesh& mesh, const Pose& frame, double highest) {
+  std::map<long, Slab> faces;  // by their heights
+  double widest = 0.0;
+  for (const auto& corners : mesh.triangles) {
+    const auto at = [&](std::size_t i) -> Vec3 {
+      return frame * Vec3(mesh.vertices[corners[i]].cast<double>());
+    };
+    const Vec3 a = at(0);
+    const Vec3 twice = (at(1) - a).cross(at(2) - a);
+    if (std::abs(twice.z()) < kFlat * twice.norm()) continue;
+    Slab& face = faces.try_emplace(std::lround(a.z() / kOneFace), Slab{a.z(), 0.0}).first->second;
+    face.area += std::abs(twice.z()) / 2;
+    widest = std::max(widest, face.area);
+  }
+  for (auto face = faces.rbegin(); face != faces.rend(); ++face) {
+    if (face->second.area > widest / 2) return face->second.top;
+  }
+  return highest;
+}
+
 void measure(const desc::Model& model, const Pose& pose, std::vector<Wall>& walls,
              std::vector<Slab>& slabs) {
   for (const desc::Link& link : model.links) {
@@ -78,7 +102,9 @@ void measure(const desc::Model& model, const Pose& pose, std::vector<Wall>& wall
       if (size.z() >= kWall) {
         walls.push_back({bounds.min().z(), bounds.max().z()});
       } else if (size.z() < kSlab && area > kLeastSlab) {
-        slabs.push_back({bounds.max().z(), area});
+        const double highest = bounds.max().z();
+        const TriangleMesh* mesh = collision.shape.mesh.get();
+        slabs.push_back({mesh ? flat_top(*mesh, frame, highest) : highest, area});
       }
     }
   }

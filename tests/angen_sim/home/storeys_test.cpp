@@ -23,6 +23,22 @@ class House {
     collision.pose.position.z() = z;
     return add(collision);
   }
+  /// A sheet of 8 x 8 m at z, of whose side a ramp leads up to `high`, to a step of 1 x 8 m.
+  House& ramp(double z, double high) {
+    auto mesh = std::make_shared<TriangleMesh>();
+    const std::pair<double, double> profile[] = {{0, z}, {8, z}, {10, high}, {11, high}};
+    for (const auto& [x, height] : profile) {
+      for (const double y : {0.0, 8.0}) mesh->vertices.push_back(Vec3(x, y, height).cast<float>());
+    }
+    for (std::uint32_t i = 0; i < 6; i += 2) {
+      mesh->triangles.push_back({i, i + 2, i + 1});
+      mesh->triangles.push_back({i + 1, i + 2, i + 3});
+    }
+    desc::Collision collision;
+    collision.shape.type = Shape::Type::kMesh;
+    collision.shape.mesh = mesh;
+    return add(collision);
+  }
   House& slab(double top, double side = 8.0) { return box(top - 0.2, top, side, side); }
 
   std::vector<double> floors() const {
@@ -83,6 +99,12 @@ TEST(Storeys, AreOneWhereWallsHaveNoFloor) {
   House cabinet;
   cabinet.box(0.0, 2.0, 1.0).ground(0.0).model().home.thing = "wardrobe";
   EXPECT_EQ(cabinet.floors(), Floors{});
+}
+
+TEST(Storeys, AreWhereMostOfAMeshLiesFlat) {
+  const Floors floors = House().ramp(0.02, 0.18).box(0.02, 3.0, 8.0).floors();
+  ASSERT_EQ(floors.size(), 1U);
+  EXPECT_NEAR(floors[0], 0.02, 1e-3) << "not the end of its ramp";
 }
 
 /// Doors at these heights, each a model.
