@@ -5,15 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "angen_sim/devices/models.h"
-#include "angen_sim/devices/rig.h"
+#include "angen_sim/devices/elevators.h"
 
 namespace angen::test {
 namespace {
-
-Rig& add_elevator(Bench& bench, const Parameters& parameters) {
-  return bench.add(elevator(400.0), "libros_plugin.so", "elevator", parameters);
-}
 
 bool stands_at(const Rig& rig, std::int64_t floor) {
   return rig.mode() == "IDLE" && rig.state().get<std::int64_t>("floor") == floor;
@@ -52,12 +47,12 @@ TEST(ElevatorFloors, AreTheStoreysWithinItsTravel) {
 
 TEST(ElevatorFloors, AreNoMoreThanItsLiftReaches) {
   Bench bench;
-  EXPECT_THROW(add_elevator(bench, {{"floors", "3"}, {"floor_height", "4"}}), Error);
+  EXPECT_THROW(add_elevator(bench, 400.0, {{"floors", "3"}, {"floor_height", "4"}}), Error);
 }
 
 TEST(ElevatorFloors, AreAtTheHeightsThatAreGiven) {
   Bench bench;
-  Rig& rig = add_elevator(bench, {{"stop", "0"}, {"stop", "1.5"}, {"stop", "4"}});
+  Rig& rig = add_elevator(bench, 400.0, {{"stop", "0"}, {"stop", "1.5"}, {"stop", "4"}});
   ASSERT_GT(
       bench.run_until(
           4.0,
@@ -78,7 +73,7 @@ TEST(ElevatorFloors, RiseFromZero) {
                                                          {{"stop", "0"}, {"stop", "0"}},
                                                          {{"stop", "0"}, {"stop", "9"}}}) {
     Bench bench;
-    EXPECT_THROW(add_elevator(bench, stops), Error);
+    EXPECT_THROW(add_elevator(bench, 400.0, stops), Error);
   }
 }
 

@@ -3,25 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "angen_sim/devices/models.h"
-#include "angen_sim/devices/rig.h"
+#include "angen_sim/devices/elevators.h"
 
 namespace angen::test {
 namespace {
-
-Rig& add_elevator(Bench& bench, double cabin_mass = 400.0, const Parameters& parameters = {}) {
-  return bench.add(elevator(cabin_mass), "libros_plugin.so", "elevator", parameters);
-}
-
-double height(const Rig& rig) { return rig.at("lift").position; }
-
-std::string door_mode(const Rig& rig) { return rig.state().get<std::string>("door_mode"); }
-
-std::int64_t floor_of(const Rig& rig) { return rig.state().get<std::int64_t>("floor"); }
-
-bool standing_open(const Rig& rig, int floor) {
-  return rig.mode() == "IDLE" && floor_of(rig) == floor && door_mode(rig) == "OPEN";
-}
 
 // EN 81-20, 5.12.1.2: the rated load and a tenth of it, 75 kg at least.
 TEST(Elevator, WithAnOverloadItStaysWithOpenDoorsUntilSomethingIsTakenOut) {
