@@ -23,6 +23,7 @@ constexpr double kMinSlip = 1e-6;              // m/s
 constexpr double kMinLoad = 1e-6;              // N
 constexpr std::size_t kMaxInStep = 20000;      // points
 constexpr std::size_t kMaxInMeshes = 500'000;  // tests, some tenths of a second
+constexpr double kDeepest = 0.25;              // of a box's thickness, at rest
 constexpr double kUp = 0.9;                    // of a unit normal: on a floor
 constexpr double kPush =
     50.0;  // m/s^2, at which a soft contact lifts a body that is deep in the floor
@@ -299,7 +300,8 @@ void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
     fastest = std::min(fastest, parts_at);
   }
   if (a.min_depth || b.min_depth) {  // in place of the layer that ODE takes off all depths
-    const double depth = std::max(a.min_depth.value_or(0.0), b.min_depth.value_or(0.0));
+    const double depth = std::min(std::max(a.min_depth.value_or(0.0), b.min_depth.value_or(0.0)),
+                                  kDeepest * std::min(a.thickness, b.thickness));
     contact.geom.depth += surface_layer_ - depth;
   }
   if (!is_soft) {

@@ -128,6 +128,7 @@ std::unique_ptr<Geom> ShapeFactory::make(const desc::Collision& collision, const
   geom->stiffness = collision.stiffness;
   geom->damping = collision.damping;
   geom->min_depth = collision.min_depth;
+  if (shape.type == ShapeType::kBox) geom->thickness = shape.size.minCoeff();
   geom->is_plane = shape.type == ShapeType::kPlane;
   if (shape.type == ShapeType::kMesh) geom->mesh = mesh_data(collision, name, dynamic);
   if (shape.type == ShapeType::kHeightmap) {

@@ -65,6 +65,18 @@ TEST(Contacts, MinDepthTakesThePlaceOfTheSurfaceLayer) {
   }
 }
 
+// Past its middle it would be pushed out below.
+TEST(Contacts, AMinDepthLetsNothingSinkThroughAThinBox) {
+  TestWorld world;
+  world.add(body("sheet", box_shape({4.0, 4.0, 0.001}), {{0, 0, 0.0225}, Quat::Identity()}, true));
+  desc::Model ball = body("ball", round_shape(Shape::Type::kSphere, 0.033),
+                          {{0, 0, 0.06}, Quat::Identity()}, false);
+  ball.links[0].collisions[0].min_depth = 0.001;
+  const LinkId link = world.only_link(world.add(ball));
+  world.run(1.0);
+  EXPECT_NEAR(world.link(link).pose.position.z(), 0.056, 5e-4);
+}
+
 TEST(Contacts, AreListedByCollisionAwakeAndAsleep) {
   const std::string low = "low::link::collision";
   TestWorld world;
