@@ -22,7 +22,8 @@ constexpr double kNearError = 0.003;     // rad
 constexpr double kArriveSpeed = 0.02;    // rad/s
 constexpr double kMaxLag = 0.08;         // rad
 constexpr double kStallSpeed = 0.004;    // rad/s
-constexpr double kLoadShare = 4.0;       // of i / p, 1/s, in which it finds its load
+constexpr double kLoadShare = 10.0;      // of i / p, 1/s, in which it finds its load
+constexpr double kSwings = 3.5;          // kg m^2, or kg: what is heavier swings with the gains
 constexpr double kHandForce = 60.0;      // N, at the edge
 constexpr double kUprightAxis = 0.97;    // |z| of the axis of an upright leaf: 14 deg
 constexpr Nanoseconds kHandleTime = 3 * kSecond;
@@ -31,6 +32,14 @@ constexpr PidGains kGains{70.0, 200.0, 25.0, 100.0, -100.0, 120.0, -120.0};
 constexpr PidUnits kUnits{"N m/rad", "N m/(rad s)", "N m s/rad", "N m"};
 
 const char* const kModeEvents[] = {"closed", "opened", "opening", "closing", "blocked", "ajar"};
+
+// A heavier leaf swings as quickly, and as little, as one of kSwings.
+PidGains gains_for(double inertia, PidGains gains) {
+  const double heavy = std::max(1.0, inertia / kSwings);
+  gains.p *= heavy;
+  gains.d *= heavy;
+  return gains;
+}
 
 std::string range_text(const JointLimits& limits) {
   std::ostringstream text;
@@ -91,6 +100,7 @@ void Door::configure(Params& params, Wiring& wiring) {
   servo.near_error = kNearError;
   servo.stall_speed = kStallSpeed;
   servo.load_rate = servo.gains.p > 0.0 ? kLoadShare * servo.gains.i / servo.gains.p : 0.0;
+  if (!is_plain) servo.gains = gains_for(limits_.inertia, servo.gains);
   servo_ = Servo(servo);
 }
 

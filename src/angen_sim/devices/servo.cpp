@@ -8,11 +8,12 @@ namespace angen::devices {
 
 namespace {
 
-constexpr double kPushedBack = 5.0;  // freed distances
-constexpr double kStanding = 0.5;    // of the rate: an obstacle may stop it
-constexpr double kFlies = 0.5;       // of its greatest velocity, at which it leaves an obstacle
-constexpr double kLoadRamp = 250.0;  // per s: a blow is no load
-constexpr double kLags = 0.9;        // of its greatest lag: its setpoint waits now and then
+constexpr double kPushedBack = 5.0;   // freed distances
+constexpr double kStanding = 0.5;     // of the rate: an obstacle may stop it
+constexpr double kFlies = 0.5;        // of its greatest velocity, at which it leaves an obstacle
+constexpr double kLoadRamp = 500.0;   // per s: what pushes back may be an obstacle, or a blow
+constexpr double kLeadRamp = 2000.0;  // per s: what drives it on
+constexpr double kLags = 0.9;         // of its greatest lag: its setpoint waits now and then
 
 }  // namespace
 
@@ -62,22 +63,23 @@ double Servo::update(double target, double position, double velocity, double dt,
   const double error = profile_.position() - position;
   const double error_rate = profile_.velocity() - velocity;
   if (settings_.load_rate == 0.0) return pid_.update(error, error_rate, feed_forward(), dt);
-  observe(velocity, dt, most);
+  observe(position, velocity, dt, most);
   const double command = pid_.update(error, error_rate, feed_forward() - load_, dt, false);
   acted_ = std::clamp(command, -most, most);
   return acted_;
 }
 
 // The load is the change of its momentum less the last command.
-void Servo::observe(double velocity, double dt, double most) {
-  // A joint that friction holds trembles: which way it rubs is not known.
-  const bool moves = std::abs(velocity) > settings_.stall_speed;
-  const double rubs = moves ? std::copysign(settings_.friction, velocity) : 0.0;
+void Servo::observe(double position, double velocity, double dt, double most) {
+  // A joint that friction holds trembles: which way it rubs is not known. With all of its friction
+  // from one speed on it would creep at that speed.
+  const double rubs = settings_.friction * std::clamp(velocity / settings_.arrive_speed, -1.0, 1.0);
   const double expected = (acted_ - settings_.damping * velocity - rubs + load_) * dt;
   const double change = settings_.inertia * (velocity - std::exchange(velocity_, velocity));
   const bool at_rest = std::abs(velocity) < settings_.arrive_speed;
   const double more = (at_rest ? kStanding : 1.0) * settings_.load_rate * (change - expected);
-  load_ += std::clamp(more, -kLoadRamp * dt, kLoadRamp * dt);
+  const double ahead = target_ < position ? -1.0 : 1.0;
+  load_ += ahead * std::clamp(ahead * more, -kLoadRamp * dt, kLeadRamp * dt);
   load_ = std::clamp(load_, -most, most);
 }
 

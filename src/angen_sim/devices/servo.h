@@ -56,7 +56,7 @@ class Servo {
 
  private:
   double feed_forward() const;
-  void observe(double velocity, double dt, double most);
+  void observe(double position, double velocity, double dt, double most);
   void free(double position, double velocity);
   void watch(double target, double position, double velocity, double dt);
 

@@ -159,6 +159,35 @@ TEST(DoorLoad, AHeavyLeafDoesNotRunAway) {
   }
 }
 
+struct Leaf {
+  double mass, width;  // kg, m
+};
+
+// A heavy leaf would swing with the gains of a light one, and a short way leaves no time to.
+TEST(DoorLoad, HeavyLeavesAndShortWaysTakeTwiceTheTimeAtMost) {
+  struct Way {
+    double to, torque;  // rad, N m
+  };
+  for (const Leaf& leaf : {Leaf{8.0, 0.74}, {20.0, 0.9}, {46.8, 1.28}, {66.6, 1.22}}) {
+    DoorMeasures measures;
+    measures.mass = leaf.mass;
+    measures.width = leaf.width;
+    for (const Way& way : {Way{-0.7, 69.0}, {-0.9, 69.0}, {-1.08, 40.0}}) {
+      const double free = trip(measures, {}, -1.2, way.to, 0.0, false).took;
+      ASSERT_GT(free, 0.0);
+      for (const double torque : {-way.torque, way.torque}) {
+        const Trip found = trip(measures, {}, -1.2, way.to, torque, false);
+        SCOPED_TRACE(testing::Message()
+                     << leaf.mass << " kg, to " << way.to << " rad, " << torque << " N m");
+        printf("%.1f kg, %.2f rad under %.0f N m: %.2f s (%.2f s without), %.3f rad too far\n",
+               leaf.mass, way.to + 1.2, torque, found.took, free, found.beyond);
+        EXPECT_GT(found.took, 0.0);
+        EXPECT_LT(found.took, 2.0 * free);
+      }
+    }
+  }
+}
+
 // A held joint trembles: its friction has no direction that the load could be found from.
 TEST(DoorLoad, FrictionDoesNotHoldALeafOffItsTarget) {
   DoorMeasures measures;
