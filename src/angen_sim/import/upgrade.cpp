@@ -151,6 +151,58 @@ void keep_one_shape(Element& geometry, Session& session) {
   all.erase(others, all.end());
 }
 
+// Attributes of SDF 1.0 that are the text of their element since.
+const std::map<std::string, std::string>& texts_of_1_0() {
+  static const std::map<std::string, std::string> table = {
+      {"ambient", "rgba"},  {"background", "rgba"}, {"child", "link"},
+      {"diffuse", "rgba"},  {"direction", "xyz"},   {"emissive", "rgba"},
+      {"gravity", "xyz"},   {"grid", "enabled"},    {"origin", "pose"},
+      {"parent", "link"},   {"shadows", "enabled"}, {"horizontal_fov", "angle"},
+      {"specular", "rgba"},
+  };
+  return table;
+}
+
+// The child that an attribute of SDF 1.0 became, or "" for one that stayed: names and most types.
+std::string child_for(const std::string& attribute, const std::string& element) {
+  static const std::map<std::pair<std::string, std::string>, std::string> renamed = {
+      {{"fog", "rgba"}, "color"},
+      {{"fog", "type"}, "type"},
+      {{"heightmap", "origin"}, "pos"},
+      {{"solver", "type"}, "type"},
+  };
+  static const std::set<std::string> stayed = {"name", "type", "version", "world_name"};
+  const auto found = renamed.find({element, attribute});
+  if (found != renamed.end()) return found->second;
+  const bool stays = stayed.count(attribute) != 0 || attribute.find(':') != std::string::npos;
+  return stays ? "" : attribute;
+}
+
+// SDF 1.0 had values in attributes.
+void upgrade_attributes(Element& element) {
+  if (element.name == "plugin") return;
+  for (Element& child : element.children) upgrade_attributes(child);
+  const auto key = texts_of_1_0().find(element.name);
+  const std::string* value = key == texts_of_1_0().end() ? nullptr : element.attribute(key->second);
+  if (value != nullptr) {
+    const std::string name = element.name == "origin" ? "pose" : element.name;
+    element = Element{name, *value, {}, {}, element.source};  // also without a background's sky
+    return;
+  }
+  std::vector<std::pair<std::string, std::string>> kept;
+  std::vector<Element> children;
+  for (auto& [name, text] : element.attributes) {
+    const std::string child = child_for(name, element.name);
+    if (child.empty()) {
+      kept.push_back({name, text});
+    } else {
+      children.push_back({child, text, {}, {}, element.source});
+    }
+  }
+  element.attributes = std::move(kept);
+  element.children.insert(element.children.begin(), children.begin(), children.end());
+}
+
 // SDF 1.3 named the step and the rate otherwise.
 void upgrade_physics(Element& physics) {
   const auto move = [&](const Element* from, const char* to) {
@@ -172,11 +224,17 @@ void upgrade_physics(Element& physics) {
   }
 }
 
-// SDF 1.3 named the file of a mesh otherwise, and the collision of a contact sensor by an
-// attribute.
+// SDF 1.3 named files of shapes otherwise, the collision of a contact sensor by an attribute, and a
+// material by the text of <script>.
 void name_old_parts(Element& element) {
+  static const std::set<std::string> with_files = {"mesh", "heightmap", "image"};
   for (Element& child : element.children) {
-    if (element.name == "mesh" && child.name == "filename") child.name = "uri";
+    if (child.name == "filename" && with_files.count(element.name) != 0) child.name = "uri";
+    if (element.name == "material" && child.name == "script" && !child.text.empty()) {
+      const std::string name = std::move(child.text);
+      child.text.clear();
+      set_child(child, "name", name);
+    }
     if (element.name != "contact" || child.name != "collision" || !child.text.empty()) continue;
     child.text = name_of(child);
     child.attributes.clear();
@@ -223,6 +281,7 @@ void upgrade_element(Element& element, int version, Session& session) {
 }  // namespace
 
 void upgrade(Element& sdf, int version, Session& session) {
+  if (version < 102) upgrade_attributes(sdf);
   upgrade_element(sdf, version, session);
   if (session.tolerant) {
     if (version < 108) rename_separated(sdf, "::", session);

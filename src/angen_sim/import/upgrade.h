@@ -6,7 +6,7 @@
 
 namespace angen::load {
 
-/// Rewrites a tree of an older version (102..108) as SDF 1.9.
+/// Rewrites a tree of an older version (100..108) as SDF 1.9.
 void upgrade(Element& sdf, int version, Session& session);
 
 /// The group of siblings whose names must differ from that of `child`: all with this answer.

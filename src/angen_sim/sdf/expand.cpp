@@ -29,8 +29,9 @@ int version_of(const Element& sdf) {
     throw Error(sdf.source, "<sdf> has no version; write <sdf version=\"1.6\">");
   }
   const int version = version_number(*text);
-  if (version < 102 || version > 109) {
-    throw Error(sdf.source, "SDF version '" + *text + "' is not read; versions 1.2 to 1.9 are");
+  if (version < 100 || version == 101 || version > 109) {
+    throw Error(sdf.source,
+                "SDF version '" + *text + "' is not read; versions 1.0 and 1.2 to 1.9 are");
   }
   return version;
 }
@@ -170,7 +171,7 @@ bool replace_typographic_characters(Element& element, Session& session) {
 Element read_document(const std::string& text, const std::string& file, Session& session) {
   Element root = parse_xml(text, file);
   const bool changed = replace_typographic_characters(root, session);
-  if (root.name == "gazebo" && root.attribute("version") != nullptr) root.name = "sdf";  // of 1.2
+  if (root.name == "gazebo" && root.attribute("version") != nullptr) root.name = "sdf";  // to 1.2
   if (root.name == "robot") session.converted.insert(file);
   if (root.name == "robot")
     root = convert_urdf(changed ? print_xml(root) : without_late_declaration(text), root);
