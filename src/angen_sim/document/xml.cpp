@@ -319,6 +319,12 @@ std::size_t count_elements(const Element& element) {
   return count;
 }
 
+void check_model_size(std::size_t elements, const Source& source) {
+  if (elements <= kMaxModelElements) return;
+  throw Error(source, "more than " + std::to_string(kMaxModelElements) +
+                          " elements in one model; split it into several");
+}
+
 Element* find_child(Element& element, const std::string& name) {
   for (Element& child : element.children) {
     if (child.name == name) return &child;

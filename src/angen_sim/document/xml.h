@@ -11,6 +11,7 @@ namespace angen::load {
 constexpr std::size_t kMaxFileBytes = 64U << 20U;
 constexpr std::size_t kMaxTextBytes = 4U << 20U;  // of a text that a client sends
 constexpr std::size_t kMaxElements = 100'000;
+constexpr std::size_t kMaxModelElements = 10'000;
 constexpr std::size_t kMaxAttributes = 100;  // of one element
 
 /// The root element of a document; `file` names it in messages. Throws Error for text that is
@@ -37,6 +38,8 @@ std::string without_late_declaration(const std::string& text);
 std::string with_quotes(const std::string& text);
 
 std::size_t count_elements(const Element& element);
+/// Throws Error for a model of more than kMaxModelElements, which stands at `source`.
+void check_model_size(std::size_t elements, const Source& source);
 
 Element* find_child(Element& element, const std::string& name);
 /// Sets a child's text, adding the child in front when there is none.

@@ -7,6 +7,8 @@
 #include <optional>
 #include <set>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "core/text.h"
 #include "document/values.h"
@@ -19,73 +21,88 @@ namespace angen::load {
 
 namespace {
 
-const Element* nth_child(const Element& parent, const std::string& name, std::size_t number) {
-  for (const Element& child : parent.children) {
-    if (child.name == name && number-- == 0) return &child;
-  }
-  return nullptr;
-}
+using Names = std::pair<std::string, std::string>;  // of an element's tag, and its own
 
-// A link or joint of the robot, or of a <gazebo> element.
-const Element* named_part(const Element& robot, const Element& made) {
-  const auto is_it = [&](const Element& given) {
-    return given.name == made.name && name_of(given) == name_of(made);
-  };
+/// Where the parts of a robot are: each is looked up for each element that is made of it.
+struct Index {
+  std::map<Names, const Element*> own;                // of the robot
+  std::map<Names, const Element*> parts;              // those, and of its <gazebo> elements
+  std::map<std::string, const Element*> joint_above;  // of a link
+  std::set<std::string> without_gravity;              // references of <gazebo> elements
+};
+
+Index index_of(const Element& robot) {
+  Index index;
   for (const Element& part : robot.children) {
-    if (is_it(part)) return &part;
+    index.own.insert({{part.name, name_of(part)}, &part});
+    index.parts.insert({{part.name, name_of(part)}, &part});
+    if (part.name == "joint")
+      index.joint_above.insert({*part.child("child")->attribute("link"), &part});
     if (part.name != "gazebo") continue;
     for (const Element& child : part.children) {
-      if (is_it(child)) return &child;
+      index.parts.insert({{child.name, name_of(child)}, &child});
     }
+    const std::string* of = part.attribute("reference");
+    const bool off = part.child("turnGravityOff") != nullptr || part.child("gravity") != nullptr;
+    if (of != nullptr && off) index.without_gravity.insert(*of);
   }
-  return nullptr;
+  return index;
+}
+
+const Element* part_in(const std::map<Names, const Element*>& parts, const Names& names) {
+  const auto found = parts.find(names);
+  return found == parts.end() ? nullptr : found->second;
 }
 
 // BASE_fixed_joint_lump__LINK_collision, in a link that others were made one with.
-const Element* lumped_part(const Element& robot, const Element& made) {
+const Element* lumped_part(const Index& index, const Element& made) {
   static const std::string kLump = "_fixed_joint_lump__";
   const std::string name = name_of(made);
   const std::size_t at = name.find(kLump);
   if (at == std::string::npos) return nullptr;
   const std::string part = name.substr(at + kLump.size());
-  for (const Element& link : robot.children) {
-    const std::string start = name_of(link) + "_" + made.name;
-    if (link.name == "link" && part.rfind(start, 0) == 0) return nth_child(link, made.name, 0);
-  }
-  return nullptr;
+  const std::size_t end = part.rfind("_" + made.name);
+  const Element* link =
+      end == std::string::npos ? nullptr : part_in(index.own, {"link", part.substr(0, end)});
+  return link == nullptr ? nullptr : link->child(made.name);
+}
+
+Element text_element(const std::string& name, const std::string& text, const Source& source) {
+  return {name, text, {}, {}, source};
 }
 
 // Elements that libsdformat made get the file and line of their originals.
-void place(Element& made, const Element* original, const Element& robot, const Source& around) {
+void place(Element& made, const Element* original, const Index& index, const Source& around) {
   made.source = original == nullptr ? around : original->source;
+  std::map<std::string, std::vector<const Element*>> given;
+  if (original != nullptr) {
+    for (const Element& child : original->children) given[child.name].push_back(&child);
+  }
   std::map<std::string, std::size_t> seen;
   for (Element& child : made.children) {
-    const Element* from = name_of(child).empty() ? nullptr : named_part(robot, child);
-    if (from == nullptr) from = lumped_part(robot, child);
-    if (from == nullptr && original != nullptr) {
-      from = nth_child(*original, child.name, seen[child.name]++);
+    const std::string name = name_of(child);
+    const Element* from = name.empty() ? nullptr : part_in(index.parts, {child.name, name});
+    if (from == nullptr) from = lumped_part(index, child);
+    if (from == nullptr) {
+      const auto& twins = given[child.name];
+      const std::size_t number = seen[child.name]++;
+      if (number < twins.size()) from = twins[number];
     }
-    place(child, from, robot, made.source);
+    place(child, from, index, made.source);
   }
 }
 
 // libsdformat drops <safety_controller>: its attributes become children of the joint's <axis>.
-void keep_safety(const Element& joint, Element& root) {
-  const Element* safety = joint.child("safety_controller");
-  Element* model = find_child(root, "model");
-  if (safety == nullptr || model == nullptr) return;
-  for (Element& child : model->children) {
+void keep_safety(const Index& index, Element& model) {
+  for (Element& child : model.children) {
+    if (child.name != "joint") continue;
+    const Element* joint = part_in(index.own, {"joint", name_of(child)});
+    const Element* safety = joint == nullptr ? nullptr : joint->child("safety_controller");
     Element* axis = find_child(child, "axis");
-    if (child.name != "joint" || name_of(child) != name_of(joint) || axis == nullptr) continue;
-    Element kept;
-    kept.name = kSafety;
-    kept.source = safety->source;
+    if (safety == nullptr || axis == nullptr) continue;
+    Element kept = text_element(kSafety, "", safety->source);
     for (const auto& [key, value] : safety->attributes) {
-      Element number;
-      number.name = key;
-      number.text = value;
-      number.source = safety->source;
-      kept.children.push_back(std::move(number));
+      kept.children.push_back(text_element(key, value, safety->source));
     }
     axis->children.push_back(std::move(kept));
   }
@@ -107,28 +124,25 @@ Pose pose_in(const Element* origin) {
 }
 
 // The pose of a link in one of its ancestors, if only joints of the tree lie between them.
-std::optional<Pose> lumped_pose(const Element& robot, std::string link, const std::string& into) {
+std::optional<Pose> lumped_pose(const Index& index, std::string link, const std::string& into) {
   Pose pose;
-  for (std::size_t i = 0; i <= robot.children.size() && link != into; ++i) {
-    const auto joint =
-        std::find_if(robot.children.begin(), robot.children.end(), [&](const Element& each) {
-          const Element* child = each.child("child");
-          return each.name == "joint" && child != nullptr && *child->attribute("link") == link;
-        });
-    if (joint == robot.children.end()) return std::nullopt;
-    pose = pose_in(joint->child("origin")) * pose;
-    link = *joint->child("parent")->attribute("link");
+  while (link != into) {
+    const auto found = index.joint_above.find(link);
+    if (found == index.joint_above.end()) return std::nullopt;
+    const Element& joint = *found->second;
+    pose = pose_in(joint.child("origin")) * pose;
+    link = *joint.child("parent")->attribute("link");
   }
-  return link == into ? std::make_optional(pose) : std::nullopt;
+  return pose;
 }
 
 // libsdformat names the link that a plug-in's body is lumped into, but gets the offset to it wrong
 // where that takes several joints.
-void fix_offset(const Element& given, const Element& robot, Element& made) {
+void fix_offset(const Element& given, const Index& index, Element& made) {
   const std::string body = given.child_text("bodyName");
   const std::string into = made.child_text("bodyName");
   if (body.empty() || body == into) return;
-  const std::optional<Pose> lumped = lumped_pose(robot, body, into);
+  const std::optional<Pose> lumped = lumped_pose(index, body, into);
   if (!lumped) return;
   Element offset;
   offset.attributes = {{"xyz", given.child_text("xyzOffset")},
@@ -148,41 +162,31 @@ void give_source(Element& element, const Source& source) {
 }
 
 // The plug-ins of a robot keep their lines, and sit where they should.
-void fix_plugins(const Element& robot, Element& root) {
-  Element* model = find_child(root, "model");
-  if (model == nullptr) return;
+void fix_plugins(const Element& robot, const Index& index, Element& model) {
+  std::map<std::string, std::vector<const Element*>> all;  // by name
   for (const Element& extension : robot.children) {
     if (extension.name != "gazebo") continue;
     for (const Element& given : extension.children) {
-      for (Element& made : model->children) {
-        if (given.name != "plugin" || made.name != "plugin") continue;
-        if (given.attributes != made.attributes && name_of(given) != name_of(made)) continue;
-        give_source(made, given.source);
-        fix_offset(given, robot, made);
-      }
+      if (given.name == "plugin") all[name_of(given)].push_back(&given);
     }
   }
-}
-
-// Whether a <gazebo> element of that link, and not of one that was made one with it, turns it off.
-bool turns_gravity_off(const Element& robot, const std::string& link) {
-  return std::any_of(robot.children.begin(), robot.children.end(), [&](const Element& extension) {
-    const std::string* of = extension.attribute("reference");
-    return extension.name == "gazebo" && of != nullptr && *of == link &&
-           (extension.child("turnGravityOff") != nullptr || extension.child("gravity") != nullptr);
-  });
+  std::map<std::string, std::size_t> seen;
+  for (Element& made : model.children) {
+    const auto found = made.name == "plugin" ? all.find(name_of(made)) : all.end();
+    if (found == all.end()) continue;
+    const std::size_t number = std::min(seen[found->first]++, found->second.size() - 1);
+    const Element& given = *found->second[number];
+    give_source(made, given.source);
+    fix_offset(given, index, made);
+  }
 }
 
 // libsdformat takes the gravity of a whole robot if a sensor that is fixed to it has none.
-void keep_gravity(const Element& robot, Element& model) {
+void keep_gravity(const Index& index, Element& model) {
   for (Element& link : model.children) {
-    if (link.name != "link" || turns_gravity_off(robot, name_of(link))) continue;
+    if (link.name != "link" || index.without_gravity.count(name_of(link)) != 0) continue;
     remove_children(link, "gravity");
   }
-}
-
-Element text_element(const std::string& name, const std::string& text, const Source& source) {
-  return {name, text, {}, {}, source};
 }
 
 // The joints of a <transmission>, with their hardware interfaces, which may stand in its actuators.
@@ -202,64 +206,67 @@ std::vector<std::pair<std::string, std::string>> driven_by(const Element& transm
 
 // libsdformat drops transmissions: gazebo_ros_control's <plugin> gets them.
 void keep_transmissions(const Element& robot, Element& model) {
+  std::vector<Element> all;
+  for (const Element& transmission : robot.children) {
+    if (transmission.name != "transmission") continue;
+    for (const auto& [joint, interface] : driven_by(transmission)) {
+      all.push_back(text_element("transmission", "", transmission.source));
+      all.back().children = {text_element("joint", joint, transmission.source),
+                             text_element("hardwareInterface", interface, transmission.source)};
+    }
+  }
+  std::size_t kept = 0;
   for (Element& plugin : model.children) {
     const std::string* file = plugin.attribute("filename");
     if (plugin.name != "plugin" || file == nullptr || *file != "libgazebo_ros_control.so") continue;
-    for (const Element& transmission : robot.children) {
-      if (transmission.name != "transmission") continue;
-      for (const auto& [joint, interface] : driven_by(transmission)) {
-        Element kept = text_element("transmission", "", transmission.source);
-        kept.children = {text_element("joint", joint, transmission.source),
-                         text_element("hardwareInterface", interface, transmission.source)};
-        plugin.children.push_back(std::move(kept));
-      }
-    }
+    kept += all.size();
+    check_model_size(kept, robot.source);
+    plugin.children.insert(plugin.children.end(), all.begin(), all.end());
   }
 }
 
 // libsdformat would make one link of those that a force-torque sensor measures between.
-std::string with_measured_joints(const std::string& text, const Element& robot) {
+std::string with_measured_joints(const std::string& text, const Element& robot,
+                                 const Index& index) {
   std::string kept;
   for (const Element& extension : robot.children) {
     const Element* plugin = extension.name == "gazebo" ? extension.child("plugin") : nullptr;
     const std::string* file = plugin == nullptr ? nullptr : plugin->attribute("filename");
     if (file == nullptr || *file != kFtSensor) continue;
     const std::string name = measured_joint(*plugin, name_of(robot));
-    for (const Element& joint : robot.children) {
-      const std::string* type = joint.name == "joint" ? joint.attribute("type") : nullptr;
-      if (type == nullptr || *type != "fixed" || name_of(joint) != name) continue;
-      Element preserve = text_element("gazebo", "", joint.source);
-      preserve.attributes = {{"reference", name}};
-      preserve.children = {text_element("preserveFixedJoint", "true", joint.source)};
-      kept += print_xml(preserve);
-    }
+    const Element* joint = part_in(index.own, {"joint", name});
+    const std::string* type = joint == nullptr ? nullptr : joint->attribute("type");
+    if (type == nullptr || *type != "fixed") continue;
+    Element preserve = text_element("gazebo", "", joint->source);
+    preserve.attributes = {{"reference", name}};
+    preserve.children = {text_element("preserveFixedJoint", "true", joint->source)};
+    kept += print_xml(preserve);
   }
   const std::size_t end = text.rfind("</robot");
   return kept.empty() || end == std::string::npos ? text
                                                   : text.substr(0, end) + kept + text.substr(end);
 }
 
-// It has a plug-in that makes it follow, or a transmission.
-bool has_driver(const std::string& joint, const Element& robot, const Element& model) {
-  const auto follows = [&](const Element& plugin) {
-    return plugin.name == "plugin" && plugin.child_text("mimicJoint") == joint;
-  };
-  const auto drives = [&](const Element& transmission) {
-    if (transmission.name != "transmission") return false;
-    const auto driven = driven_by(transmission);
-    return std::any_of(driven.begin(), driven.end(),
-                       [&](const auto& each) { return each.first == joint; });
-  };
-  return std::any_of(model.children.begin(), model.children.end(), follows) ||
-         std::any_of(robot.children.begin(), robot.children.end(), drives);
+// Joints that a plug-in makes follow, or that have a transmission.
+std::set<std::string> driven_joints(const Element& robot, const Element& model) {
+  std::set<std::string> joints;
+  for (const Element& plugin : model.children) {
+    if (plugin.name == "plugin") joints.insert(plugin.child_text("mimicJoint"));
+  }
+  for (const Element& transmission : robot.children) {
+    if (transmission.name != "transmission") continue;
+    for (const auto& [joint, interface] : driven_by(transmission)) joints.insert(joint);
+  }
+  return joints;
 }
 
 // libsdformat drops <mimic>: a plug-in replaces it.
 void keep_mimics(const Element& robot, Element& model) {
+  const std::set<std::string> driven = driven_joints(robot, model);
   for (const Element& joint : robot.children) {
     const Element* mimic = joint.name == "joint" ? joint.child("mimic") : nullptr;
     const std::string* leader = mimic == nullptr ? nullptr : mimic->attribute("joint");
-    if (leader == nullptr || has_driver(name_of(joint), robot, model)) continue;
+    if (leader == nullptr || driven.count(name_of(joint)) != 0) continue;
     Element plugin = text_element("plugin", "", mimic->source);
     plugin.attributes = {{"name", name_of(joint) + "_mimic"},
                          {"filename", "libroboticsgroup_gazebo_mimic_joint_plugin.so"}};
@@ -296,18 +303,18 @@ Element convert_urdf(const std::string& text, const Element& robot) {
   const SilenceConsole silence;
   const sdf::SDFPtr document = empty_document(names_in(robot));
   sdf::Errors errors;
-  if (!sdf::readString(with_measured_joints(text, robot), document, errors) || !errors.empty()) {
+  const Index index = index_of(robot);
+  const std::string kept = with_measured_joints(text, robot, index);
+  if (!sdf::readString(kept, document, errors) || !errors.empty()) {
     const std::string why = errors.empty() ? silence.messages() : errors.front().Message();
     throw Error(robot.source, "this URDF cannot be converted to SDF: " + why.substr(0, 300));
   }
   Element root = parse_xml(document->Root()->ToString(""), robot.source.file);
-  place(root, &robot, robot, robot.source);
-  for (const Element& child : robot.children) {
-    if (child.name == "joint") keep_safety(child, root);
-  }
-  fix_plugins(robot, root);
+  place(root, &robot, index, robot.source);
   if (Element* model = find_child(root, "model")) {
-    keep_gravity(robot, *model);
+    keep_safety(index, *model);
+    fix_plugins(robot, index, *model);
+    keep_gravity(index, *model);
     keep_transmissions(robot, *model);
     keep_mimics(robot, *model);
   }

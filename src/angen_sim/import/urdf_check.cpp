@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxLinks = 1000;
 constexpr std::size_t kMaxChain = 200;  // joints from a link to the root
+constexpr std::size_t kMaxLumped = 100'000;
 
 void need_link(const Element& joint, const char* end, const std::set<std::string>& links) {
   const Element* element = joint.child(end);
@@ -85,6 +86,20 @@ void check_chains(const Element& robot, std::size_t links) {
   }
 }
 
+// libsdformat looks at each part of a <gazebo> for each fixed joint.
+void check_lumped(const Element& robot) {
+  std::size_t joints = 0, parts = 0;
+  for (const Element& child : robot.children) {
+    const std::string* type = child.name == "joint" ? child.attribute("type") : nullptr;
+    if (type != nullptr && *type == "fixed") ++joints;
+    if (child.name == "gazebo") parts += child.children.size();
+  }
+  if (joints * parts <= kMaxLumped) return;
+  throw Error(robot.source, std::to_string(joints) + " fixed joints with " + std::to_string(parts) +
+                                " elements in <gazebo>; their product may be at most " +
+                                std::to_string(kMaxLumped) + ": split the robot into several");
+}
+
 }  // namespace
 
 void check_robot(const Element& robot) {
@@ -107,6 +122,8 @@ void check_robot(const Element& robot) {
     need_link(child, "child", links);
   }
   check_chains(robot, links.size());
+  check_model_size(count_elements(robot), robot.source);  // its conversion would take long
+  check_lumped(robot);
 }
 
 }  // namespace angen::load

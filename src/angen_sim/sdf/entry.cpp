@@ -13,7 +13,6 @@ namespace angen::load {
 
 namespace {
 
-constexpr std::size_t kMaxModelElements = 10'000;
 constexpr std::size_t kBatchElements = 2'000;
 
 bool holds_include(const Element& element) {
@@ -45,10 +44,7 @@ void check_entry(Entry& entry, Session& session) {
     throw Error(element.source,
                 "<" + element.name + "> is not a model; give <model>, <include> or <actor>");
   }
-  if (count_elements(element) > kMaxModelElements) {
-    throw Error(entry.original.source, "more than " + std::to_string(kMaxModelElements) +
-                                           " elements in one model; split it into several");
-  }
+  check_model_size(count_elements(element), entry.original.source);
   check_memory(element, session);
   if (element.name == "model") check_model(element, session);
 }
