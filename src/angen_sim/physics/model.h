@@ -59,7 +59,7 @@ struct alignas(64) Geom {
   std::optional<double> damping;
   std::optional<double> min_depth;
   double thickness = std::numeric_limits<double>::infinity();  // m, of a box
-  double fastest = std::numeric_limits<double>::infinity();  // m/s, at which contacts push it out
+  double fastest = std::numeric_limits<double>::infinity();    // m/s, at which contacts push it out
   std::shared_ptr<const MeshData> mesh;
   std::shared_ptr<HeightTiles> tiles;  // of a heightmap
   ode::GeomHandle ode;                 // of a heightmap: the box around it
