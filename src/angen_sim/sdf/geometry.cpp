@@ -140,14 +140,12 @@ void check_size(const Shape& shape, const Element& element) {
               "<" + element.name + "> is " + number_text(largest) + " m large; " + problem);
 }
 
-/// Null where there is none and the document is tolerant.
+/// Null where the <geometry> has none and the document is tolerant.
 const Element* shape_in(const Reader& part, Session& session) {
   const Element* geometry = part.child("geometry");
   const Element& element = part.element();
   if (geometry == nullptr) {
-    session.warn_or_throw(
-        Error(element.source, tag_of(element) + " has no <geometry>; give it one, such as <box>"));
-    return nullptr;
+    throw Error(element.source, tag_of(element) + " has no <geometry>; give it one, such as <box>");
   }
   const bool single = geometry->children.empty() || geometry->children[0].name != "polyline";
   if (single && geometry->children.size() > 1) {
