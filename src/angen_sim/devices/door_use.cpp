@@ -58,16 +58,13 @@ HomeDoors by_name(const Home& home) {
   return doors;
 }
 
-const HomeDoor* described(const HomeDoors& doors, const std::string& name) {
-  const auto found = doors.find(name);
-  return found == doors.end() ? nullptr : found->second;
-}
-
 /// The other leaf of a double door, where one alone is narrow and both open to the same side.
 void find_partner(const Home& home, const std::vector<DoorSeen>& doors, DoorSeen& door) {
   if (door.width >= kAlone) return;
-  const HomeDoor* found = described(by_name(home), door.name);
-  const std::string partner = found == nullptr ? "" : found->partner;
+  std::string partner;
+  for (const HomeDoor& each : home.doors) {
+    if (each.name == door.name && each.kind == HomeDoor::Kind::kDoor) partner = each.partner;
+  }
   for (const DoorSeen& other : doors) {
     if (other.name != partner || other.slides != door.slides) continue;
     if (!door.slides && door.into.dot(other.into) < 0.9) continue;
@@ -110,7 +107,8 @@ std::vector<DoorSeen> doors_seen(const View& view, double z) {
     door.mode = device.state.get<std::string>("mode");
     door.width = device.state.get<double>("width");
     door.gap = device.state.get<double>("gap");
-    const HomeDoor* home = described(home_doors, door.name);
+    const auto known = home_doors.find(door.name);
+    const HomeDoor* home = known == home_doors.end() ? nullptr : known->second;
     if (!place(device.state, home, door)) continue;
     // A hinge may be at any height of its leaf.
     const double foot = home != nullptr ? home->pose.position.z()

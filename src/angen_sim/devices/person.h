@@ -111,8 +111,8 @@ class Person : public Device {
   bool waits_at_door_ = false;   // until another opens it
   bool waits_ = false;           // until it sees a free way
   Nanoseconds waits_since_ = 0;  // that
-  Vec2 circle_ = Vec2::Zero();   // middle of the one that it has not left …
-  Nanoseconds entered_at_ = 0;   // … since then
+  Vec2 circle_ = Vec2::Zero();   // middle of the one that it is in
+  Nanoseconds entered_at_ = 0;   // that circle
   Nanoseconds away_until_ = 0;   // of stepping back
   Vec2 back_to_ = Vec2::Zero();  // where it does so
   Nanoseconds retry_at_ = 0;     // if it sees a free way

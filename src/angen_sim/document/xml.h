@@ -38,7 +38,7 @@ std::string without_late_declaration(const std::string& text);
 std::string with_quotes(const std::string& text);
 
 std::size_t count_elements(const Element& element);
-/// Throws Error for a model of more than kMaxModelElements, which stands at `source`.
+/// Throws Error at `source` for a model of more than kMaxModelElements.
 void check_model_size(std::size_t elements, const Source& source);
 
 Element* find_child(Element& element, const std::string& name);

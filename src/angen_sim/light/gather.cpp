@@ -306,10 +306,14 @@ Rgb Gather::leaving(const rays::Ray& ray, const Source& source, std::size_t i, c
 /// Replaces the light of a direction by the mean of finer ones where it varies strongly, as at the
 /// edge of a door that is ajar, and follows such edges.
 void Gather::refine(const Source& source, std::vector<Rgb>& leaving) {
-  const std::vector<Rgb> coarse = leaving;
-  float sum = 0.0F;
-  for (const Rgb& light : coarse) sum += light.maxCoeff();
+  float sum = 0.0F, brightest = 0.0F;
+  for (const Rgb& light : leaving) {
+    sum += light.maxCoeff();
+    brightest = std::max(brightest, light.maxCoeff());
+  }
   const float step = std::max(kStepLux, kStepShare * sum / static_cast<float>(kDirections));
+  if (brightest <= step) return;
+  const std::vector<Rgb> coarse = leaving;
   std::vector<std::size_t> edges;
   std::vector<bool> listed(kDirections, false);
   const auto list = [&](std::size_t i) {
@@ -317,7 +321,7 @@ void Gather::refine(const Source& source, std::vector<Rgb>& leaving) {
     listed[i] = true;
   };
   for (std::size_t i = 0; i < kDirections; ++i) {
-    for (const std::size_t other : beside(i)) {
+    for (const std::size_t other : neighbors()[i]) {
       if ((coarse[i] - coarse[other]).abs().maxCoeff() > step) list(i);
     }
   }
@@ -335,7 +339,7 @@ void Gather::refine(const Source& source, std::vector<Rgb>& leaving) {
     }
     leaving[i] = mean;
     if ((most - least).maxCoeff() <= step) continue;
-    for (const std::size_t other : beside(i)) list(other);
+    for (const std::size_t other : neighbors()[i]) list(other);
   }
 }
 

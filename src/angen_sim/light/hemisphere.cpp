@@ -40,11 +40,18 @@ const std::vector<Vec3>& gather_directions() {
   return all;
 }
 
-std::array<std::size_t, 4> beside(std::size_t i) {
-  const std::size_t ring = i / kParts * kParts, part = i % kParts;
-  const std::size_t around = reversed(part);
-  return {ring + reversed((around + 1) % kParts), ring + reversed((around + kParts - 1) % kParts),
-          i < kParts ? i : i - kParts, i + kParts < kDirections ? i + kParts : i};
+const std::vector<std::array<std::size_t, 4>>& neighbors() {
+  static const std::vector<std::array<std::size_t, 4>> all = [] {
+    std::vector<std::array<std::size_t, 4>> found;
+    for (std::size_t i = 0; i < kDirections; ++i) {
+      const std::size_t ring = i / kParts * kParts, around = reversed(i % kParts);
+      found.push_back({ring + reversed((around + 1) % kParts),
+                       ring + reversed((around + kParts - 1) % kParts), i < kParts ? i : i - kParts,
+                       i + kParts < kDirections ? i + kParts : i});
+    }
+    return found;
+  }();
+  return all;
 }
 
 std::array<Vec3, kFineDirections> fine_directions(std::size_t i) {

@@ -15,9 +15,9 @@ constexpr std::size_t kFineDirections = 8;  // in the cell of one of them
 /// lattice: 16 rings, each with 128 parts of its circle, all of the same weight.
 const std::vector<Vec3>& gather_directions();
 
-/// The directions of the four cells beside that of direction `i`; itself beyond the outermost and
-/// the innermost ring.
-std::array<std::size_t, 4> beside(std::size_t i);
+/// By direction: those of the four cells beside its own; itself beyond the outermost and the
+/// innermost ring.
+const std::vector<std::array<std::size_t, 4>>& neighbors();
 
 /// More directions in the cell of direction `i`, evenly spread.
 std::array<Vec3, kFineDirections> fine_directions(std::size_t i);

@@ -38,7 +38,8 @@ TEST(Hemisphere, NeighborsAreBeside) {
                             {std::max(ring - 1, 0), part},
                             {std::min(ring + 1, 15), part}};
     std::set<Cell> found;
-    for (const std::size_t other : beside(i)) found.insert(cell_of(gather_directions()[other]));
+    for (const std::size_t other : neighbors()[i])
+      found.insert(cell_of(gather_directions()[other]));
     EXPECT_EQ(found, expected) << i;
   }
 }
