@@ -21,6 +21,7 @@ void world(const std::string& input);
 void urdf(const std::string& input);
 void mesh(const std::string& input);
 void png(const std::string& input);
+void jpeg(const std::string& input);
 void cache(const std::string& input);
 void params(const std::string& input);
 void command(const std::string& input);
@@ -30,9 +31,9 @@ void replay(const std::string& input);
 
 inline const std::vector<Target>& targets() {
   static const std::vector<Target> all = {
-      {"xml", xml},         {"world", world}, {"urdf", urdf},     {"mesh", mesh},
-      {"png", png},         {"cache", cache}, {"params", params}, {"command", command},
-      {"service", service}, {"sim", sim},     {"replay", replay}};
+      {"xml", xml},         {"world", world},     {"urdf", urdf},   {"mesh", mesh},
+      {"png", png},         {"jpeg", jpeg},       {"cache", cache}, {"params", params},
+      {"command", command}, {"service", service}, {"sim", sim},     {"replay", replay}};
   return all;
 }
 
