@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kOnSurface = 1e-9;  // m
 constexpr std::size_t kSides = 64;   // of the polygon that approximates a disc
+constexpr std::size_t kArc = 16;     // points of the polygon on an arc of a tube's end
 
 double area_of(const Lamp& lamp) {
   return lamp.type == Lamp::Type::kDisc ? M_PI * lamp.radius * lamp.radius
@@ -125,22 +126,27 @@ double flat_illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal)
   return luminance * polygon_illuminance(corners_of(lamp, point), normal);
 }
 
-/// A thin tube looks like a strip as wide as it is thick that faces the point.
+/// The skin of a tube that a point sees is bounded by the arcs of both ends that face it and by the
+/// two lines where planes through the point touch the skin.
 double tube_illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal) {
   const Vec3 along = axes_of(lamp).along;
   const Vec3 middle = lamp.pose.position - point;
   const Vec3 away = middle - middle.dot(along) * along;
-  const double distance = std::max(away.norm(), lamp.radius);
-  if (distance < kOnSurface) return 0.0;
-  const Vec3 across = lamp.radius * along.cross(away / distance);
-  const Vec3 half = lamp.length / 2 * along;
-  Corners strip;
-  for (const Vec3& corner :
-       {Vec3(-half - across), Vec3(half - across), Vec3(half + across), Vec3(across - half)}) {
-    strip.at[strip.count++] = middle + corner;
+  const double distance = away.norm();
+  if (distance <= lamp.radius) return 0.0;  // the ends are dark
+  const Vec3 facing = -away / distance;
+  const Vec3 across = along.cross(facing);
+  const double reach = std::acos(lamp.radius / distance);
+  Corners seen;
+  for (std::size_t i = 0; i < 2 * kArc; ++i) {
+    const bool far = i >= kArc;
+    const double step = static_cast<double>(far ? 2 * kArc - 1 - i : i) / (kArc - 1);
+    const double angle = reach * (2.0 * step - 1.0);
+    seen.at[seen.count++] = middle + (far ? 0.5 : -0.5) * lamp.length * along +
+                            lamp.radius * (std::cos(angle) * facing + std::sin(angle) * across);
   }
   const double skin = 2.0 * M_PI * lamp.radius * lamp.length;
-  return lamp.luminous_flux / (M_PI * skin) * polygon_illuminance(strip, normal);
+  return lamp.luminous_flux / (M_PI * skin) * polygon_illuminance(seen, normal);
 }
 
 /// A uniform sphere that the plane may cut: J. M. Snyder, Area light sources for real-time graphics

@@ -22,8 +22,8 @@ struct Beam {
 /// Inverse-square law, with the distance clamped to the lamp's radius.
 Beam beam(const Lamp& lamp, const Vec3& point);
 
-/// Unobstructed lx on the plane through `point` with the unit `normal`. Exact for flat lamps
-/// (Lambert's formula for a uniform diffuse polygon; a disc is approximated by 64 sides).
+/// Unobstructed lx on the plane through `point` with the unit `normal`. Exact for flat lamps and
+/// tubes (Lambert's formula for a uniform diffuse polygon; 64 sides approximate a disc, 15 an arc).
 double illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal);
 
 }  // namespace angen::light

@@ -168,11 +168,12 @@ TEST(Reference, AnOpalGlobeThatThePlaneCuts) {
 }
 
 TEST(Reference, UnderTheMiddleOfATube) {
-  // A thin line: I' / d (a + sin a cos a), a the angle to its end; I' cd/m across it.
+  // A thin line: I' / d (a + sin a cos a), a the angle to its end; I' cd/m across it. The skin of a
+  // thick one is nearer.
   Lamp tube = point_lamp(Vec3(0, 0, 1), 1000.0);
   tube.type = Lamp::Type::kTube;
   tube.length = 1.2;
-  tube.radius = 0.008;
+  tube.radius = 0.002;
   const Open open(tube);
   for (const double distance : {0.3, 1.0, 4.0}) {
     const double a = std::atan(0.6 / distance);
@@ -182,6 +183,43 @@ TEST(Reference, UnderTheMiddleOfATube) {
                 0.002 * expected);
   }
   EXPECT_NEAR(lux(open.lighting, facing(Vec3(30, 0, 1), -Vec3::UnitX())), 0.0, 1e-3);  // its end
+}
+
+// Small pieces of a tube's skin, along x at the origin: L cos cos / d^2 of each that faces the
+// point.
+double summed_tube(const Lamp& tube, const Vec3& point, const Vec3& normal) {
+  constexpr int kAlong = 400, kAround = 360;
+  double sum = 0.0;
+  for (int i = 0; i < kAlong; ++i) {
+    for (int k = 0; k < kAround; ++k) {
+      const double angle = 2 * M_PI * (k + 0.5) / kAround;
+      const Vec3 out(0, std::cos(angle), std::sin(angle));
+      const Vec3 way =
+          Vec3(tube.length * ((i + 0.5) / kAlong - 0.5), 0, 0) + tube.radius * out - point;
+      const double leaves = -way.dot(out), arrives = way.dot(normal);
+      if (leaves > 0 && arrives > 0) sum += leaves * arrives / std::pow(way.squaredNorm(), 2);
+    }
+  }
+  return tube.luminous_flux / M_PI / (kAlong * kAround) * sum;
+}
+
+TEST(Reference, ATubesLightIsTheSumOverItsSkin) {
+  Lamp tube = point_lamp(Vec3(0, 0, 0), 1000.0);
+  tube.type = Lamp::Type::kTube;
+  for (const auto& [length, radius] : {std::pair{1.2, 0.013}, {0.6, 0.02}, {0.3, 0.06}}) {
+    tube.length = length;
+    tube.radius = radius;
+    const Open open(tube);
+    for (const Vec3& point : {Vec3(1.1, 0, 0.05), Vec3(0.9, 0.1, 0), Vec3(0.4, 0, -0.1),
+                              Vec3(0, 0.08, 0), Vec3(-1.5, 0.5, 1)}) {
+      for (const Vec3& normal : {Vec3(Vec3::UnitY()), Vec3(-Vec3::UnitZ()), Vec3(-Vec3::UnitX()),
+                                 Vec3(-point.normalized()), Vec3(Vec3(-1, 1, 1).normalized())}) {
+        const double expected = summed_tube(tube, point, normal);
+        EXPECT_NEAR(lux(open.lighting, facing(point, normal)), expected, 0.005 * expected + 0.05)
+            << length << " m at " << point.transpose() << ", facing " << normal.transpose();
+      }
+    }
+  }
 }
 
 TEST(Reference, ATubesFluxIsTheIntegralOverASphere) {
