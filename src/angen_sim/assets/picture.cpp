@@ -26,27 +26,6 @@ void check_size(std::uint64_t width, std::uint64_t height, unsigned least, unsig
   }
 }
 
-Texture png_picture(const std::string& bytes) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) {
-    throw Rejected("is damaged: " + std::string(image.message));
-  }
-  check_size(image.width, image.height, 1, kMaxSide);
-  image.format = PNG_FORMAT_RGBA;
-  std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
-  if (png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) == 0) {
-    throw Rejected("is damaged: " + std::string(image.message));
-  }
-  Texture made{image.width, image.height, {}};
-  made.bytes.reserve(pixels.size() / 4 * 3);
-  for (std::size_t i = 0; i < pixels.size(); i += 4) {
-    made.bytes.insert(made.bytes.end(), pixels.begin() + static_cast<std::ptrdiff_t>(i),
-                      pixels.begin() + static_cast<std::ptrdiff_t>(i) + 3);
-  }
-  return made;
-}
-
 // libjpeg's way back from an error is not to come back.
 [[noreturn]] void fail(j_common_ptr jpeg) {
   std::array<char, JMSG_LENGTH_MAX> message{};
@@ -137,13 +116,21 @@ struct PngReader {
     left.remove_prefix(count);
   }
 
-  // Palettes and fewer than 8 bits become 8 bits; transparency is dropped.
-  bool read_header() {
+  // Palettes and fewer than 8 bits become 8 bits; transparency is dropped. Colors are those of
+  // sRGB, in 8 bits; grays keep their values.
+  bool read_header(bool colors) {
     if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) return false;
     png_set_read_fn(png, this, &PngReader::read);
     // Texts and profiles change no sample, and libpng allocates as much memory as their length
     // claims.
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+    if (colors) {
+      png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT,
+                                  reinterpret_cast<png_const_bytep>("gAMA\0sRGB"), 2);
+      png_set_gamma(png, PNG_DEFAULT_sRGB, PNG_DEFAULT_sRGB);
+      png_set_scale_16(png);
+      png_set_gray_to_rgb(png);
+    }
     png_read_info(png, info);
     png_set_expand(png);
     png_set_strip_alpha(png);
@@ -159,36 +146,49 @@ struct PngReader {
   }
 };
 
+// A picture's samples, row by row, after its header was read.
+std::vector<png_byte> samples_of(PngReader& reader) {
+  const std::size_t stride = png_get_rowbytes(reader.png, reader.info);
+  std::vector<png_byte> samples(stride * png_get_image_height(reader.png, reader.info));
+  std::vector<png_bytep> rows;
+  for (std::size_t at = 0; at < samples.size(); at += stride) rows.push_back(&samples[at]);
+  if (!reader.read_rows(rows.data())) throw Rejected("is damaged: " + reader.problem);
+  return samples;
+}
+
+Texture png_picture(const std::string& bytes) {
+  PngReader reader(bytes);
+  if (!reader.read_header(true)) throw Rejected("is damaged: " + reader.problem);
+  Texture made{png_get_image_width(reader.png, reader.info),
+               png_get_image_height(reader.png, reader.info),
+               {}};
+  check_size(made.width, made.height, 1, kMaxSide);
+  made.bytes = samples_of(reader);
+  return made;
+}
+
 }  // namespace
 
 GrayImage gray_picture_of(const std::string& bytes, unsigned least) {
   PngReader reader(bytes);
-  if (!reader.read_header()) {
+  if (!reader.read_header(false)) {
     throw Rejected("cannot be read: " + reader.problem + "; give a grayscale PNG of 8 or 16 bits");
   }
   GrayImage image;
   image.width = png_get_image_width(reader.png, reader.info);
   image.height = png_get_image_height(reader.png, reader.info);
   check_size(image.width, image.height, least, kMaxPngSide);
-  const std::size_t stride = png_get_rowbytes(reader.png, reader.info);
-  std::vector<png_byte> pixels(stride * image.height);
-  std::vector<png_bytep> rows;
-  for (unsigned row = 0; row < image.height; ++row) rows.push_back(&pixels[row * stride]);
-  if (!reader.read_rows(rows.data())) {
-    throw Rejected("is damaged: " + reader.problem);
-  }
+  const std::vector<png_byte> raw = samples_of(reader);
   // One sample a pixel, or three of a color image: then their mean.
   const std::size_t samples = png_get_channels(reader.png, reader.info);
   const bool wide = png_get_bit_depth(reader.png, reader.info) == 16;
   image.values.reserve(std::size_t{image.width} * image.height);
-  for (const png_bytep row : rows) {
-    for (std::size_t column = 0; column < image.width; ++column) {
-      double sum = 0.0;
-      for (std::size_t i = column * samples; i < (column + 1) * samples; ++i) {
-        sum += wide ? (row[2 * i] * 256 + row[2 * i + 1]) / 65535.0 : row[i] / 255.0;
-      }
-      image.values.push_back(sum / static_cast<double>(samples));
+  for (const png_byte* at = raw.data(); at < raw.data() + raw.size();) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < samples; ++i, at += wide ? 2 : 1) {
+      sum += wide ? (at[0] * 256 + at[1]) / 65535.0 : at[0] / 255.0;
     }
+    image.values.push_back(sum / static_cast<double>(samples));
   }
   return image;
 }

@@ -7,8 +7,9 @@
 
 #include <cstdlib>
 
-#include "angen_sim/sdf/texts.h"
+#include "angen_sim/assets/pngs.h"
 #include "assets/mesh.h"
+#include "document/xml.h"
 #include "sdf/geometry.h"
 
 namespace angen::load {
@@ -241,6 +242,21 @@ TEST_F(Converter, PicturesThatAreDamagedOrTooLargeAreRejected) {
   EXPECT_NE(complaint(large + "\x11\x22\x33\x44"), "");
   EXPECT_THROW(decode_texture("angtext1"), Error);
   EXPECT_THROW(decode_gray("anggray1"), Error);
+}
+
+TEST_F(Converter, APictureOf16BitsHasTheColorsOfOneOf8) {
+  const Folder folder;
+  for (const auto gamma :
+       {PngFormat::Gamma::kNone, PngFormat::Gamma::kGama, PngFormat::Gamma::kSrgb}) {
+    for (const int bits : {8, 16}) {
+      const unsigned unit = bits == 16 ? 257 : 1;
+      const std::string path =
+          png(folder, 2, 1, {97 * unit, 0, 255 * unit, 1 * unit, 2 * unit, 200 * unit},
+              {bits, PNG_COLOR_TYPE_RGB, gamma});
+      const Texture made = decode_texture(convert_texture(mesh_program(), read_file(path)));
+      EXPECT_EQ(made.bytes, (std::vector<std::uint8_t>{97, 0, 255, 1, 2, 200}));
+    }
+  }
 }
 
 // The limit holds in angen_mesh itself: a small file that assimp would need gigabytes for.
