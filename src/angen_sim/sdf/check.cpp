@@ -163,6 +163,15 @@ void check_axes(Element& joint, Session& session) {
   }
 }
 
+bool joins_itself(const Element& joint) {
+  const std::string child = joint.child_text("child");
+  return !child.empty() && child == joint.child_text("parent");
+}
+
+std::string to_itself(const Element& joint) {
+  return tag_of(joint) + " joins '" + printable(joint.child_text("child")) + "' to itself";
+}
+
 void check_joint(Element& joint, const std::set<std::string>& known, Session& session) {
   const std::string* type = joint.attribute("type");
   if (type == nullptr || kJoints.count(*type) == 0) {
@@ -173,10 +182,7 @@ void check_joint(Element& joint, const std::set<std::string>& known, Session& se
   }
   check_joint_end(joint, "parent", known);
   check_joint_end(joint, "child", known);
-  if (joint.child_text("parent") == joint.child_text("child")) {
-    throw Error(joint.source, tag_of(joint) + " joins '" + joint.child_text("child") +
-                                  "' to itself; name two links");
-  }
+  if (joins_itself(joint)) throw Error(joint.source, to_itself(joint) + "; name two links");
   check_axes(joint, session);
 }
 
@@ -193,6 +199,7 @@ std::optional<Error> left_out(const Element& joint, const std::set<std::string>&
     return Error(element->source, tag_of(joint) + " names an unknown link '" +
                                       printable(element->text) + "'; it is left out");
   }
+  if (joins_itself(joint)) return Error(joint.source, to_itself(joint) + "; it is left out");
   return std::nullopt;
 }
 

@@ -1,8 +1,7 @@
 // libmicrophone.so
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <utility>
+#include <optional>
 
 #include "plugin/register.h"
 #include "plugin/rooms.h"
@@ -102,7 +101,7 @@ class Microphone : public Sensor {
     const Hearing hearing = listen(view, here);
     double sum = background_;
     for (const DeviceView& source : view.devices("sound_power_level", hearing.within)) {
-      sum += heard(source, here, hearing);
+      sum += heard(view, source, here, hearing);
     }
     const double level = to_decibels(sum);
     const bool loud = level > (loud_ ? threshold_ - kHysteresis : threshold_);
@@ -118,46 +117,36 @@ class Microphone : public Sensor {
   bool steady() const override { return true; }
 
  private:
-  /// A room of the world: its plan, and which of the plan's; neither outdoors.
-  struct Place {
-    std::size_t plan = SIZE_MAX;
-    int room = RoomPlan::kOutside;
-    bool operator==(const Place& other) const { return plan == other.plan && room == other.room; }
-  };
-
-  /// The plan that the microphone is in, or all of the world outdoors; where it is in it, and what
-  /// it has of the sound in each room.
+  /// The room that the microphone is in, and what it has of the sound in each room of its plan; or
+  /// all of the world outdoors.
   struct Hearing {
-    std::vector<RoomPlan> plans;
-    Eigen::AlignedBox3d within;  // m: it hears nothing from elsewhere
-    Place here;
-    std::vector<double> gains;  // none outdoors
-
-    Place place_of(const Vec3& point) const {
-      for (std::size_t i = 0; i < plans.size(); ++i) {
-        const int room = plans[i].at(point);
-        if (room != RoomPlan::kOutside) return {i, room};
-      }
-      return {};
-    }
+    std::optional<RoomPlan> plan;  // none outdoors
+    Eigen::AlignedBox3d within;    // m: it hears nothing from elsewhere
+    int here = RoomPlan::kOutside;
+    std::vector<double> gains;
   };
+
+  /// The room at a point; null outdoors, and in rooms that no climate describes.
+  static const Room* room_at(const View& view, const Vec3& point) {
+    const Room* room = view.home().room_at(point);
+    if (room == nullptr) return nullptr;
+    const std::vector<DeviceView> all = climates(view);
+    const bool known = std::any_of(
+        all.begin(), all.end(), [&](const DeviceView& each) { return each.model == room->model; });
+    return known ? room : nullptr;
+  }
 
   Hearing listen(const View& view, const Vec3& here) const {
     Hearing hearing;
-    for (const DeviceView& climate : climates(view)) {
-      RoomPlan plan = room_plan(view, climate.model);
-      const int room = plan.at(here);
-      if (room != RoomPlan::kOutside) {
-        hearing.within = layer_of(plan);
-        hearing.gains = field(view, plan, hearing.within).gains(room);
-        hearing.plans.clear();
-        hearing.plans.push_back(std::move(plan));
-        hearing.here = {0, room};
-        return hearing;
-      }
-      hearing.plans.push_back(std::move(plan));
+    const Room* room = room_at(view, here);
+    if (room == nullptr) {
+      hearing.within = {Vec3::Constant(-HUGE_VAL), Vec3::Constant(HUGE_VAL)};
+      return hearing;
     }
-    hearing.within = {Vec3::Constant(-HUGE_VAL), Vec3::Constant(HUGE_VAL)};
+    hearing.plan.emplace(room_plan(view, room->model));
+    hearing.here = hearing.plan->at(here);
+    hearing.within = layer_of(*hearing.plan);
+    hearing.gains = field(view, *hearing.plan, hearing.within).gains(hearing.here);
     return hearing;
   }
 
@@ -184,19 +173,19 @@ class Microphone : public Sensor {
   }
 
   // As a power whose level over 1 pW is the sound pressure level.
-  static double heard(const DeviceView& source, const Vec3& here, const Hearing& hearing) {
+  static double heard(const View& view, const DeviceView& source, const Vec3& here,
+                      const Hearing& hearing) {
     const auto* offset = source.state.get_if<std::vector<double>>("position");
     const bool is_place = offset != nullptr && offset->size() == 3;  // not, say, that of a joint
     const Vec3 at = is_place ? source.pose * Vec3::Map(offset->data()) : source.pose.position;
     const double power = from_decibels(source.state.get<double>("sound_power_level"));
-    const Place room = hearing.place_of(at);
+    const int room = hearing.plan ? hearing.plan->at(at) : RoomPlan::kOutside;
+    const bool together = hearing.plan ? room == hearing.here : room_at(view, at) == nullptr;
     double gain = 0.0;
-    if (room == hearing.here) {
+    if (together) {
       gain += direct_gain((at - here).norm(), source.state.get<double>("directivity", 1.0));
     }
-    if (!hearing.gains.empty() && room.plan == hearing.here.plan) {
-      gain += hearing.gains[static_cast<std::size_t>(room.room)];
-    }
+    if (room != RoomPlan::kOutside) gain += hearing.gains[static_cast<std::size_t>(room)];
     return power * gain;
   }
 

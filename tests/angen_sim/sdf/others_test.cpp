@@ -122,6 +122,17 @@ TEST(Others, JointsThatWeLackAreLeftOutAndCounted) {
   EXPECT_NE(warnings_of(world).find("(and 5 more like it, up to line 7)"), std::string::npos);
 }
 
+TEST(Others, AJointOfALinkWithItselfIsLeftOut) {
+  const desc::World world = read_loosely(
+      in_model(two_links() + "\n<joint name='j' type='fixed'><parent>a</parent><child>a</child>"
+                             "</joint>"));
+  EXPECT_TRUE(world.models[0].joints.empty());
+  EXPECT_NE(
+      warnings_of(world).find("w.world:2: <joint name=\"j\"> joins 'a' to itself; it is left"),
+      std::string::npos)
+      << warnings_of(world);
+}
+
 // A joint of ODE has them until somebody sets others; gazebo_models' demo_joint_types has such a
 // universal joint.
 TEST(Others, AJointWithoutAnAxisHasThoseOfOde) {
