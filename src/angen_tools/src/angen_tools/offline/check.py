@@ -16,7 +16,7 @@ from angen_tools.world import models
 
 MISSPELLED = re.compile(r' is not known; did you mean <\w+>\?$'
                         r'|plug-in library .* is not found; did you mean \S+\?'
-                        r"|names an unknown link '.*'; it is left out$"
+                        r"|(names an unknown link '.*'|joins '.*' to itself); it is left out$"
                         r"|unknown joint type '(?!gearbox'|piston')")  # those two are SDF's
 NOT_INCLUDED = re.compile(r'(.*: )an <include> has no <(\w+)>')
 OUR_OWN = re.compile(r': <angen:\w+> in <\w+>$')
