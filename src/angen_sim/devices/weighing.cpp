@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kWeighShare = 0.2;        // of each new weighing, at the rate of publishing
 constexpr double kStandardGravity = 9.81;  // m/s^2
-constexpr double kGreatestLoad = 2000.0;   // kg
+constexpr double kGreatestLoad = 2000.0;   // kg, or twice the rated load: more is a blow
 
 // An overload is more than the rated load by 10 %, and by 75 kg at least (EN 81-20, 5.12.1.2).
 constexpr double kRatedLoad = 630.0;  // kg, eight persons
@@ -37,7 +37,8 @@ bool Weighing::is_heavy() const {
 double Weighing::weigh(const JointView& lift, const View& view) const {
   const double gravity = -view.gravity().z();
   if (gravity <= 0.0) return mass_;
-  const double felt = std::clamp(lift.effort / gravity, own_mass_, own_mass_ + kGreatestLoad);
+  const double greatest = std::max(kGreatestLoad, 2.0 * rated_load_);
+  const double felt = std::clamp(lift.effort / gravity, own_mass_, own_mass_ + greatest);
   return mass_ + kWeighShare * (felt - mass_);
 }
 

@@ -15,8 +15,9 @@ TEST(Elevator, WithAnOverloadItStaysWithOpenDoorsUntilSomethingIsTakenOut) {
     double load;  // kg
     bool leaves;
   };
-  for (const Case& c : {Case{"630", 690.0, true}, Case{"630", 720.0, false},
-                        Case{"1000", 1085.0, true}, Case{"1000", 1115.0, false}}) {
+  for (const Case& c :
+       {Case{"630", 690.0, true}, Case{"630", 720.0, false}, Case{"1000", 1085.0, true},
+        Case{"1000", 1115.0, false}, Case{"2000", 2180.0, true}, Case{"2000", 2300.0, false}}) {
     Bench bench;
     Rig& rig = add_elevator(bench, 400.0, {{"rated_load", c.rated}});
     const physics::ModelId load = bench.add(box("load", {0.2, 0.1, 0.21}, {0.4, 0.4, 0.4}, c.load));
