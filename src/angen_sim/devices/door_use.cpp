@@ -19,6 +19,8 @@ constexpr double kAtSpot = 0.07;                  // m
 constexpr double kBeforeHandle = 0.5;             // m, to push or slide
 constexpr double kHandleInside = 0.07;            // m, of a leaf's edge
 constexpr double kOutOfSwing = 0.37;              // m beyond the leaf's edge
+constexpr double kOwnPlace = 0.1;                 // m: nearer is the person itself
+constexpr double kBothStand = 0.5;                // m, between two people
 constexpr double kBehind = 0.4;                   // m past a door, to close it
 constexpr double kForgets = 4.0;                  // m
 constexpr double kSeesDoor = 2.0;                 // m, before the leaf
@@ -71,6 +73,18 @@ void find_partner(const Home& home, const std::vector<DoorSeen>& doors, DoorSeen
     door.partner = other.name;
     door.partner_mode = other.mode;
   }
+}
+
+/// Whether another person than the one at `feet` stands there.
+bool is_taken(const View& view, const Vec3& feet, const Surroundings::Vec2& place) {
+  for (const DeviceView& person : view.devices("unreachable")) {
+    const Vec3 other(person.state.get<double>("x"), person.state.get<double>("y"),
+                     person.state.get<double>("z"));
+    const bool is_self = (other - feet).norm() < kOwnPlace;
+    if (is_self || std::abs(other.z() - feet.z()) > kStoreyWithin) continue;
+    if ((other.head<2>() - place).norm() < kBothStand) return true;
+  }
+  return false;
 }
 
 /// Where its leaf turns or slides; false where that is not known.
@@ -175,6 +189,7 @@ DoorUse::Vec2 DoorUse::free_spot(const View& view, const Vec3& feet) const {
   if (door_.slides || side_ < 0.0) return handle() + side_ * kBeforeHandle * door_.into;
   const std::vector<Vec2> places = spots();
   for (const Vec2& place : places) {
+    if (is_taken(view, feet, place)) continue;
     if (FloorMap(view, feet, place, FloorMap::Extent::kStraight).is_free(place)) return place;
   }
   return places.front();
@@ -213,6 +228,7 @@ DoorUse::Advice DoorUse::update(const View& view, const Vec3& feet, const Vec2& 
   const Vec2 at = feet.head<2>();
   switch (phase_) {
     case Phase::kApproach:
+      if (looks && is_in_swing(at) && is_taken(view, feet, spot_)) spot_ = free_spot(view, feet);
       return approach(at, view.time(), outputs);
     case Phase::kOpening:
       return wait_until_open(view.time());
@@ -241,13 +257,14 @@ DoorUse::Advice DoorUse::approach(const Vec2& at, Nanoseconds now, Outputs& outp
     enter(Phase::kPassing, now);
     return {};
   }
-  if (door_.mode == "OPENING") {  // another person opens it
+  const bool opens = door_.mode == "OPENING";  // another person opens it
+  if (opens && !is_in_swing(at)) {
     enter(Phase::kOpening, now);
     return {Advice::Step::kStand, handle()};
   }
   const Nanoseconds time = now - since_;
   const bool reaches = time > kNearEnough && (at - handle()).norm() < kReach;
-  if ((at - spot_).norm() < kAtSpot || reaches) {
+  if (!opens && ((at - spot_).norm() < kAtSpot || reaches)) {
     if (!opens_) {
       enter(Phase::kWaiting, now);
       return {Advice::Step::kWait, handle()};
@@ -260,6 +277,15 @@ DoorUse::Advice DoorUse::approach(const Vec2& at, Nanoseconds now, Outputs& outp
   }
   if (time > kLongest) return fail(now);
   return {Advice::Step::kGo, spot_};
+}
+
+// Where a leaf that opens would hit it.
+bool DoorUse::is_in_swing(const Vec2& at) const {
+  if (door_.slides || side_ < 0.0) return false;
+  const double reach = door_.width + kOutOfSwing - kAtSpot;
+  const Vec2 other = door_.hinge + 2.0 * door_.width * door_.along;
+  const bool of_other = !door_.partner.empty() && (at - other).norm() < reach;
+  return of_other || (at - door_.hinge).norm() < reach;
 }
 
 DoorUse::Advice DoorUse::wait_until_open(Nanoseconds now) {

@@ -66,6 +66,7 @@ class DoorUse {
   Advice wait_until_open(Nanoseconds now);
   Advice fail(Nanoseconds now);
   Advice pass(const Vec2& at, Nanoseconds now, Outputs& outputs);
+  bool is_in_swing(const Vec2& at) const;
   bool moves() const { return door_.mode == "OPENING" || door_.partner_mode == "OPENING"; }
   Vec2 handle() const;
   /// The person's place to open the door.

@@ -1,0 +1,41 @@
+"""Several people who are sent through one door at the same time, from both sides."""
+from __future__ import annotations
+
+from math import hypot
+from typing import Callable
+
+import pytest
+
+import angen
+from sdf_text import box
+
+DOORS = '<plugin name="door_controller" filename="libdoor_world_plugin.so"/>'
+# Two rooms of 7 m x 4 m, and a door between them, from 0 to 0.99 m.
+ROOMS = ''.join(box(name, pose, size, True) for name, pose, size in (
+    ('wall_west', '-1.55 0.06 1.3 0 0 0', '2.9 0.12 2.6'),
+    ('wall_east', '2.55 0.06 1.3 0 0 0', '2.9 0.12 2.6'),
+    ('north', '0.5 4 1.3 0 0 0', '8 0.1 2.6'), ('south', '0.5 -4 1.3 0 0 0', '8 0.1 2.6'),
+    ('west', '-3 0 1.3 0 0 0', '0.1 8 2.6'), ('east', '4 0 1.3 0 0 0', '0.1 8 2.6')))
+DOOR = '<include><name>kitchen_door0</name><uri>model://kitchen_door</uri></include>'
+
+
+@pytest.mark.parametrize('closes', ['false'])
+@pytest.mark.parametrize('count', [2, 3, 4])
+def test_people_from_both_sides_get_through_a_door(world: Callable[..., angen.World], count: int,
+                                                   closes: str) -> None:
+    people, goals = '', []
+    for i in range(count):
+        side, pair = 1 - 2 * (i % 2), i // 2
+        people += f'''<actor name="p{i}">
+          <pose>{-1.2 + 0.8 * pair + 0.1 * i} {side * (1.6 + 0.5 * pair)} 0 0 0 0</pose>
+          <plugin name="p" filename="libperson_controller.so"><closes_doors>{closes}</closes_doors>
+          </plugin></actor>'''
+        goals.append((-1.0 + 0.9 * pair + 0.2 * i, -side * (2.6 - 0.5 * pair)))
+    w = world(ROOMS + DOOR + people, DOORS)
+    w.run(1.0)
+    for i, goal in enumerate(goals):
+        w.command('person', f'p{i}', f'GoTo {goal[0]} {goal[1]}')
+    w.run(90.0)
+    for i, goal in enumerate(goals):
+        state = w.device('person', f'p{i}')
+        assert hypot(state['x'] - goal[0], state['y'] - goal[1]) < 0.1, f'p{i} of {count}'
