@@ -19,7 +19,7 @@ ROOMS = ''.join(box(name, pose, size, True) for name, pose, size in (
 DOOR = '<include><name>kitchen_door0</name><uri>model://kitchen_door</uri></include>'
 
 
-@pytest.mark.parametrize('closes', ['false'])
+@pytest.mark.parametrize('closes', ['false', 'true'])
 @pytest.mark.parametrize('count', [2, 3, 4])
 def test_people_from_both_sides_get_through_a_door(world: Callable[..., angen.World], count: int,
                                                    closes: str) -> None:

@@ -19,6 +19,7 @@ constexpr double kAtSpot = 0.07;                  // m
 constexpr double kBeforeHandle = 0.5;             // m, to push or slide
 constexpr double kHandleInside = 0.07;            // m, of a leaf's edge
 constexpr double kOutOfSwing = 0.37;              // m beyond the leaf's edge
+constexpr double kLeafSkin = 0.1;                 // m, from the line of a shut leaf to its sides
 constexpr double kOwnPlace = 0.1;                 // m: nearer is the person itself
 constexpr double kBothStand = 0.5;                // m, between two people
 constexpr double kBehind = 0.4;                   // m past a door, to close it
@@ -111,6 +112,14 @@ bool place(const Reading& state, const HomeDoor* home, DoorSeen& door) {
 
 bool DoorSeen::is_passable() const { return gap >= std::min(kNeeded, 0.9 * width); }
 
+bool DoorSeen::hides(const Vec2& point, const Vec2& from) const {
+  if (is_passable()) return false;
+  const Vec2 offset = point - hinge;
+  const double at = along.dot(offset);
+  const bool on_leaf = std::abs(into.dot(offset)) < kLeafSkin && at > 0.0 && at < width;
+  return on_leaf || meeting(from, point, hinge, edge()).has_value();
+}
+
 std::vector<DoorSeen> doors_seen(const View& view, double z) {
   const HomeDoors home_doors = by_name(view.home());
   std::vector<DoorSeen> doors;
@@ -158,7 +167,6 @@ void DoorUse::look(const View& view, const Vec3& feet, const Vec2& to) {
   std::optional<DoorSeen> next = door_on_way(doors, at, to);
   const bool near = next && std::abs(next->into.dot(at - next->hinge)) < kSeesDoor;
   if (!near) return;
-  if (phase_ == Phase::kPassing && next->name == door_.name) return;
   find_partner(view.home(), doors, *next);
   door_ = *next;
   side_ = door_.into.dot(at - door_.hinge) > 0.0 ? 1.0 : -1.0;

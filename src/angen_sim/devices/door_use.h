@@ -27,6 +27,8 @@ struct DoorSeen {
   Vec2 edge() const { return hinge + width * along; }
   /// Whether a person fits through.
   bool is_passable() const;
+  /// Whether a point is on the shut leaf, or behind it as seen from a place.
+  bool hides(const Vec2& point, const Vec2& from) const;
 };
 
 /// The doors of a storey whose floor is at `z`.

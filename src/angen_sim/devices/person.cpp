@@ -141,6 +141,7 @@ void Person::start_anew() {
   route_.reset();
   target_.reset();
   seen_.clear();
+  failed_.clear();
   doors_.reset();
   scanned_at_ = -1;  // a way is planned at once
   stalled_ = away_until_ = 0;

@@ -128,12 +128,13 @@ class Person : public Device {
     bool unreachable = false;           // it has given up
     double stays_within = kPushedAway;  // m of the goal, once it has arrived
   };
-  std::optional<Order> order_;      // in place of its path
-  std::optional<Route> route_;      // to its goal; none: straight
-  std::optional<FloorMap> storey_;  // the last one
-  std::vector<Vec2> seen_;          // of obstacles that have held it on the way there
-  std::optional<Vec2> target_;      // on that
-  Nanoseconds came_clock_ = 0;      // on its path: its maximum
+  std::optional<Order> order_;       // in place of its path
+  std::optional<Route> route_;       // to its goal; none: straight
+  std::optional<FloorMap> storey_;   // the last one
+  std::vector<Vec2> seen_;           // of obstacles that have held it on the way there
+  std::vector<std::string> failed_;  // doors that did not open, on the way there
+  std::optional<Vec2> target_;       // on that
+  Nanoseconds came_clock_ = 0;       // on its path: its maximum
   double came_left_ = std::numeric_limits<double>::infinity();  // m of the way, its minimum
   double late_ = 0.0;   // s, of its speed in longer steps: on average it is that old
   double speed_ = 1.0;  // m/s, on an order

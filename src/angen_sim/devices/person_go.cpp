@@ -155,6 +155,7 @@ void Person::take_other_way(const LinkView& body, const View& view, Outputs& out
   for (double at = 0.0; at < door.width; at += kSeenCell) {
     seen_.push_back(door.hinge + at * door.along);
   }
+  failed_.push_back(door.name);
   doors_.reset();
   waits_at_door_ = false;
   target_.reset();
@@ -243,6 +244,12 @@ void Person::learn(const View& view, const Vec3& feet) {
   };
   std::sort(seen_.begin(), seen_.end(), before);
   seen_.erase(std::unique(seen_.begin(), seen_.end()), seen_.end());
+  // A shut door is no obstacle, and what was behind it may be gone.
+  for (const DoorSeen& door : doors_seen(view, feet.z())) {
+    if (std::count(failed_.begin(), failed_.end(), door.name) > 0) continue;
+    const auto is_hidden = [&](const Vec2& at) { return door.hides(at, feet.head<2>()); };
+    seen_.erase(std::remove_if(seen_.begin(), seen_.end(), is_hidden), seen_.end());
+  }
 }
 
 // Once an obstacle has held it on its way, it plans again with all that it sees.
