@@ -132,7 +132,8 @@ def add_world(commands: Any) -> None:
                           help=f'how many {kind} sensors' +
                           (', each with its chair or table (0)' if kind == 'contact' else ' (0)'))
     flat.add_argument('--elevator', action='store_true',
-                      help='with the elevator, which has one of the contact sensors')
+                      help='with the elevator of floors 0 and 1, which has one of the '
+                           'contact sensors')
     flat.add_argument('--mover', choices=MOVERS, default='person', help='who is on floor 0: '
                       'a person who walks; a robot, which drives in the workroom when it is sent '
                       '(person)')
