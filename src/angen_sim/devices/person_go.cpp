@@ -147,8 +147,6 @@ bool Person::uses_door(const LinkView& body, const View& view, const Vec2& to, b
   return true;
 }
 
-// A door that opens towards a person before it needs room: the person steps back the way it came,
-// waits there, and continues when it sees a free way. Rarely it tries without seeing one.
 // In place of the one through a door that does not open.
 void Person::take_other_way(const LinkView& body, const View& view, Outputs& outputs) {
   const DoorSeen& door = doors_.door();
@@ -166,6 +164,8 @@ void Person::take_other_way(const LinkView& body, const View& view, Outputs& out
   }
 }
 
+// A door that opens towards a person before it needs room: the person steps back the way it came,
+// waits there, and continues when it sees a free way. Rarely it tries without seeing one.
 bool Person::gives_way(const LinkView& body, const View& view, bool renew, Outputs& outputs) {
   if (stalled_ >= kTimeout) make_room(body, view);
   const Vec2 at = body.pose.position.head<2>();
