@@ -74,8 +74,7 @@ def test_a_urdf_of_an_unknown_package_is_not_spawned(gazebo: Gazebo) -> None:
 def test_lines_of_a_namespaced_robot_are_those_of_its_text(gazebo: Gazebo) -> None:
     xml = ('<sdf version="1.6">\n<model name="m">\n'
            '<plugin name="p" filename="libgazebo_ros_p3d.so"/>\n\n'
-           '<link name="l"/>\n<joint name="j" type="fixed">\n<parent>l</parent>\n'
-           '<child>l</child></joint></model></sdf>')
+           '<link name="l">\n<pose>x 0 0 0 0 0</pose></link></model></sdf>')
     answer = gazebo.ask("spawn_sdf_model", model_name="m", model_xml=xml, robot_namespace="/ns")
     assert not answer.success and "(text):6: " in answer.status_message
 
