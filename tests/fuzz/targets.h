@@ -40,12 +40,12 @@ inline const std::vector<Target>& targets() {
 /// Ends the process where a promise of the code under test is broken.
 void require(bool kept, const char* promise);
 
-/// Calls `work`, for which Error is an answer.
-template <class F>
+/// Calls `work`, for which a Rejection is an answer.
+template <class Rejection = Error, class F>
 void answered(F&& work) {
   try {
     work();
-  } catch (const Error&) {
+  } catch (const Rejection&) {
     return;
   }
 }

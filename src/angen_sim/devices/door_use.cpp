@@ -20,7 +20,6 @@ constexpr double kBeforeHandle = 0.5;             // m, to push or slide
 constexpr double kHandleInside = 0.07;            // m, of a leaf's edge
 constexpr double kOutOfSwing = 0.37;              // m beyond the leaf's edge
 constexpr double kLeafSkin = 0.1;                 // m, from the line of a shut leaf to its sides
-constexpr double kOwnPlace = 0.1;                 // m: nearer is the person itself
 constexpr double kBothStand = 0.5;                // m, between two people
 constexpr double kBehind = 0.4;                   // m past a door, to close it
 constexpr double kForgets = 4.0;                  // m
@@ -78,14 +77,11 @@ void find_partner(const Home& home, const std::vector<DoorSeen>& doors, DoorSeen
 
 /// Whether another person than the one at `feet` stands there.
 bool is_taken(const View& view, const Vec3& feet, const Surroundings::Vec2& place) {
-  for (const DeviceView& person : view.devices("unreachable")) {
-    const Vec3 other(person.state.get<double>("x"), person.state.get<double>("y"),
-                     person.state.get<double>("z"));
-    const bool is_self = (other - feet).norm() < kOwnPlace;
-    if (is_self || std::abs(other.z() - feet.z()) > kStoreyWithin) continue;
-    if ((other.head<2>() - place).norm() < kBothStand) return true;
-  }
-  return false;
+  const std::vector<DeviceView> others = Surroundings::other_people(view, feet);
+  return std::any_of(others.begin(), others.end(), [&](const DeviceView& other) {
+    const Surroundings::Vec2 at(other.state.get<double>("x"), other.state.get<double>("y"));
+    return (at - place).norm() < kBothStand;
+  });
 }
 
 /// Where its leaf turns or slides; false where that is not known.

@@ -19,7 +19,6 @@ constexpr Nanoseconds kFreed = kSecond;  // of its path, that it comes on after 
 constexpr int kScansPerPlan = 3;
 constexpr double kNearRejoin = 0.3;  // m
 constexpr double kPushSpeed = 0.3;   // m/s, against a thing that it shall push
-constexpr double kOwnPlace = 0.1;    // m: nearer is the person itself
 constexpr double kTowards = 0.7;     // cosine, of a person who walks towards it
 constexpr Nanoseconds kRejoinWithin = 6 * kSecond;
 
@@ -118,12 +117,11 @@ std::optional<Person::Vec2> Person::way_past(const LinkView& body, const View& v
                                              const Vec2& to) const {
   const Vec2 at = body.pose.position.head<2>();
   const Vec2 ahead = (to - at).normalized();
-  for (const DeviceView& other : view.devices("unreachable")) {
+  for (const DeviceView& other : Surroundings::other_people(view, body.pose.position)) {
     if (other.state.get<std::string>("mode") == kPersonModes[0]) continue;
     const Vec2 there(other.state.get<double>("x"), other.state.get<double>("y"));
-    const double height = other.state.get<double>("z") - body.pose.position.z();
     const double distance = (there - at).norm();
-    if (distance < kOwnPlace || distance > Surroundings::kSight || std::abs(height) > 1.0) continue;
+    if (distance > Surroundings::kSight) continue;
     const double yaw = other.state.get<double>("yaw");
     const bool comes = ahead.dot(Vec2(std::cos(yaw), std::sin(yaw))) < -kTowards;
     if (comes && ahead.dot(there - at) > kTowards * distance) {

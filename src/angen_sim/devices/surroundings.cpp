@@ -24,6 +24,8 @@ constexpr double kHead = 1.6;                                // m
 constexpr double kBeyond = 0.1;                              // m
 constexpr double kGraze = 1e-3;                              // m
 constexpr double kOwn = 0.255;                               // m, up to the person's own surface
+constexpr double kOwnPlace = 0.1;    // m: who is nearer is the person itself
+constexpr double kSameStorey = 1.0;  // m, between the feet of two people
 
 constexpr float kSlope = 0.94F;      // cosine of 20 degrees: a less steep surface is walked up
 constexpr double kStride = 0.1;      // m, in which a slope is looked at …
@@ -160,6 +162,18 @@ void Surroundings::scan(const View& view, const Vec3& feet) {
   }
   fresh_ = seen.size();
   points_.insert(points_.begin(), seen.begin(), seen.end());
+}
+
+std::vector<DeviceView> Surroundings::other_people(const View& view, const Vec3& feet) {
+  std::vector<DeviceView> others;
+  for (const DeviceView& person : view.devices("unreachable")) {
+    const Vec3 away = Vec3(person.state.get<double>("x"), person.state.get<double>("y"),
+                           person.state.get<double>("z")) -
+                      feet;
+    const bool is_self = away.head<2>().norm() < kOwnPlace;
+    if (!is_self && std::abs(away.z()) <= kSameStorey) others.push_back(person);
+  }
+  return others;
 }
 
 void Surroundings::remove_gone(const View& view, const Vec3& feet, std::vector<Vec2>& points) {

@@ -42,6 +42,9 @@ class Surroundings {
   /// slopes, past all others.
   static bool is_walkable(const View& view, const Vec3& feet, const Vec2& to);
 
+  /// Where the other people are who walk at about that height, with their states.
+  static std::vector<DeviceView> other_people(const View& view, const Vec3& feet);
+
   /// Removes the points that rays of a person at `feet` now pass.
   static void remove_gone(const View& view, const Vec3& feet, std::vector<Vec2>& points);
 

@@ -144,7 +144,7 @@ class Microphone : public Sensor {
       return hearing;
     }
     hearing.plan.emplace(room_plan(view, room->model));
-    hearing.here = hearing.plan->at(here);
+    hearing.here = static_cast<int>(room->number);
     hearing.within = layer_of(*hearing.plan);
     hearing.gains = field(view, *hearing.plan, hearing.within).gains(hearing.here);
     return hearing;
