@@ -13,9 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
-from generate import elevator
-from generate.sdf import Color
-from generate.shapes import (Mesh, box, lathe, leaf, rounded_box, tube, write_collada, write_stl)
+from angen_models import elevator
+from angen_models.sdf import Color
+from angen_models.shapes import Mesh, box, lathe, leaf, rounded_box, tube, write_collada, write_stl
 
 OAK, STEEL, WHITE = (0.65, 0.47, 0.28), (0.75, 0.75, 0.78), (0.96, 0.96, 0.96)
 BLUE, BLUE_DARK, RED, RED_DARK = ((0.3, 0.4, 0.55), (0.24, 0.33, 0.47), (0.6, 0.25, 0.2),

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from generate.shapes import Mesh, box, lathe, write_collada
+from angen_models.shapes import Mesh, box, lathe, write_collada
 
 MODELS_FOLDER = Path(__file__).resolve().parent / 'models'
 Corner = tuple[float, float, float]

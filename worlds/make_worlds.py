@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes models/* (all but their meshes), angen.world and empty.world from generate/plan.py.
+"""Writes models/* (all but their meshes), angen.world and empty.world by the package angen_models.
 
     python3 worlds/make_worlds.py                 write everything
     python3 worlds/make_worlds.py --list-doors    where to spawn the six doors of a floor
@@ -9,10 +9,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from generate import (aliases, appliances, building, catalog, devices, elevator, furniture, openers,
-                      plan, things, world)
-from generate.care import write_days
-from generate.sdf import numbers
+from angen_models import (aliases, appliances, building, catalog, devices, elevator, furniture,
+                          openers, plan, things, world)
+from angen_models.care import write_days
+from angen_models.sdf import numbers
 
 HERE = Path(__file__).resolve().parent
 

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from lxml import etree
 
-from . import plan
-from .sdf import add, add_plugin, numbers, write
-from .world import (add_devices, add_home_site, add_openers, add_readers, add_state,
-                    add_world_plugins, comment, furniture_in, include, new_world)
+from angen_models import plan
+from angen_models.sdf import add, add_plugin, numbers, write
+from angen_models.world import (add_devices, add_home_site, add_openers, add_readers, add_state,
+                                add_world_plugins, comment, furniture_in, include, new_world)
 
 BEGINS = 60 * int(plan.BEGINS[:2])      # min of the day at which the worlds begin
 SPEED = 0.8             # m/s
@@ -31,7 +31,7 @@ WAYS: dict[str, tuple[tuple[float, float], ...]] = {
 
 @dataclass
 class Day:
-    """A way through the flat: rows of t (s), x, y, yaw."""
+    """A way through the apartment: rows of t (s), x, y, yaw."""
 
     room: str = "bedroom"
     rows: list[tuple[float, float, float, float]] = field(default_factory=list)

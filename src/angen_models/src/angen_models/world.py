@@ -7,10 +7,10 @@ from typing import Sequence
 
 from lxml import etree
 
-from . import catalog, openers, plan
-from .building import add_ground
-from .sdf import SDF_VERSION, add, add_home, add_plugin, add_pose, numbers, write
-from .things import add_tag
+from angen_models import catalog, openers, plan
+from angen_models.building import add_ground
+from angen_models.sdf import SDF_VERSION, add, add_home, add_plugin, add_pose, numbers, write
+from angen_models.things import add_tag
 
 Pose = tuple[float, float, float, float, float, float]
 
@@ -216,7 +216,7 @@ def comment(world: etree._Element, text: str) -> None:
 
 
 def write_angen(folder: Path) -> None:
-    """Writes angen.world: two storeys with all their contents."""
+    """Writes angen.world: two floors with all their contents."""
     root, world = new_world("angen")
     add_world_plugins(world)
     add_home_site(world)

@@ -5,11 +5,11 @@ from pathlib import Path
 
 from lxml import etree
 
-from .catalog import STEEL
-from .devices import add_sensor
-from .furniture import OAK, legs
-from .sdf import (Color, Part, add, add_link, add_plugin, add_pose, add_thing, new_model, numbers,
-                  spanned, write_model)
+from angen_models.catalog import STEEL
+from angen_models.devices import add_sensor
+from angen_models.furniture import OAK, legs
+from angen_models.sdf import (Color, Part, add, add_link, add_plugin, add_pose, add_thing,
+                              new_model, numbers, spanned, write_model)
 
 STONEWARE: Color = (0.82, 0.3, 0.2)
 FEET = ("leg_front_left", "leg_front_right", "leg_back_left", "leg_back_right")

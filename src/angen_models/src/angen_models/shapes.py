@@ -1,4 +1,4 @@
-"""Triangle meshes from a few primitives, written as COLLADA and binary STL. Metres, z up."""
+"""Triangle meshes from a few primitives, written as COLLADA and binary STL. Meters, z up."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -7,23 +7,25 @@ from pathlib import Path
 
 import numpy as np
 from lxml import etree
+from numpy.typing import NDArray
 
-Color = tuple[float, float, float]
+from angen_models.sdf import Array, Color
+
 NAMESPACE = "http://www.collada.org/2005/11/COLLADASchema"
 
 
 @dataclass
 class Mesh:
-    """points: n x 3 in m; faces: m x 3 indices, counter-clockwise from outside; one colour."""
-    points: np.ndarray
-    faces: np.ndarray
+    """points: n x 3 in m; faces: m x 3 indices, counter-clockwise from outside; one color."""
+    points: Array
+    faces: NDArray[np.int64]
     color: Color = (0.8, 0.8, 0.8)
 
     def moved(self, at: Sequence[float]) -> "Mesh":
         """Returns the mesh shifted by `at`."""
         return Mesh(self.points + np.asarray(at, float), self.faces, self.color)
 
-    def turned(self, matrix: np.ndarray) -> "Mesh":
+    def turned(self, matrix: Array) -> "Mesh":
         """Returns the mesh turned by a 3 x 3 rotation matrix."""
         return Mesh(self.points @ matrix.T, self.faces, self.color)
 
@@ -32,7 +34,7 @@ class Mesh:
         return Mesh(self.points * np.asarray(factors, float), self.faces, self.color)
 
 
-def _grid_faces(rows: int, columns: int, wrap: bool) -> np.ndarray:
+def _grid_faces(rows: int, columns: int, wrap: bool) -> NDArray[np.int64]:
     """Returns triangles of a rows x columns grid of points, columns joined up if wrap."""
     faces = []
     for i in range(rows - 1):
@@ -45,7 +47,7 @@ def _grid_faces(rows: int, columns: int, wrap: bool) -> np.ndarray:
 
 def box(low: Sequence[float], high: Sequence[float], color: Color) -> Mesh:
     """Returns an axis-aligned box with a corner point per face, so that edges look sharp."""
-    points: list[np.ndarray] = []
+    points: list[Array] = []
     faces: list[tuple[int, int, int]] = []
     for axis in range(3):
         u, v = (axis + 1) % 3, (axis + 2) % 3
@@ -126,7 +128,7 @@ def leaf(root: Sequence[float], heading: float, length: float, width: float, ris
     return Mesh(np.vstack([points, points]), np.vstack([faces, faces[:, ::-1] + count]), color)
 
 
-def normals_of(mesh: Mesh) -> np.ndarray:
+def normals_of(mesh: Mesh) -> Array:
     """Returns one unit normal per point, the mean of its faces weighted by area."""
     a, b, c = (mesh.points[mesh.faces[:, k]] for k in range(3))
     flat = np.cross(b - a, c - a)
@@ -156,7 +158,7 @@ def write_stl(meshes: Sequence[Mesh], path: Path) -> None:
     path.write_bytes(b"Angen".ljust(80) + np.uint32(len(corners)).tobytes() + record.tobytes())
 
 
-def _source(parent: etree._Element, name: str, values: np.ndarray) -> None:
+def _source(parent: etree._Element, name: str, values: Array) -> None:
     source = etree.SubElement(parent, "source", id=name)
     array = etree.SubElement(source, "float_array", id=f"{name}-array", count=str(values.size))
     # Twice: processors differ in a sine's last bit, which decides about halves.
@@ -194,7 +196,7 @@ def _geometry(parent: etree._Element, i: int, mesh: Mesh, material: int) -> None
 
 
 def write_collada(meshes: Sequence[Mesh], path: Path) -> None:
-    """Writes COLLADA 1.4.1, one geometry a colour, metres and z up."""
+    """Writes COLLADA 1.4.1, one geometry a color, meters and z up."""
     root = etree.Element("COLLADA", version="1.4.1", nsmap={None: NAMESPACE})
     asset = etree.SubElement(root, "asset")
     for tag in ("created", "modified"):

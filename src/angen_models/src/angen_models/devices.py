@@ -7,9 +7,9 @@ from typing import Sequence
 
 from lxml import etree
 
-from . import urdf
-from .sdf import (Part, add, add_joint, add_link, add_plugin, add_pose, add_thing, new_model,
-                  numbers, spanned, write_model)
+from angen_models import urdf
+from angen_models.sdf import (Part, add, add_joint, add_link, add_plugin, add_pose, add_thing,
+                              new_model, numbers, spanned, write_model)
 
 LIGHT_DROP = 0.35       # the light hangs this far under the ceiling
 SOIL = 8.0              # l, in the pot of models/plant

@@ -11,11 +11,11 @@ from pathlib import Path
 
 from lxml import etree
 
-from . import plan
-from .catalog import REED_GAP, STEEL, add_reed
-from .furniture import CERAMIC, CREAM, OAK
-from .sdf import (Color, Part, add, add_fixed, add_joint, add_link, add_plugin, add_thing,
-                  new_model, spanned, write_model)
+from angen_models import plan
+from angen_models.catalog import REED_GAP, STEEL, add_reed
+from angen_models.furniture import CERAMIC, CREAM, OAK
+from angen_models.sdf import (Color, Part, add, add_fixed, add_joint, add_link, add_plugin,
+                              add_thing, new_model, spanned, write_model)
 
 GLASS: Color = (0.55, 0.68, 0.8)
 GLASS_DENSITY = 20.0    # kg/m2 of a sash: two panes of 3 mm at 2500 kg/m3, and its frame

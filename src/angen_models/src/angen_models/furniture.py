@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from math import pi
 from pathlib import Path
 
-from .devices import add_soil
-from .sdf import (Color, Part, Place, Vector, add, add_link, add_plugin, add_thing, new_model,
-                  spanned, write_model)
+from angen_models.devices import add_soil
+from angen_models.sdf import (Color, Part, Place, Vector, add, add_link, add_plugin, add_thing,
+                              new_model, spanned, write_model)
 
 OAK: Color = (0.65, 0.47, 0.28)
 DARK: Color = (0.35, 0.23, 0.14)
@@ -23,7 +23,7 @@ class Piece:
     parts: tuple[Part, ...]
     static: bool = True
     mesh: str | None = None         # file in its meshes/: then the parts are not shown
-    color: Color | None = None      # of an STL mesh, which has none of its own
+    color: Color | None = None      # color of an STL mesh, which has none of its own
     touch: str | None = None
     potted: bool = False            # a plant, whose soil dries
 

@@ -6,9 +6,10 @@ from pathlib import Path
 
 from lxml import etree
 
-from .devices import add_ray, add_sensor
-from .sdf import (Color, Part, add, add_fixed, add_home, add_joint, add_link, add_plugin, add_pose,
-                  add_thing, new_model, numbers, spanned, write_model)
+from angen_models.devices import add_ray, add_sensor
+from angen_models.sdf import (Color, Part, add, add_fixed, add_home, add_joint, add_link,
+                              add_plugin, add_pose, add_thing, new_model, numbers, spanned,
+                              write_model)
 
 GREY: Color = (0.35, 0.36, 0.38)
 STEEL: Color = (0.75, 0.75, 0.78)

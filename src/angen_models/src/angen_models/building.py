@@ -7,9 +7,9 @@ from typing import Any
 
 from lxml import etree
 
-from . import openers, plan
-from .sdf import (Part, Vector, add, add_fixed, add_home, add_joint, add_link, add_plugin, add_pose,
-                  new_model, numbers, spanned, write_model)
+from angen_models import openers, plan
+from angen_models.sdf import (Part, Vector, add, add_fixed, add_home, add_joint, add_link,
+                              add_plugin, add_pose, new_model, numbers, spanned, write_model)
 
 FLOOR_MATERIAL = "Gazebo/Wood"
 WALL_MATERIAL = "Gazebo/White"
@@ -75,7 +75,7 @@ def slab_parts() -> list[Part]:
 
 
 def shaft_parts() -> list[Part]:
-    """Returns three shaft walls as high as the storey, flush from floor to floor."""
+    """Returns three shaft walls as high as the floor, flush from floor to floor."""
     x0, y0, x1, y1 = plan.SHAFT
     bottom, top, thick = -plan.SLAB, plan.WALL_TOP, plan.WALL
     return [
@@ -109,7 +109,7 @@ def _centered(parts: list[Part]) -> tuple[Vector, list[Part]]:
 
 
 def apartment_links() -> list[tuple[str, list[Part]]]:
-    """Returns name and boxes of each link of the flat, its landing and its piece of the shaft."""
+    """Returns name and boxes of each link of the apartment with its landing and shaft."""
     links = [(part.name, [part]) for part in slab_parts()]
     for wall in plan.WALLS:
         parts = wall_parts(wall)
@@ -143,7 +143,7 @@ def write_apartment(models: Path) -> None:
                 "Stack at z = 0, 4, 8 ...")
 
 
-# room: leaf's colour, panel's colour
+# room: leaf's color, panel's color
 LOOKS = {
     "entrance": ((0.36, 0.2, 0.1), (0.28, 0.15, 0.07)),
     "kitchen": ((0.93, 0.9, 0.8), (0.85, 0.8, 0.66)),

@@ -8,11 +8,13 @@ from typing import Any
 
 import numpy as np
 from lxml import etree
+from numpy.typing import NDArray
 
 SDF_VERSION = "1.6"
 ANGEN = "angen"     # the namespace of our own elements
 Color = tuple[float, float, float]
 Vector = tuple[float, float, float]
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -20,7 +22,7 @@ class Part:
     """One shape of a link: lengths in m, angles in rad, mass in kg.
 
     size is (x, y, z) of a box, (radius, length) of a cylinder, (radius,) of a sphere. A part
-    with `mesh` (a uri) is looks only. `material` is a Gazebo material's name or an RGB colour.
+    with `mesh` (a uri) is looks only. `material` is a Gazebo material's name or an RGB color.
     With `same`, collision and visual have one name: rays hit it with its own surface.
     """
     name: str
@@ -39,10 +41,10 @@ class Part:
 
 @dataclass
 class Inertia:
-    """Mass in kg, centre of mass in m, inertia tensor about it (3 x 3, kg m2)."""
+    """Mass in kg, center of mass in m, inertia tensor about it (3 x 3, kg m2)."""
     mass: float
-    center: np.ndarray
-    tensor: np.ndarray = field(default_factory=lambda: np.zeros((3, 3)))
+    center: Array
+    tensor: Array = field(default_factory=lambda: np.zeros((3, 3)))
 
 
 def spanned(name: str, low: Vector, high: Vector, **options: Any) -> Part:
@@ -52,7 +54,7 @@ def spanned(name: str, low: Vector, high: Vector, **options: Any) -> Part:
     return Part(name, size, (x, y, z), **options)
 
 
-def rotation(rpy: Sequence[float]) -> np.ndarray:
+def rotation(rpy: Sequence[float]) -> Array:
     """Returns the 3 x 3 matrix of roll, pitch, yaw (rad)."""
     (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
     return np.array([[cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
@@ -60,7 +62,7 @@ def rotation(rpy: Sequence[float]) -> np.ndarray:
                      [-sp, cp * sr, cp * cr]])
 
 
-def _own_tensor(part: Part) -> np.ndarray:
+def _own_tensor(part: Part) -> Array:
     m, size = part.mass, part.size
     if len(size) == 3:
         x, y, z = (v * v / 12 for v in size)
@@ -73,7 +75,7 @@ def _own_tensor(part: Part) -> np.ndarray:
 
 
 def combine(parts: Iterable[Part]) -> Inertia:
-    """Returns mass, centre and tensor of the solid parts together; ValueError if massless."""
+    """Returns mass, center and tensor of the solid parts together; ValueError if massless."""
     solid = [p for p in parts if p.mass > 0]
     mass = sum(p.mass for p in solid)
     if mass <= 0:
@@ -194,7 +196,7 @@ def add_link(model: etree._Element, name: str, parts: Sequence[Part], at: Vector
     if moves:
         whole = combine(parts)
         inertial = add(link, "inertial")
-        add_pose(inertial, np.round(whole.center, 6))
+        add_pose(inertial, [round(float(v), 6) for v in whole.center])
         add(inertial, "mass", whole.mass)
         inertia = add(inertial, "inertia")
         for i, j, tag in ((0, 0, "ixx"), (0, 1, "ixy"), (0, 2, "ixz"),

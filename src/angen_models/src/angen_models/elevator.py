@@ -5,9 +5,9 @@ from pathlib import Path
 
 from lxml import etree
 
-from . import plan
-from .sdf import (Part, Vector, add, add_fixed, add_joint, add_link, add_plugin, new_model, spanned,
-                  write_model)
+from angen_models import plan
+from angen_models.sdf import (Part, Vector, add, add_fixed, add_joint, add_link, add_plugin,
+                              new_model, spanned, write_model)
 
 STEEL = (0.7, 0.72, 0.75)
 HALF = 0.83             # half the cabin's outer width and depth

@@ -3,10 +3,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from . import plan
-from .sdf import add, new_model, write_model
+from angen_models import plan
+from angen_models.sdf import add, new_model, write_model
 
-VERSION = "1.9"  # of SDF, the first with <include merge>
+VERSION = "1.9"  # SDF's version, the first with <include merge>
 SHORT = {"bathroom": "bath", "bedroom": "bed", "livingroom": "living", "workroom": "work"}
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from .sdf import Color, Part, Vector, add, combine, num, numbers, write
+from angen_models.sdf import Color, Part, Vector, add, combine, num, numbers, write
 
 NAMED = {"Gazebo/Black": (0.0, 0.0, 0.0), "Gazebo/Grey": (0.7, 0.7, 0.7),
          "Gazebo/White": (1.0, 1.0, 1.0)}

@@ -1,4 +1,4 @@
-"""The flat as numbers: rooms, openings, doors, and the places of things. Meters and radians.
+"""The apartment as numbers: rooms, openings, doors, and the places of things. Meters and radians.
 
 Every pose is for floor 0; the same things are STOREY higher on each further floor.
 """
@@ -68,7 +68,7 @@ WALLS = (
     Wall("landing_west", "y", -2.7, 3.3, 6.7, WALL_TOP, (4.5,)),
 )
 
-# name: centre x, y, length along the wall, wall's axis, bottom, top
+# name: center x, y, length along the wall, wall's axis, bottom, top
 WINDOWS = {
     "window_kitchen": (2.0, 0.0, 1.4, "x", 1.1, 2.1),
     "window_livingroom_south": (7.2, 0.0, 1.8, "x", 1.0, 2.1),

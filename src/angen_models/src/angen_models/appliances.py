@@ -4,9 +4,9 @@ from __future__ import annotations
 from math import pi
 from pathlib import Path
 
-from .devices import add_sensor
-from .sdf import (Color, Part, add, add_home, add_link, add_plugin, add_pose, add_thing, new_model,
-                  numbers, spanned, write_model)
+from angen_models.devices import add_sensor
+from angen_models.sdf import (Color, Part, add, add_home, add_link, add_plugin, add_pose, add_thing,
+                              new_model, numbers, spanned, write_model)
 
 BLACK: Color = (0.05, 0.05, 0.06)
 GREY: Color = (0.35, 0.36, 0.38)

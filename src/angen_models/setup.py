@@ -1,0 +1,8 @@
+"""Lets catkin put the angen_models package on the Python path; not to be called by hand."""
+from pathlib import Path
+
+from catkin_pkg.python_setup import generate_distutils_setup
+from setuptools import find_packages, setup
+
+source = str(Path(__file__).resolve().parent / 'src')
+setup(**generate_distutils_setup(packages=find_packages(source), package_dir={'': 'src'}))

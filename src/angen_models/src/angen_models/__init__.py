@@ -1,0 +1,1 @@
+"""Writes Angen's models, meshes and worlds, and has the numbers of its building."""

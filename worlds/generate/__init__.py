@@ -1,1 +1,0 @@
-"""Generators of Angen's models, meshes and worlds."""
