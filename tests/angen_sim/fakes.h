@@ -9,7 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "plugin/outputs.h"
 #include "plugin/plugin.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 #include "rays/shaft.h"
 
 /// A world of plain values, for testing one device or sensor without a simulation.

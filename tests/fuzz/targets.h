@@ -22,7 +22,6 @@ void urdf(const std::string& input);
 void mesh(const std::string& input);
 void png(const std::string& input);
 void jpeg(const std::string& input);
-void cache(const std::string& input);
 void params(const std::string& input);
 void command(const std::string& input);
 void service(const std::string& input);
@@ -31,9 +30,9 @@ void replay(const std::string& input);
 
 inline const std::vector<Target>& targets() {
   static const std::vector<Target> all = {
-      {"xml", xml},         {"world", world},     {"urdf", urdf},   {"mesh", mesh},
-      {"png", png},         {"jpeg", jpeg},       {"cache", cache}, {"params", params},
-      {"command", command}, {"service", service}, {"sim", sim},     {"replay", replay}};
+      {"xml", xml},         {"world", world}, {"urdf", urdf},     {"mesh", mesh},
+      {"png", png},         {"jpeg", jpeg},   {"params", params}, {"command", command},
+      {"service", service}, {"sim", sim},     {"replay", replay}};
   return all;
 }
 

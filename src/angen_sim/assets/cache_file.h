@@ -7,7 +7,7 @@
 /// the rest, so a torn or damaged file is never read.
 namespace angen::load {
 
-/// The file of a `key`, empty where there is no cache: ANGEN_NO_CACHE is set, or there is
+/// The file of a `key`, empty if there is no cache: ANGEN_NO_CACHE is set, or there is
 /// no home.
 std::string cache_file(const std::string& key, const std::string& extension);
 
@@ -18,7 +18,7 @@ std::optional<std::string> read_cache_file(const std::string& file);
 /// more than 128 MB. Throws std::exception.
 void write_cache_file(const std::string& file, const std::string& bytes);
 
-/// Path, size and time of a file, empty where it does not exist.
+/// Path, size and time of a file, empty if it does not exist.
 std::string file_state(const std::string& path);
 
 /// file_state() of the library that has `symbol`: another build may read the same files otherwise.

@@ -93,7 +93,7 @@ class Nodes {
 
   using Index = std::multimap<std::string, const XMLElement*>;
 
-  // As assimp resolves it: by id, otherwise by name.
+  // Resolved by id, otherwise by name, as by assimp.
   std::vector<const XMLElement*> named_by(const XMLElement& instance) const {
     std::string url = value(instance, "url");
     if (!url.empty() && url[0] == '#') url.erase(0, 1);

@@ -1,6 +1,5 @@
 #include "assets/converter.h"
 
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
@@ -13,11 +12,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <filesystem>
 #include <sstream>
 #include <utility>
 
 #include "core/diagnostics.h"
+#include "core/plugin_path.h"
 #include "core/text.h"
 
 namespace angen::load {
@@ -137,12 +136,7 @@ std::string exchange(Descriptor& socket, const std::string& bytes, int pipe) {
 
 }  // namespace
 
-std::string mesh_program() {
-  Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&mesh_program), &info) == 0) return "angen_mesh";
-  return (std::filesystem::absolute(info.dli_fname).parent_path() / "angen_sim/angen_mesh")
-      .string();
-}
+std::string mesh_program() { return (own_folder() / "angen_sim/angen_mesh").string(); }
 
 namespace {
 

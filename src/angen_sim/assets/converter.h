@@ -24,7 +24,7 @@ constexpr char kTooManyTriangles[] = "has more than 5,000,000 triangles; simplif
 constexpr char kTooMuchMemory[] =
     "needs more than 1 GB of memory to read; it is damaged or too large";
 
-/// The path of angen_mesh: in angen_sim/ beside this library.
+/// The path of angen_mesh: in angen_sim/ in the folder of Angen's libraries.
 std::string mesh_program();
 
 /// A mesh's file, and how to convert it.
@@ -34,7 +34,7 @@ struct MeshRequest {
   std::string submesh{};  // "" for all
   bool center = false;
   std::string bytes{};
-  std::string materials_name{};  // of an OBJ, "" for none
+  std::string materials_name{};  // an OBJ's, "" for none
   std::string materials{};       // the contents of that file
 };
 

@@ -46,13 +46,18 @@ std::string read_small(const std::string& path, const std::string& what, const S
   if (fs::file_size(path, failed) > kMaxFileBytes || failed) {
     throw Error(at, what + " " + path + " cannot be read or is larger than 64 MB");
   }
-  return read_file(path);
+  std::string bytes = read_file(path);
+  if (bytes.compare(0, 34, "version https://git-lfs.github.com") == 0) {
+    throw Error(at, what + " " + path +
+                        " is a pointer of Git LFS and not the file; run git lfs pull beside it");
+  }
+  return bytes;
 }
 
 // An earlier answer of angen_mesh to the same request.
 struct CachedAnswer {
   std::string head;  // the first bytes of the file
-  std::string file;  // empty where there is no cache
+  std::string file;  // empty if there is no cache
 };
 
 CachedAnswer cached_answer(const std::string& key) {

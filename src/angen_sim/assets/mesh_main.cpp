@@ -47,7 +47,7 @@ void limit_this_process() {
   };
   limit(RLIMIT_CORE, 0, 0);
   limit(RLIMIT_CPU, angen::load::kMeshCpuSeconds, angen::load::kMeshCpuSeconds + 1);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve terabytes
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // sanitizers reserve terabytes
   limit(RLIMIT_AS, angen::load::kMeshMemory, angen::load::kMeshMemory);
 #endif
 }
@@ -187,14 +187,14 @@ std::size_t expanded_size(const aiScene& scene, const aiNode& node) {
 }
 
 void prepare(Assimp::Importer& importer, const MeshRequest& request, unsigned kept) {
-  importer.SetIOHandler(new OneFile(request));  // which it owns
+  importer.SetIOHandler(new OneFile(request));  // the importer owns it
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     Assimp::BaseImporter* other = importer.GetImporter(i);
     std::set<std::string> extensions;
     other->GetExtensionList(extensions);
     if (extensions.count(request.extension) == 0) importer.UnregisterLoader(other);
   }
-  // As Gazebo does: MeshLab, for one, writes Y_UP whatever the file has.
+  // Ignored, as by Gazebo: MeshLab, for one, writes Y_UP whatever the file has.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   // Submeshes are known by the names of nodes, also as in Gazebo, and not by their ids.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);

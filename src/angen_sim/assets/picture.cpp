@@ -16,7 +16,7 @@ namespace angen::load {
 
 namespace {
 
-constexpr std::uint32_t kMaxSide = 16'384;  // of a file; larger ones are rejected
+constexpr std::uint32_t kMaxSide = 16'384;  // side of a file; larger ones are rejected
 
 void check_size(std::uint64_t width, std::uint64_t height, unsigned least, unsigned most) {
   if (std::min(width, height) < least || std::max(width, height) > most) {
@@ -111,7 +111,7 @@ struct PngReader {
   static void ignore(png_structp, png_const_charp) {}
   static void read(png_structp png, png_bytep to, std::size_t count) {
     std::string_view& left = static_cast<PngReader*>(png_get_io_ptr(png))->left;
-    if (count > left.size()) png_error(png, "Read Error");  // as libpng says it of a file
+    if (count > left.size()) png_error(png, "Read Error");  // libpng's words for a file
     std::memcpy(to, left.data(), count);
     left.remove_prefix(count);
   }

@@ -52,7 +52,7 @@ void serialize(A& a, angen::MeshPart& v) {
 
 template <class A>
 void serialize(A& a, angen::MeshLook& v) {
-  constexpr std::uint64_t kPartBytes = 28;  // of one without a texture
+  constexpr std::uint64_t kPartBytes = 28;  // bytes of one without a texture
   auto& [parts, corners] = v;
   auto size = static_cast<std::uint64_t>(parts.size());
   a(make_size_tag(size));

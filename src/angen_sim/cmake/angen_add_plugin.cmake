@@ -1,14 +1,18 @@
 # angen_add_plugin(NAME sources...): a plug-in library libNAME.so for Angen, in the caller's own package.
 # Comes with find_package(angen_sim); see docs/plugins.md.
 find_package(Eigen3 REQUIRED NO_MODULE)
+# <plugin/register.h> and others are in the sources, or in include/angen/ of an installation, not beside ROS's headers.
+if(angen_sim_SOURCE_PREFIX)
+  list(APPEND angen_sim_INCLUDE_DIRS ${angen_sim_SOURCE_PREFIX})
+else()
+  list(APPEND angen_sim_INCLUDE_DIRS ${angen_sim_DIR}/../../../include/angen)
+endif()
 if(TARGET angen_ros)  # in one workspace with Angen, which is not built yet
   set(ANGEN_DESCRIBE angen_describe)
   set(ANGEN_ROS_LIBRARY angen_ros)
-  set(ANGEN_GAZEBO_LIBRARY angen_gazebo)
 else()
   find_program(ANGEN_DESCRIBE angen_describe HINTS ${angen_sim_DIR}/../../../lib/angen_sim REQUIRED)
   find_library(ANGEN_ROS_LIBRARY angen_ros HINTS ${angen_sim_DIR}/../../../lib REQUIRED)
-  find_library(ANGEN_GAZEBO_LIBRARY angen_gazebo HINTS ${angen_sim_DIR}/../../../lib REQUIRED)
 endif()
 
 function(angen_add_library name)
@@ -32,5 +36,5 @@ endfunction()
 function(angen_add_ros_kinds name)
   angen_add_library(${name}_ros ${ARGN})
   target_include_directories(${name}_ros SYSTEM PRIVATE ${catkin_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/include)
-  target_link_libraries(${name}_ros PRIVATE ${ANGEN_ROS_LIBRARY} ${ANGEN_GAZEBO_LIBRARY} ${catkin_LIBRARIES})
+  target_link_libraries(${name}_ros PRIVATE ${ANGEN_ROS_LIBRARY} ${catkin_LIBRARIES})
 endfunction()

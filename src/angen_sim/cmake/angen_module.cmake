@@ -11,16 +11,16 @@ function(angen_module name)
   endif()
   set(view ${CMAKE_BINARY_DIR}/angen_headers/${name})
   file(MAKE_DIRECTORY ${view})
-  file(CREATE_LINK ${ANGEN_SIM_DIR}/${name} ${view}/${name} SYMBOLIC)
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${view}/${name} SYMBOLIC)
   if(arg_SOURCES)
     add_library(angen_${name} SHARED ${arg_SOURCES})
     set(scope PUBLIC)
-    if(name STREQUAL "core" OR arg_PRECOMPILE)
+    if(ANGEN_PRECOMPILER STREQUAL "angen_${name}" OR arg_PRECOMPILE)
       angen_compile_options(angen_${name} PRECOMPILE ${arg_PRECOMPILE})
     elseif(arg_PRECOMPILED_BY)
       angen_compile_options(angen_${name} angen_${arg_PRECOMPILED_BY})
     else()
-      angen_compile_options(angen_${name} angen_core)
+      angen_compile_options(angen_${name} ${ANGEN_PRECOMPILER})
     endif()
     install(TARGETS angen_${name} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
   else()
@@ -32,17 +32,40 @@ function(angen_module name)
     target_link_libraries(angen_${name} ${scope} angen_${used})
   endforeach()
   target_link_libraries(angen_${name} ${scope} ${arg_LINK})
-  install(DIRECTORY ${ANGEN_SIM_DIR}/${name} DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION}/..
+  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} DESTINATION ${CATKIN_GLOBAL_INCLUDE_DESTINATION}/angen
           FILES_MATCHING PATTERN "*.h")
+endfunction()
+
+# angen_loaded_by_name(TARGET): a library that a running building loads.
+function(angen_loaded_by_name target)
+  if(TARGET angen_run)
+    add_dependencies(angen_run ${target})
+    add_dependencies(angen_plugins ${target})
+  endif()
+endfunction()
+
+# angen_imported(modules...): targets of the modules of angen_sim, in a package that is built by itself. There are no
+# walls then.
+function(angen_imported)
+  foreach(module ${ARGN})
+    if(NOT TARGET angen_${module})
+      find_library(ANGEN_${module}_LIBRARY angen_${module} HINTS ${angen_sim_DIR}/../../../lib)
+      add_library(angen_${module} INTERFACE IMPORTED GLOBAL)
+      target_include_directories(angen_${module} INTERFACE ${angen_sim_INCLUDE_DIRS})
+      target_link_libraries(angen_${module} INTERFACE ${angen_sim_LIBRARIES} Eigen3::Eigen)
+      if(ANGEN_${module}_LIBRARY)  # or it has only headers
+        target_link_libraries(angen_${module} INTERFACE ${ANGEN_${module}_LIBRARY})
+      endif()
+    endif()
+  endforeach()
 endfunction()
 
 # angen_plugin(FILE sources...): a plug-in library libFILE.so, loaded by name and never linked to.
 function(angen_plugin file)
   add_library(${file} MODULE ${ARGN})
-  angen_compile_options(${file} angen_core)
+  angen_compile_options(${file} ${ANGEN_PRECOMPILER})
   set_target_properties(${file} PROPERTIES UNITY_BUILD OFF)  # few sources each
-  add_dependencies(angen_run ${file})
-  add_dependencies(angen_plugins ${file})
+  angen_loaded_by_name(${file})
   target_link_libraries(${file} PRIVATE angen_plugin angen_class_loader)
   # A function that is missing is found when the library is linked or loaded, not in the middle of a run; and a
   # class is the library's own, also when another library has one of the same name.
@@ -51,7 +74,7 @@ function(angen_plugin file)
     target_link_options(${file} PRIVATE -Wl,-z,defs)
   endif()
   install(TARGETS ${file} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
-  add_custom_command(TARGET ${file} POST_BUILD COMMAND angen_describe $<TARGET_FILE:${file}>)
+  add_custom_command(TARGET ${file} POST_BUILD COMMAND ${ANGEN_DESCRIBE} $<TARGET_FILE:${file}>)
   install(FILES ${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/lib${file}.json
           DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION} OPTIONAL)
 endfunction()

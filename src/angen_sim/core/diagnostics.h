@@ -10,6 +10,7 @@ namespace angen {
 struct Source {
   std::string file;
   int line = 0;
+  int element = 0;  // the number of an element of the file, from 1; 0 is not known
 };
 
 struct Diagnostic {

@@ -7,7 +7,7 @@ namespace angen {
 namespace {
 
 constexpr double kInWall = 0.1;   // m: a thing in a wall, floor or ceiling is in the room
-constexpr double kOnFloor = 0.5;  // m below its floor that belongs to a storey
+constexpr double kOnFloor = 0.5;  // m below its floor that belong to a storey
 
 }  // namespace
 
@@ -63,6 +63,11 @@ const Storey* storey_at(const std::vector<Storey>& storeys, double z) {
     if (storey.elevation - kOnFloor <= z) found = &storey;
   }
   return found;
+}
+
+int floor_at(const std::vector<Storey>& storeys, double z) {
+  const Storey* storey = storey_at(storeys, z);
+  return storey != nullptr ? storey->number : 0;
 }
 
 const std::vector<std::string>& room_uses() {

@@ -14,7 +14,7 @@ namespace angen {
 struct Storey {
   int number = 0;
   std::string name;
-  double elevation = 0.0;  // of its floor
+  double elevation = 0.0;  // the height of its floor
   double height = 0.0;     // to the next storey's floor; of the highest one to its ceiling
 };
 
@@ -28,7 +28,7 @@ struct Room {
   double ceiling = 0.0;    // z
   double area = 0.0;       // m^2, without holes
   bool guessed = false;    // by flood fill: the world names no rooms
-  std::string model;       // that names it; "" for the world
+  std::string model;       // the model that names it; "" for the world
   std::size_t number = 0;  // among those of its model
 
   /// Whether a place (x, y) is inside, at any height.
@@ -38,8 +38,11 @@ struct Room {
   bool at_height(double z) const;
 };
 
-/// The storey at a height: the highest whose floor is not above it; null where there are none.
+/// The storey at a height: the highest whose floor is at most 0.5 m above it, or else the lowest;
+/// null if there are none.
 const Storey* storey_at(const std::vector<Storey>& storeys, double z);
+/// Its number; 0 where there are none.
+int floor_at(const std::vector<Storey>& storeys, double z);
 
 struct FloorPose {
   Vec3 position = Vec3::Zero();
@@ -49,7 +52,7 @@ struct FloorPose {
 /// The position of a person who stands, sits or lies to use a thing.
 struct Place {
   std::string posture;  // stand, sit or lie
-  FloorPose pose;       // of the feet, the seat, or the middle of a person who lies, head ahead
+  FloorPose pose;       // the feet, the seat, or the middle of a person who lies, head ahead
 };
 
 struct Thing {
@@ -62,12 +65,12 @@ struct Thing {
 
 struct HomeDoor {
   enum class Kind { kDoor, kWindow, kOpening };
-  std::string name;  // as commands use it
+  std::string name;  // the name in commands
   Kind kind = Kind::kDoor;
   std::string rooms[2];  // on the left (+y) and on the right of its pose; "" = outside
   double width = 0.0;
   double height = 0.0;
-  FloorPose pose;       // of the middle of the opening at its foot, x along the shut leaf
+  FloorPose pose;       // the middle of the opening at its foot, x along the shut leaf
   std::string partner;  // the other leaf of a double door; "" = none
 };
 const char* name_of(HomeDoor::Kind kind);
@@ -80,7 +83,7 @@ struct Landing {
 
 struct HomeElevator {
   std::string name;
-  Pose pose;  // of the cabin's floor, at the lowest stop
+  Pose pose;  // the cabin's floor, at the lowest stop
   std::vector<Landing> landings;
 };
 

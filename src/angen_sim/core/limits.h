@@ -19,14 +19,14 @@ struct Limit {
 namespace limits {
 
 constexpr Limit kPosition{"m", 1e6, 1e-9};  // float: 6 cm there
-constexpr Limit kLength{"m", 1e5, 1e-9};    // of a shape
-constexpr Limit kScale{"", 1e9, 1e-9};      // of a mesh
+constexpr Limit kLength{"m", 1e5, 1e-9};    // size of a shape
+constexpr Limit kScale{"", 1e9, 1e-9};      // scale of a mesh
 constexpr Limit kDirection{"", 1e9, 1e-9};  // length of a vector that is normalized
 constexpr Limit kAngle{"rad", 1e6};         // more turns than a double tells apart to 1e-9
-constexpr Limit kMass{"kg", 1e9, 1e-9};     // of a link
+constexpr Limit kMass{"kg", 1e9, 1e-9};     // mass of a link
 constexpr Limit kMoment{"kg m^2", 1e15, 1e-18};
 constexpr Limit kGyration{"m", 1e5, 1e-8};   // sqrt(moment / mass)
-constexpr double kLeastMomentRatio = 1e-12;  // of a link's smallest principal moment to its largest
+constexpr double kLeastMomentRatio = 1e-12;  // a link's smallest principal moment by its largest
 constexpr Limit kSpeed{"m/s", 1e5};
 constexpr Limit kTurnRate{"rad/s", 1e5};
 constexpr Limit kAcceleration{"m/s^2", 1e6};

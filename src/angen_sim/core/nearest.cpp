@@ -8,7 +8,7 @@ namespace angen {
 
 namespace {
 
-constexpr std::size_t kLongest = 256;  // of names that are compared whole
+constexpr std::size_t kLongest = 256;  // longest name that is compared whole
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 

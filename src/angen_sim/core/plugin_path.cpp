@@ -11,9 +11,6 @@ namespace angen {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-// The folder of this library, which contains all libraries of Angen.
 fs::path own_folder() {
   static const char here = 0;
   Dl_info info;
@@ -21,8 +18,6 @@ fs::path own_folder() {
   std::error_code ignored;
   return fs::weakly_canonical(info.dli_fname, ignored).parent_path();
 }
-
-}  // namespace
 
 std::vector<std::string> entries_of(const char* variable) {
   const char* value = std::getenv(variable);
@@ -49,6 +44,17 @@ std::vector<fs::path> plugin_path() {
   }
   add(own_folder());
   return folders;
+}
+
+std::string load_library(const std::string& filename) {
+  for (const fs::path& folder : plugin_path()) {
+    const std::string file = folder / filename;
+    std::error_code missing;
+    if (!fs::is_regular_file(file, missing)) continue;
+    const void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    return library != nullptr ? "" : file + " does not load: " + dlerror();
+  }
+  return filename + " is not found on the plug-in path";
 }
 
 }  // namespace angen

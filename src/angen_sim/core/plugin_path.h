@@ -11,6 +11,13 @@ namespace angen {
 /// folder of Angen's own libraries.
 std::vector<std::filesystem::path> plugin_path();
 
+/// Loads a library of that file name from this path; it stays loaded. Returns why it does not
+/// load, "" if it does.
+std::string load_library(const std::string& filename);
+
+/// The folder of Angen's own libraries, with symbolic links resolved.
+std::filesystem::path own_folder();
+
 /// The entries of an environment variable such as PATH.
 std::vector<std::string> entries_of(const char* variable);
 

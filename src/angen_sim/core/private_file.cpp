@@ -62,7 +62,7 @@ void make_private_folder(const std::string& folder) {
 void write_private_file(const std::string& path, const std::string& bytes) {
   static std::atomic<int> count{0};
   const std::string fresh = path + "." + std::to_string(getpid()) + "." + std::to_string(++count);
-  unlink(fresh.c_str());  // of an earlier process of this number
+  unlink(fresh.c_str());  // an earlier process of this number left it
   const int file = open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
   if (file < 0) fail_at(path, errno);
   int problem = write_all(file, bytes) && fsync(file) == 0 ? 0 : errno;

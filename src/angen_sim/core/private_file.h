@@ -8,7 +8,7 @@ namespace angen {
 /// $XDG_STATE_HOME/angen, or ~/.local/state/angen (XDG base directory specification).
 std::string state_folder();
 
-/// Makes a folder that this user alone may use, and its missing parents. Throws Error where it is a
+/// Makes a folder that this user alone may use, and its missing parents. Throws Error if it is a
 /// link or belongs to another user.
 void make_private_folder(const std::string& folder);
 

@@ -26,7 +26,7 @@ struct Shape {
   double radius = 0.0;       // sphere, cylinder, capsule
   double length = 0.0;       // cylinder (along z); capsule: of its cylindrical part
   std::shared_ptr<const TriangleMesh> mesh;   // shared between copies
-  std::shared_ptr<const HeightGrid> heights;  // of a heightmap, shared between copies
+  std::shared_ptr<const HeightGrid> heights;  // a heightmap's, shared between copies
   std::string mesh_file;                      // absolute path a viewer can load
   Vec3 mesh_scale = Vec3::Ones();             // scales mesh_file to `mesh`
 };

@@ -12,7 +12,7 @@ class Stopwatch {
  public:
   struct Clocks {
     Nanoseconds (*wall)();  // monotonic
-    Nanoseconds (*cpu)();   // of this thread
+    Nanoseconds (*cpu)();   // this thread's CPU time
   };
   static Clocks system_clocks();
 

@@ -9,7 +9,7 @@ namespace angen {
 
 namespace {
 
-// Length of the UTF-8 character that starts at `i`, 0 where none does.
+// Length of the UTF-8 character that starts at `i`, 0 if none does.
 std::size_t utf8_length(const std::string& text, std::size_t i) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const unsigned char first = byte(i);

@@ -1,7 +1,7 @@
 #include "core/typography.h"
 
 #include <algorithm>
-#include <array>
+#include <cstring>
 #include <sstream>
 #include <utility>
 
@@ -11,65 +11,47 @@ namespace angen {
 
 namespace {
 
-struct Typographic {
-  const char* bytes;
-  const char* code;
-  char plain;
+constexpr char kNothing = '\0';
+constexpr std::pair<char, const char*> kTypographic[] = {
+    {'-', "\u2212\u2013\u2014\u2010\u2011\u2012\uFF0D"},
+    {'"', "\u201C\u201D\u201E\u201F\u2033\u00AB\u00BB"},
+    {'\'', "\u2018\u2019\u201A\u2032"},
+    {' ', "\u00A0\u2002\u2003\u2004\u2005\u2006\u2007\u2008\u2009\u200A\u202F\u205F\u3000"},
+    {kNothing, "\u00AD\u200B\u2060\uFEFF"},
 };
 
-constexpr std::array<Typographic, 31> kTypographic = {{
-    {"\u2212", "U+2212", '-'},  {"\u2013", "U+2013", '-'},  {"\u2014", "U+2014", '-'},
-    {"\u2010", "U+2010", '-'},  {"\u2011", "U+2011", '-'},  {"\u2012", "U+2012", '-'},
-    {"\uFF0D", "U+FF0D", '-'},  {"\u201C", "U+201C", '"'},  {"\u201D", "U+201D", '"'},
-    {"\u201E", "U+201E", '"'},  {"\u201F", "U+201F", '"'},  {"\u2033", "U+2033", '"'},
-    {"\u00AB", "U+00AB", '"'},  {"\u00BB", "U+00BB", '"'},  {"\u2018", "U+2018", '\''},
-    {"\u2019", "U+2019", '\''}, {"\u201A", "U+201A", '\''}, {"\u2032", "U+2032", '\''},
-    {"\u00A0", "U+00A0", ' '},  {"\u2002", "U+2002", ' '},  {"\u2003", "U+2003", ' '},
-    {"\u2004", "U+2004", ' '},  {"\u2005", "U+2005", ' '},  {"\u2006", "U+2006", ' '},
-    {"\u2007", "U+2007", ' '},  {"\u2008", "U+2008", ' '},  {"\u2009", "U+2009", ' '},
-    {"\u200A", "U+200A", ' '},  {"\u202F", "U+202F", ' '},  {"\u205F", "U+205F", ' '},
-    {"\u3000", "U+3000", ' '},
-}};
+bool continues(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
 
-/// The start of the last character of a non-empty text: continuation bytes of UTF-8 are 10xxxxxx.
+/// The start of the last character of a non-empty text.
 std::size_t last_character(const std::string& text) {
   std::size_t at = text.size() - 1;
-  while (at > 0 && (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80) --at;
+  while (at > 0 && continues(text[at])) --at;
   return at;
 }
 
-/// The character at a byte as ASCII has it, and its bytes.
+/// The character at a byte as ASCII has it, and its bytes; other characters are their first byte.
 std::pair<char, std::size_t> plain_at(const std::string& text, std::size_t at) {
-  const std::optional<TypographicChar> found = find_typographic(text.substr(at, 4));
-  if (found && found->at == 0) return {found->plain, found->size};
+  std::size_t end = at + 1;
+  while (end < text.size() && continues(text[end])) ++end;
+  if (end == at + 1) return {text[at], 1};
+  const std::string character = text.substr(at, end - at);
+  for (const auto& [plain, others] : kTypographic) {
+    if (std::strstr(others, character.c_str()) != nullptr) return {plain, end - at};
+  }
   return {text[at], 1};
 }
 
 }  // namespace
 
-std::optional<TypographicChar> find_typographic(const std::string& text, std::size_t from) {
-  const auto not_ascii = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
-  for (auto at = text.begin() + static_cast<std::ptrdiff_t>(std::min(from, text.size()));
-       (at = std::find_if(at, text.end(), not_ascii)) != text.end(); ++at) {
-    const auto offset = static_cast<std::size_t>(at - text.begin());
-    for (const Typographic& one : kTypographic) {
-      const std::string bytes = one.bytes;
-      if (text.compare(offset, bytes.size(), bytes) != 0) continue;
-      const std::string shown = one.plain == ' ' ? "a blank" : bytes;
-      return TypographicChar{offset, bytes.size(), shown + " (" + one.code + ")", one.plain};
-    }
-  }
-  return std::nullopt;
-}
-
-std::string without_typography(const std::string& text) {
+std::string straightened(const std::string& text) {
   std::string plain;
-  std::size_t begin = 0;
-  for (auto found = find_typographic(text); found; found = find_typographic(text, begin)) {
-    plain += text.substr(begin, found->at - begin) + found->plain;
-    begin = found->at + found->size;
+  plain.reserve(text.size());
+  for (std::size_t at = 0; at < text.size();) {
+    const auto [character, size] = plain_at(text, at);
+    if (character != kNothing || size == 1) plain += character;
+    at += size;
   }
-  return plain + text.substr(begin);
+  return plain;
 }
 
 std::string unquoted(const std::string& text) {
@@ -91,15 +73,15 @@ std::string unquoted(const std::string& text) {
   return rest;
 }
 
-std::optional<std::string> plain_numbers(const std::string& text) {
-  if (!find_typographic(text)) return std::nullopt;
-  const std::string plain = without_typography(text);
+std::string plain_numbers(const std::string& text) {
+  const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
+  if (std::all_of(text.begin(), text.end(), is_ascii)) return text;
+  std::string plain = straightened(text);
   std::istringstream words(plain);
-  bool any = false;
-  for (std::string word; words >> word; any = true) {
-    if (!parse_number(word)) return std::nullopt;
+  for (std::string word; words >> word;) {
+    if (!parse_number(word)) return text;
   }
-  return any ? std::optional<std::string>(plain) : std::nullopt;
+  return trimmed(plain).empty() ? text : plain;
 }
 
 }  // namespace angen

@@ -31,7 +31,7 @@ struct Room {
 /// A passage without a leaf.
 struct Opening {
   std::string name;
-  FloorPose pose;  // of its middle at the floor, x along the wall
+  FloorPose pose;  // its middle at the floor, x along the wall
   double width = 0.0;
   double height = 0.0;
   Source source;

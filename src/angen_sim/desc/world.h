@@ -1,10 +1,12 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/anatomy.h"
 #include "core/element.h"
 #include "core/photometry.h"
 #include "core/pose.h"
@@ -26,7 +28,7 @@ namespace angen::desc {
 struct Material {
   Eigen::Vector4f diffuse{0.7F, 0.7F, 0.7F, 1.0F};  // r g b a, 0..1; r g b also serve as albedo
   Eigen::Vector4f emissive{0.0F, 0.0F, 0.0F, 1.0F};
-  std::shared_ptr<const MeshLook> look;  // of the mesh's file, if SDF has none
+  std::shared_ptr<const MeshLook> look;  // look of the mesh's file, if SDF has none
   // One for each part of the look, or null; without a look one for all, if there is any.
   std::vector<std::shared_ptr<const Texture>> textures;
 };
@@ -81,7 +83,7 @@ struct Light {
   double length = 0.0;      // m, tube: along its own x axis (y, where it shines along x)
   double radius = 0.0;      // m, disc, tube, and the sphere of a point or spot; 0 = default
   double half_angle = 0.0;  // rad, spot: angle to half the axial intensity; 0 = use the cones
-  std::shared_ptr<const Photometry> photometry;  // of a point or spot; null for none
+  std::shared_ptr<const Photometry> photometry;  // a point's or spot's; null for none
   bool cast_shadows = true;
   std::optional<double> level;  // percent at the start, of a lamp without a plug-in
   Source source;
@@ -105,7 +107,7 @@ struct Link {
   Inertial inertial;
   bool gravity = true;
   bool kinematic = false;
-  bool upright = false;              // never tilts: rotates about world z only (people)
+  Anatomy anatomy;                   // declared by a plug-in when the model is made
   std::optional<bool> self_collide;  // if it differs from its model's
   std::vector<Collision> collisions;
   std::vector<Visual> visuals;
@@ -156,21 +158,33 @@ struct Plugin {
   bool is_repeatable = false;  // a model may have several of this library, each of its own name
 };
 
+/// What holds for a model that was not written for Angen. A world's holds for each of its models,
+/// also for spawned ones.
+struct Customs {
+  bool sets_aside = false;        // a wrong plug-in or parameter is left out, with a warning
+  bool first_holds = false;       // the first of two equal parameters holds, without an error
+  bool lights_are_lamps = false;  // each light without a plug-in is a lamp
+  bool keeps_frames = false;      // the frames of its sensors are those in its text
+  double parting_speed = std::numeric_limits<double>::infinity();  // m/s, out of other shapes
+};
+
 struct Model {
   std::string name;
   Pose pose;  // in the world
   bool is_static = false;
   bool allow_auto_disable = true;
   bool self_collide = false;
-  bool tolerant = false;  // unknown parameters of its plug-ins are warnings
+  Customs customs;
+  bool is_actor = false;  // an <actor>: its own pose is where its trajectory's coordinates begin
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Plugin> plugins;
   HomeParts home;            // in the model's frame
-  std::string xml;           // as in its file (an <include>, <model> or <actor>), for `save`
+  std::string xml;           // its text (an <include>, <model> or <actor>), for `save`
   std::string expanded_xml;  // if xml has includes: the same, with them expanded
-  std::vector<Diagnostic> warnings;  // of a model that was loaded alone; else the world has them
-  std::vector<Diagnostic> ignored;   // as the warnings
+  std::vector<Diagnostic>
+      warnings;  // warnings of a model that was loaded alone; else the world has them
+  std::vector<Diagnostic> ignored;  // like the warnings
   Source source;
 };
 
@@ -196,7 +210,7 @@ struct World {
   Physics physics;
   Scene scene;
   double ambient_temperature = 295.15;  // K, of the air and of surfaces without a temperature
-  bool tolerant = false;                // as each of its models, also spawned ones
+  Customs customs;
   std::vector<Light> lights;
   std::vector<Model> models;
   std::vector<Plugin> plugins;

@@ -3,7 +3,9 @@
 #include <limits>
 #include <optional>
 
-#include "plugin/register.h"
+#include "plugin/outputs.h"
+#include "plugin/registration.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 

@@ -3,7 +3,10 @@
 #include <optional>
 
 #include "devices/refresh.h"
-#include "plugin/register.h"
+#include "plugin/outputs.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 

@@ -4,8 +4,10 @@
 
 #include "devices/refresh.h"
 #include "devices/room_air.h"
-#include "plugin/register.h"
+#include "plugin/registration.h"
 #include "plugin/rooms.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 
@@ -16,7 +18,6 @@ constexpr double kWall = 0.05;               // m: a thing in a wall is near the
 constexpr double kWidestLeaf = 3.0;          // m, from its hinge
 constexpr double kKilogram = 1e-3 / 3600.0;  // a second, for a g/h
 constexpr Range kCelsius{-60.0, 60.0};
-constexpr double kUnheated = kCelsius.min;
 
 }  // namespace
 
@@ -40,8 +41,8 @@ class Climate : public Device {
     settings.heating_power =
         params.number("heating_power", 50.0, "W/m^3",
                       "of radiators that are fully open, a volume of the room", kNotNegative);
-    heating_ =
-        params.number("heating", kUnheated, "degC",
+    const double heating =
+        params.number("heating", std::nan(""), "degC",
                       "to which radiators heat each room; there are none unless given", kCelsius);
     Air inside;
     inside.temperature = params.number("temperature", 20.0, "degC", "at the start", kCelsius);
@@ -59,7 +60,7 @@ class Climate : public Device {
                   "' has a climate and no rooms; describe them by <angen:room>");
     }
     air_ = RoomAir(settings, std::move(volumes), inside);
-    air_.heat_to(heating_);
+    if (!std::isnan(heating)) heat_to(heating);
     const auto airs = params.rows("air", 2, "degC %",
                                   "temperature and humidity at the start, of each room in its "
                                   "order; of all as above unless given");
@@ -82,8 +83,7 @@ class Climate : public Device {
   Verdict command(const Command& command, const View&) override {
     return Verdict::accept([this, heats = command.verb == "Heat", temperature = command.number] {
       if (heats) {
-        heating_ = temperature;
-        air_.heat_to(heating_);
+        heat_to(temperature);
         return;
       }
       outside_.temperature = temperature;
@@ -125,10 +125,10 @@ class Climate : public Device {
 
   void save(SavedParams& params) const override {
     params.number("outside_temperature", outside_.temperature);
-    if (heating_ == kUnheated) {
-      params.unset("heating");
+    if (heating_) {
+      params.number("heating", *heating_);
     } else {
-      params.number("heating", heating_);
+      params.unset("heating");
     }
     for (const Air& air : air_.rooms()) params.row("air", {air.temperature, humidity_of(air)});
   }
@@ -147,10 +147,15 @@ class Climate : public Device {
     state.set("humidities", std::move(humidities));
     state.set("outside_temperature", outside_.temperature);
     state.set("outside_humidity", outside_humidity_);
-    if (heating_ != kUnheated) state.set("heating", heating_);
+    if (heating_) state.set("heating", *heating_);
   }
 
  private:
+  void heat_to(double temperature) {
+    heating_ = temperature;
+    air_.heat_to(temperature);
+  }
+
   // The region of models that affect a room, hinges of leaves beside it included.
   static Eigen::AlignedBox3d surroundings(const RoomPlan& plan) {
     const Vec3 margin(kWidestLeaf, kWidestLeaf, kWall);
@@ -168,7 +173,7 @@ class Climate : public Device {
   RoomAir air_;
   Air outside_;
   double outside_humidity_ = 0.0;  // percent
-  double heating_ = kUnheated;     // degrees Celsius
+  std::optional<double> heating_;  // degrees Celsius, none without radiators
   Nanoseconds stepped_at_ = -1;
   Refresh due_{kRate};
 };

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <sstream>
 
-#include "plugin/register.h"
+#include "plugin/outputs.h"
+#include "plugin/registration.h"
 #include "plugin/rooms.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 

@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "devices/storeys.h"
-#include "plugin/register.h"
+#include "devices/part_names.h"
+#include "plugin/outputs.h"
+#include "plugin/registration.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 

@@ -8,6 +8,9 @@
 #include <utility>
 
 #include "core/text.h"
+#include "plugin/outputs.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 
@@ -22,7 +25,7 @@ constexpr double kNearError = 0.003;     // rad
 constexpr double kArriveSpeed = 0.02;    // rad/s
 constexpr double kMaxLag = 0.08;         // rad
 constexpr double kStallSpeed = 0.004;    // rad/s
-constexpr double kLoadShare = 10.0;      // of i / p, 1/s, in which it finds its load
+constexpr double kLoadShare = 10.0;      // times i / p, 1/s, in which it finds its load
 constexpr double kSwings = 3.5;          // kg m^2, or kg: what is heavier swings with the gains
 constexpr double kHandForce = 60.0;      // N, at the edge
 constexpr double kUprightAxis = 0.97;    // |z| of the axis of an upright leaf: 14 deg
@@ -285,7 +288,7 @@ void Door::save(SavedParams& params) const {
   if (leaving_ || (started_ && !resting_)) write(target_);
 }
 
-// From the leaf's edge to the jamb, at most all of the opening; none where it is shut.
+// From the leaf's edge to the jamb, at most all of the opening; none if it is shut.
 double Door::free_width(double position) const {
   const double angle = std::abs(position - closed_position_);
   if (angle < kClosedWithin) return 0.0;

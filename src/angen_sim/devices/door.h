@@ -9,6 +9,7 @@
 #include "devices/refresh.h"
 #include "devices/servo.h"
 #include "plugin/plugin.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 
@@ -21,7 +22,7 @@ struct LeafKind {
   const char* topic;  // where commands come from
   double height;      // m, of the opening, unless its SDF says
   const char* example;
-  std::vector<const char*> models;  // of worlds/models; the first is the default
+  std::vector<const char*> models;  // models of worlds/models; the first is the default
 };
 
 inline constexpr const char* kLeafModes[] = {"CLOSED",  "OPEN",    "OPENING",

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "devices/door.h"
-#include "devices/storeys.h"
-#include "plugin/register.h"
+#include "devices/part_names.h"
+#include "plugin/registration.h"
 
 namespace angen::devices {
 
@@ -119,7 +119,7 @@ std::string LeafPlugin::name_of(const ModelInfo::Joint& leaf, const ModelInfo& m
   const bool is_own = leaf.name == leaf_.joint && leaf.parent == "base";
   if (only && (is_own || model.name.find(kind_.name) != std::string::npos)) return of_model;
   for (const std::string& part : {leaf.child, leaf.name}) {
-    std::string name = leaf_name(part, kind_.name, floor_of(model.storeys, leaf.height));
+    std::string name = leaf_name(part, kind_.name, floor_at(model.storeys, leaf.height));
     if (!name.empty()) return name;
   }
   return only ? of_model : leaf.name;

@@ -6,6 +6,8 @@
 #include <unordered_map>
 
 #include "devices/floor_map.h"
+#include "plugin/outputs.h"
+#include "plugin/view.h"
 
 namespace angen::devices {
 
@@ -25,15 +27,15 @@ constexpr double kBehind = 0.4;                   // m past a door, to close it
 constexpr double kForgets = 4.0;                  // m
 constexpr double kSeesDoor = 2.0;                 // m, before the leaf
 constexpr Nanoseconds kNearEnough = 3 * kSecond;  // then it opens from where it can reach
-constexpr Nanoseconds kLongest = 8 * kSecond;     // of each phase
-constexpr Nanoseconds kRefresh = kSecond / 50;    // of a door's state
+constexpr Nanoseconds kLongest = 8 * kSecond;     // longest time of each phase
+constexpr Nanoseconds kRefresh = kSecond / 50;    // period of a door's state
 constexpr Nanoseconds kStarts = kSecond / 5;      // until the door's state shows the hand
 constexpr Nanoseconds kRests = 30 * kSecond;      // after a door that did not open, then twice that
 constexpr int kRestDoublings = 7;
 
 // deg from the shut leaf to the person's place to pull it, the best first
 constexpr double kSpots[] = {45.0, 35.0, 55.0, 25.0, 65.0, 15.0};
-constexpr double kDoubleSpots[] = {60.0, 70.0, 80.0};  // of a double door
+constexpr double kDoubleSpots[] = {60.0, 70.0, 80.0};  // spots of a double door
 
 double cross_of(const Surroundings::Vec2& a, const Surroundings::Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -181,7 +183,7 @@ bool DoorUse::refresh(const View& view, double z) {
   return false;
 }
 
-// That of a sliding leaf is reached from before its middle.
+// The handle of a sliding leaf is reached from before its middle.
 DoorUse::Vec2 DoorUse::handle() const {
   const double at = door_.slides ? 0.5 * door_.width : door_.width - kHandleInside;
   return door_.hinge + at * door_.along;

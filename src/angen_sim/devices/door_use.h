@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "devices/surroundings.h"
-#include "plugin/view.h"
+#include "plugin/plugin.h"
 
 namespace angen::devices {
 
@@ -85,7 +85,7 @@ class DoorUse {
   Nanoseconds refreshed_ = 0;
   Vec2 spot_ = Vec2::Zero();
   double side_ = 1.0;         // where it came from: 1 = the side that the leaf opens to
-  Nanoseconds since_ = 0;     // of this phase
+  Nanoseconds since_ = 0;     // start of this phase
   int failures_ = 0;          // one after the other
   Nanoseconds tries_at_ = 0;  // again, after those
 };

@@ -3,7 +3,9 @@
 #include <utility>
 #include <vector>
 
-#include "plugin/register.h"
+#include "plugin/outputs.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
 
 namespace angen::devices {
 
@@ -67,8 +69,8 @@ class Doorbell : public Device {
   std::vector<double> position_{0.0, 0.0, 0.0};
   bool pressed_ = false;
   bool started_ = false;
-  Nanoseconds now_ = 0;   // of the last update
-  Nanoseconds left_ = 0;  // of the ring, at `now_`
+  Nanoseconds now_ = 0;   // time of the last update
+  Nanoseconds left_ = 0;  // rest of the ring, at `now_`
   std::int64_t rings_ = 0;
 };
 

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "plugin/outputs.h"
+#include "plugin/view.h"
+
 namespace angen::devices {
 
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "devices/profile.h"
-#include "plugin/view.h"
+#include "plugin/plugin.h"
 
 namespace angen::devices {
 
@@ -18,7 +18,7 @@ class Doorway {
     double open = 0.0;  // m, open position
     LinkRef link;
     Vec3 center = Vec3::Zero();  // m, of its mass, in the link's frame
-    Vec3 axis = Vec3::UnitX();   // of its joint, in the model's frame
+    Vec3 axis = Vec3::UnitX();   // axis of its joint, in the model's frame
     int row = 0;                 // leaves of one row close towards each other
   };
 
@@ -26,7 +26,8 @@ class Doorway {
   /// Limits in m/s and N.
   Doorway(double max_velocity, double max_force);
 
-  /// Which leaves move from now on. Their brakes must hold; the mode follows from their positions.
+  /// Selects the leaves that move from now on. Their brakes must hold; the mode follows from their
+  /// positions.
   void select(std::vector<Leaf> leaves, const View& view);
   void open(const View& view);
   void close(const View& view);
@@ -45,7 +46,7 @@ class Doorway {
   void go(bool opening, const View& view);
 
   std::vector<Leaf> leaves_;
-  Profile profile_;  // of the widest leaf, m
+  Profile profile_;  // profile of the widest leaf, m
   double max_velocity_ = 0.5;
   double max_force_ = 100.0;
   double travel_ = 0.0;          // m, of the widest leaf

@@ -7,14 +7,18 @@
 #include <vector>
 
 #include "core/text.h"
-#include "plugin/register.h"
+#include "plugin/outputs.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 
 namespace {
 
 constexpr double kRestSpeed = 1e-4;  // rad/s: slower wheels are at rest
-constexpr double kFarOff = 0.1;      // of the wheels' distance that wheelSeparation may be wrong by
+constexpr double kFarOff =
+    0.1;  // share of the wheels' distance by which wheelSeparation may be wrong
 
 std::string left_joint(Params& params) {
   return params.text("leftJoint", "left_wheel_joint", "joint, axis +y");

@@ -7,22 +7,25 @@
 
 #include "core/text.h"
 #include "devices/elevator_floors.h"
-#include "plugin/register.h"
+#include "plugin/outputs.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 
 namespace {
 
 constexpr char kTopic[] = "/gazebo/Elevator_controller";
-constexpr double kArriveError = 0.0005;            // m
-constexpr double kNearError = 0.002;               // m
-constexpr double kArriveSpeed = 0.002;             // m/s
-constexpr double kMaxLag = 0.02;                   // m
-constexpr double kStallSpeed = 0.005;              // m/s
-constexpr Nanoseconds kDwell = kSecond;            // between the doors' opening and their shutting
-constexpr double kSlips = 0.1;                     // m/s, against its way: its load is another one
-constexpr double kOverspeed = 1.15;                // of its greatest velocity: EN 81-20, 5.6.2.2.1
-constexpr Nanoseconds kWeighs = kSecond;           // by its brake, on the way
+constexpr double kArriveError = 0.0005;   // m
+constexpr double kNearError = 0.002;      // m
+constexpr double kArriveSpeed = 0.002;    // m/s
+constexpr double kMaxLag = 0.02;          // m
+constexpr double kStallSpeed = 0.005;     // m/s
+constexpr Nanoseconds kDwell = kSecond;   // between the doors' opening and their shutting
+constexpr double kSlips = 0.1;            // m/s, against its way: its load is another one
+constexpr double kOverspeed = 1.15;       // times its greatest velocity: EN 81-20, 5.6.2.2.1
+constexpr Nanoseconds kWeighs = kSecond;  // by its brake, on the way
 constexpr Nanoseconds kWeighsAgain = 3 * kSecond;  // while it is blocked or lags
 
 // Gains and limits are times the moving mass; the limits exclude the weight.

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "devices/doorway.h"
+#include "devices/part_names.h"
 #include "devices/refresh.h"
 #include "devices/servo.h"
-#include "devices/storeys.h"
 #include "devices/weighing.h"
 #include "plugin/plugin.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 

@@ -1,5 +1,7 @@
 #include "devices/elevator_floors.h"
 
+#include "plugin/wiring.h"
+
 namespace angen::devices {
 
 namespace {

@@ -8,6 +8,8 @@
 #include <queue>
 #include <utility>
 
+#include "plugin/view.h"
+
 namespace angen::devices {
 
 namespace {
@@ -84,7 +86,7 @@ bool FloorMap::serves(const View& view, const Vec3& feet, const Vec2& to) const 
   return other.min() == area_.min() && other.max() == area_.max();
 }
 
-// Of tops and boards over free places, which are between the heights of the scan.
+// Edges of tops and boards over free places, which are between the heights of the scan.
 std::vector<double> FloorMap::other_heights(const View& view) const {
   std::vector<double> heights;
   const int step = static_cast<int>(kProbeStep / kCell);

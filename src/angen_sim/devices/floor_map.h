@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "plugin/view.h"
+#include "plugin/plugin.h"
 
 namespace angen::devices {
 
@@ -39,7 +39,7 @@ class FloorMap {
   /// Whether a person who walks straight stays free.
   bool is_clear(const Vec2& from, const Vec2& to) const;
   /// The best way on floor, as places at most two cells apart, to within `tolerance` (m) of `to`;
-  /// none where no way leads there. Ways along the middle of a passage are better than ways along a
+  /// none if no way leads there. Ways along the middle of a passage are better than ways along a
   /// wall.
   std::optional<std::vector<Vec2>> way(const View& view, const Vec2& from, const Vec2& to,
                                        double tolerance);
@@ -64,7 +64,7 @@ class FloorMap {
   float gap(int cell) const;
   bool can_stand(const View& view, int cell);
 
-  std::uint64_t revision_ = 0;  // of the static shapes
+  std::uint64_t revision_ = 0;  // revision of the static shapes
   Eigen::AlignedBox2d area_;    // m, of the storey
   Vec2 corner_ = Vec2::Zero();  // m, of the first cell
   double floor_ = 0.0;          // m

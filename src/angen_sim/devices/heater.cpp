@@ -6,8 +6,11 @@
 
 #include "devices/approach.h"
 #include "devices/refresh.h"
-#include "plugin/register.h"
+#include "plugin/outputs.h"
+#include "plugin/registration.h"
 #include "plugin/rooms.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 

@@ -1,8 +1,10 @@
 // libros_plugin.so
 #include "devices/lamp.h"
 
-#include "devices/storeys.h"
-#include "plugin/register.h"
+#include "devices/part_names.h"
+#include "plugin/outputs.h"
+#include "plugin/registration.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 

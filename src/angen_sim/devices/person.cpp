@@ -9,7 +9,10 @@
 
 #include "core/text.h"
 #include "devices/metabolism.h"
+#include "plugin/outputs.h"
 #include "plugin/rooms.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 
@@ -25,17 +28,19 @@ constexpr double kFeltHumidity = 0.5;    // percent
 constexpr double kUsualHumidity = 50.0;  // percent, where the world has no climate
 constexpr double kRoomAir = 295.15;      // K, at which …
 constexpr double kSkinAtRest = 307.0;    // K … is that of head and hands
-constexpr double kSkinPerKelvin = 0.12;  // of the air
+constexpr double kSkinPerKelvin = 0.12;  // share of the air's
 constexpr double kCoveredSkin = 306.5;   // K, below clothing
-constexpr double kClothingShare = 0.35;  // of the way from the air to that
-constexpr double kBareShare = 0.12;      // of its surface: head and hands
+constexpr double kClothingShare = 0.35;  // share of the way from the air to the skin
+constexpr double kBareShare = 0.12;      // share of its surface: head and hands
 constexpr double kGrounds = 20.0;        // m around all rooms, where people go
+// N/m, of chest and pelvis: ISO/TS 15066:2016, table A.3, effective spring constant.
+constexpr double kSideStiffness = 25e3;
 constexpr Nanoseconds kAirPeriod = 10 * kSecond;
 constexpr Range kSoundPower{-100.0, 200.0};
 
 const char* const kModeEvents[] = {"stands", "walks", "blocked"};
 
-// Why a place is none to go to; empty where it is one.
+// Why a place is none to go to; empty if it is one.
 std::string why_not(const Point2& place, const Home& home) {
   Eigen::AlignedBox2d grounds;
   for (const Room& room : home.rooms) {
@@ -110,6 +115,7 @@ void Person::configure(Params& params, Wiring& wiring) {
     if (!sent.empty()) order_ = Order{{sent.back()[0], sent.back()[1]}, pushes};
   }
   body_ = wiring.link("body");
+  wiring.anatomy(body_, {true, kSideStiffness, Gait::visuals(), {}});
 }
 
 Verdict Person::command(const Command& command, const View& view) {
@@ -153,7 +159,9 @@ void Person::start_anew() {
 void Person::update(const View& view, Outputs& outputs) {
   const bool renew = refresh_.due(view.time(), view.step());
   late_ = std::max(0.0, 0.5 * (to_seconds(view.step()) - kUsualStep));
-  if (!started_) start(view.link(body_));
+  const LinkView body = view.link(body_);
+  if (!started_) start(body);
+  gait_.advance(body.pose, body.linear_velocity.head<2>().norm());
   feel_air(view, outputs);
   if (speaks_ != spoke_) outputs.event(speaks_ ? "speaks" : "quiet", "");
   spoke_ = speaks_;
@@ -189,6 +197,10 @@ void Person::feel_air(const View& view, Outputs& outputs) {
   const double mean =
       std::pow(kBareShare * std::pow(skin_, 4) + (1.0 - kBareShare) * std::pow(clothing_, 4), 0.25);
   for (const SurfaceRef surface : surfaces_) outputs.temperature(surface, mean, mean, 0.0);
+}
+
+void Person::pose_limbs(std::vector<Pose>& limbs) const {
+  for (std::size_t i = 0; i < limbs.size(); ++i) limbs[i] = gait_.limb(static_cast<int>(i));
 }
 
 void Person::start(const LinkView& body) {

@@ -8,6 +8,7 @@
 
 #include "devices/braking.h"
 #include "devices/door_use.h"
+#include "devices/gait.h"
 #include "devices/path.h"
 #include "devices/refresh.h"
 #include "devices/route.h"
@@ -31,6 +32,8 @@ class Person : public Device {
   Nanoseconds idle_until(const View& view) const override;
   void skip(Nanoseconds time) override;
   void save(SavedParams& params) const override;
+  bool takes_long_steps() const override { return true; }
+  void pose_limbs(std::vector<Pose>& limbs) const override;
 
  private:
   using Vec2 = Surroundings::Vec2;
@@ -38,7 +41,8 @@ class Person : public Device {
   static constexpr double kReturnSpeed = 0.8;  // m/s, back to a path it was pushed off
   static constexpr double kPushedAway = 0.1;   // m: further than this it walks back
   static constexpr double kProgress = 0.05;    // m: less than this in a second is none
-  static constexpr Nanoseconds kPathAhead = 7 * kSecond / 5;  // of its path, checked for obstacles
+  static constexpr Nanoseconds kPathAhead =
+      7 * kSecond / 5;  // time on its path, checked for obstacles
 
   enum class Mode { kStanding, kWalking, kBlocked };
   enum class Scan { kNone, kScanned, kPlans };
@@ -84,6 +88,7 @@ class Person : public Device {
   void show(Mode mode, const LinkView& body, bool renew, Outputs& outputs);
 
   LinkRef body_;
+  Gait gait_;
   Path path_;
   Refresh refresh_;
   double skin_ = 0.0;      // K
@@ -92,10 +97,10 @@ class Person : public Device {
   bool clothing_follows_ = true;
   double air_ = 0.0;          // K, around it, which they follow
   double humidity_ = 50.0;    // percent, of that
-  Nanoseconds felt_at_ = -1;  // that, as a multiple of a period
+  Nanoseconds felt_at_ = -1;  // time of the last air, as a multiple of a period
   std::vector<SurfaceRef> surfaces_;
   double force_max_ = 0.0;       // N
-  double surface_ = 1.0;         // of its body, as a share of a person's
+  double surface_ = 1.0;         // its body, as a share of a person's
   double step_sound_ = 0.0;      // dB over 1 pW
   double speech_sound_ = 0.0;    // dB over 1 pW
   Nanoseconds clock_ = 0;        // time on the path; below 0 while the start is delayed
@@ -107,17 +112,17 @@ class Person : public Device {
   Nanoseconds held_clock_ = 0;   // clock_ then
   double held_left_ = 0.0;       // m of the way to its goal then
   int tries_ = 0;                // while it is held
-  int errors_ = 0;               // of these, when it saw a free way that was none
+  int errors_ = 0;               // tries on a free way that was none
   bool waits_at_door_ = false;   // until another opens it
   bool waits_ = false;           // until it sees a free way
-  Nanoseconds waits_since_ = 0;  // that
+  Nanoseconds waits_since_ = 0;  // time at which waits_ began
   Vec2 circle_ = Vec2::Zero();   // middle of the one that it is in
-  Nanoseconds entered_at_ = 0;   // that circle
-  Nanoseconds away_until_ = 0;   // of stepping back
+  Nanoseconds entered_at_ = 0;   // when it came into the circle
+  Nanoseconds away_until_ = 0;   // end of stepping back
   Vec2 back_to_ = Vec2::Zero();  // where it does so
   Nanoseconds retry_at_ = 0;     // if it sees a free way
   Nanoseconds blind_at_ = 0;     // in any case
-  Nanoseconds checked_at_ = -1;  // that, in whole seconds
+  Nanoseconds checked_at_ = -1;  // time of the last check, in whole seconds
   bool opens_doors_ = true;
   DoorUse doors_;
   struct Order {
@@ -128,10 +133,10 @@ class Person : public Device {
     bool unreachable = false;           // it has given up
     double stays_within = kPushedAway;  // m of the goal, once it has arrived
   };
-  std::optional<Order> order_;       // in place of its path
+  std::optional<Order> order_;       // instead of its path
   std::optional<Route> route_;       // to its goal; none: straight
   std::optional<FloorMap> storey_;   // the last one
-  std::vector<Vec2> seen_;           // of obstacles that have held it on the way there
+  std::vector<Vec2> seen_;           // obstacles that have held it on the way there
   std::vector<std::string> failed_;  // doors that did not open, on the way there
   std::optional<Vec2> target_;       // on that
   Nanoseconds came_clock_ = 0;       // on its path: its maximum
@@ -140,7 +145,7 @@ class Person : public Device {
   double speed_ = 1.0;  // m/s, on an order
   bool avoids_ = true;
   Surroundings surroundings_;
-  Nanoseconds scanned_at_ = -1;        // that, as a multiple of kScanPeriod
+  Nanoseconds scanned_at_ = -1;        // last scan, as a multiple of kScanPeriod
   Braking braking_;                    // before obstacles
   std::optional<Nanoseconds> rejoin_;  // time on the path where it comes back to it
   std::optional<Vec2> aim_;            // first place of a way round

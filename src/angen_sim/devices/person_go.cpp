@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "devices/person.h"
+#include "plugin/outputs.h"
+#include "plugin/view.h"
 
 namespace angen::devices {
 
@@ -13,7 +15,7 @@ namespace {
 constexpr double kArrived = 0.03;   // m: nearer than this an order is carried out
 constexpr double kCloseBy = 0.22;   // m: so is one that something holds nearer than this
 constexpr double kMoved = 0.05;     // m, of one that has arrived: it stays
-constexpr double kNearGoal = 0.06;  // m from its goal, where it fits in place of it
+constexpr double kNearGoal = 0.06;  // m from its goal; a place that fits instead of it
 constexpr double kOpenToll = 3.0;   // m that a door which it can open counts
 constexpr double kWaitToll = 30.0;  // m that another shut door counts
 constexpr double kOnWay = 0.3;      // m: a person that moved this far is no longer held
@@ -147,7 +149,7 @@ bool Person::uses_door(const LinkView& body, const View& view, const Vec2& to, b
   return true;
 }
 
-// In place of the one through a door that does not open.
+// Instead of the way through a door that does not open.
 void Person::take_other_way(const LinkView& body, const View& view, Outputs& outputs) {
   const DoorSeen& door = doors_.door();
   for (double at = 0.0; at < door.width; at += kSeenCell) {

@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "devices/person.h"
-#include "plugin/register.h"
+#include "plugin/registration.h"
 
 namespace angen::devices {
 

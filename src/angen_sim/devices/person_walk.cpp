@@ -2,6 +2,8 @@
 #include <cmath>
 
 #include "devices/person.h"
+#include "plugin/outputs.h"
+#include "plugin/view.h"
 
 namespace angen::devices {
 
@@ -15,7 +17,7 @@ constexpr double kCatchUp = 1.3;         // times the path's own speed
 constexpr double kThere = 0.01;          // m: tolerance of its goal
 constexpr double kFacing = 0.02;         // rad
 constexpr double kNearPath = 0.1;        // m: nearer than this it is not held
-constexpr Nanoseconds kFreed = kSecond;  // of its path, that it comes on after it was held
+constexpr Nanoseconds kFreed = kSecond;  // time on its path by which it comes on after it was held
 constexpr int kScansPerPlan = 3;
 constexpr double kNearRejoin = 0.3;  // m
 constexpr double kPushSpeed = 0.3;   // m/s, against a thing that it shall push

@@ -4,8 +4,10 @@
 #include <sstream>
 
 #include "devices/refresh.h"
-#include "plugin/register.h"
+#include "plugin/outputs.h"
+#include "plugin/registration.h"
 #include "plugin/rooms.h"
+#include "plugin/view.h"
 
 namespace angen::devices {
 

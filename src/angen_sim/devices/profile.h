@@ -18,7 +18,7 @@ class Profile {
 
   double position() const { return position_; }
   double velocity() const { return velocity_; }
-  double acceleration() const { return acceleration_; }  // of the last step
+  double acceleration() const { return acceleration_; }  // acceleration of the last step
   bool at(double target) const { return position_ == target && velocity_ == 0.0; }
 
  private:

@@ -15,7 +15,7 @@ constexpr double kVapor = 0.622;        // molar mass of water over that of dry 
 constexpr double kKelvin = 273.15;
 constexpr double kGravity = 9.81;
 constexpr double kValveBand = 2.0;  // K, at which EN 215 rates a thermostatic valve
-constexpr double kDischarge = 0.6;  // of a sharp-edged opening
+constexpr double kDischarge = 0.6;  // coefficient of a sharp-edged opening
 
 // Pa over water, Magnus with Sonntag's constants (1990), -45 to 60 degrees.
 double saturation(double temperature) {

@@ -33,7 +33,7 @@ class RoomAir {
   struct Settings {
     double heat_loss = 0.0;      // W/(K m^3), through walls and windows
     double air_change = 0.0;     // 1/s, with the outside through cracks
-    double heat_capacity = 1.0;  // of the room's contents, in that of its air
+    double heat_capacity = 1.0;  // heat capacity of the room's contents by that of its air
     double heating_power = 0.0;  // W/m^3, of radiators that are fully open
   };
 

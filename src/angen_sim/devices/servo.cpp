@@ -8,12 +8,12 @@ namespace angen::devices {
 
 namespace {
 
-constexpr double kPushedBack = 5.0;   // freed distances
-constexpr double kStanding = 0.5;     // of the rate: an obstacle may stop it
-constexpr double kFlies = 0.5;        // of its greatest velocity, at which it leaves an obstacle
+constexpr double kPushedBack = 5.0;  // freed distances
+constexpr double kStanding = 0.5;    // share of the rate: an obstacle may stop it
+constexpr double kFlies = 0.5;  // share of its greatest velocity at which it leaves an obstacle
 constexpr double kLoadRamp = 500.0;   // per s: what pushes back may be an obstacle, or a blow
 constexpr double kLeadRamp = 2000.0;  // per s: what drives it on
-constexpr double kLags = 0.9;         // of its greatest lag: its setpoint waits now and then
+constexpr double kLags = 0.9;         // share of its greatest lag: its setpoint waits now and then
 
 }  // namespace
 

@@ -21,7 +21,7 @@ struct ServoSettings {
   double arrive_speed = 0.01;    // … and slower than this
   double stall_speed = 0.01;     // less towards the target, in the mean over kStallTime, is none
   double freed_distance = 0.02;  // moved on by this much since it was blocked means freed
-  // 1/s: how fast the load is estimated, which the command then carries in place of an integral;
+  // 1/s: how fast the load is estimated, which the command then carries instead of an integral;
   // 0: it is not. For gains whose integral would swing.
   double load_rate = 0.0;
 };

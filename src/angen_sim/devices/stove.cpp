@@ -6,10 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "devices/part_names.h"
 #include "devices/refresh.h"
-#include "devices/storeys.h"
-#include "plugin/register.h"
+#include "plugin/outputs.h"
+#include "plugin/registration.h"
 #include "plugin/rooms.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 

@@ -9,6 +9,8 @@
 #include <queue>
 #include <utility>
 
+#include "plugin/view.h"
+
 namespace angen::devices {
 
 namespace {
@@ -40,8 +42,8 @@ constexpr int kSide = 2 * kHalf + 1;
 constexpr std::size_t kCells = std::size_t{kSide} * kSide;
 constexpr double kWide = 0.33;    // m
 constexpr double kRoomy = 0.5;    // m: nearer to something costs more
-constexpr double kTight = 3.0;    // of cost a meter, per meter nearer than that
-constexpr double kLeft = 0.3;     // of cost a meter, per meter to the left of the straight way
+constexpr double kTight = 3.0;    // cost a meter, per meter nearer than kRoomy
+constexpr double kLeft = 0.3;     // cost a meter, per meter to the left of the straight way
 constexpr double kStuck = 0.15;   // m around the person that it may leave in any case
 constexpr double kNearer = 0.3;   // m, at least, that a way must lead nearer
 constexpr double kLongest = 3.0;  // times the straight way …
@@ -136,7 +138,7 @@ class Grid {
   Vec2 middle_;
   double body_;
   std::array<double, kCells> gap_;   // m to the next point, at most kRoomy
-  std::array<double, kCells> cost_;  // of the way from the middle
+  std::array<double, kCells> cost_;  // cost of the way from the middle
   std::array<int, kCells> from_;
 };
 

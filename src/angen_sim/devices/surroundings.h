@@ -4,7 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "plugin/view.h"
+#include "plugin/plugin.h"
+
+namespace angen {
+
+struct DeviceView;
+
+}  // namespace angen
 
 namespace angen::devices {
 
@@ -30,7 +36,7 @@ class Surroundings {
   /// Hits of the last two scans, m.
   const std::vector<Vec2>& points() const { return points_; }
 
-  /// The first place on a way round obstacles; none where no way is seen that leads nearer to `to`.
+  /// The first place on a way round obstacles; none if no way is seen that leads nearer to `to`.
   /// Prefers to pass on the right.
   std::optional<Vec2> way_round(const Vec2& from, const Vec2& to) const;
 
@@ -51,8 +57,8 @@ class Surroundings {
  private:
   std::optional<Vec2> way_round(const Vec2& from, const Vec2& to, double body) const;
 
-  std::vector<Vec2> points_;  // those of the last scan first
-  std::size_t fresh_ = 0;     // how many those are
+  std::vector<Vec2> points_;  // points of the last scan first
+  std::size_t fresh_ = 0;     // number of points of the last scan
   bool turned_ = false;
   std::vector<rays::Ray> rays_;
   std::vector<rays::Hit> hits_;

@@ -1,5 +1,6 @@
 // librfid_tag.so
-#include "plugin/register.h"
+#include "plugin/registration.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 

@@ -1,7 +1,9 @@
 // libradio_transmitter.so
 #include <optional>
 
-#include "plugin/register.h"
+#include "plugin/outputs.h"
+#include "plugin/registration.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 

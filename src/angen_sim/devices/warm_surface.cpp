@@ -5,8 +5,11 @@
 
 #include "devices/approach.h"
 #include "devices/refresh.h"
-#include "plugin/register.h"
+#include "plugin/outputs.h"
+#include "plugin/registration.h"
 #include "plugin/rooms.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 
 namespace angen::devices {
 
@@ -96,7 +99,7 @@ class WarmSurface : public Device {
   std::vector<SurfaceRef> surfaces_;
   Approach heat_;          // K
   int unknown_air_ = 2;    // updates, until a climate has reported the air that it starts at
-  bool targeted_ = false;  // as well, its target; or commanded
+  bool targeted_ = false;  // given, too: its target; or commanded
   bool first_ = true;
   bool set_ = false;  // whether the world has its present target
   bool changes_ = false;

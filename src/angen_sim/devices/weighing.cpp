@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "plugin/view.h"
 
 namespace angen::devices {
 
 namespace {
 
-constexpr double kWeighShare = 0.2;        // of each new weighing, at the rate of publishing
+constexpr double kWeighShare = 0.2;        // share of each new weighing, at the rate of publishing
 constexpr double kStandardGravity = 9.81;  // m/s^2
 constexpr double kGreatestLoad = 2000.0;   // kg, or twice the rated load: more is a blow
 

@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Without symbolic links; empty where there is nothing.
+// Without symbolic links; empty if there is nothing.
 std::string real(const fs::path& path) {
   std::error_code failed;
   const fs::path found = fs::canonical(path, failed);

@@ -26,7 +26,7 @@ class AllowedFiles {
   const SearchPaths& paths_;
   bool resolved_ = false;
   std::vector<std::string> folders_;   // real paths
-  std::vector<std::string> packages_;  // of these only files in a package
+  std::vector<std::string> packages_;  // only files in a package are permitted of these
   std::set<std::string> files_;        // real paths
 };
 

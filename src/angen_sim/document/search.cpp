@@ -24,11 +24,11 @@ void add_path_list(const char* variable, std::vector<std::string>& to) {
   for (std::string& entry : entries_of(variable)) to.push_back(std::move(entry));
 }
 
-Strictness strictness_of(const char* given) {
+DefaultDialect dialect_of_variable(const char* given) {
   const std::string text = given == nullptr ? "" : given;
-  if (text == "true" || text == "1") return Strictness::kStrict;
-  if (text == "false" || text == "0") return Strictness::kTolerant;
-  if (text.empty()) return Strictness::kAuto;
+  if (text == "true" || text == "1") return DefaultDialect::kOwn;
+  if (text == "false" || text == "0") return DefaultDialect::kGazebo;
+  if (text.empty()) return DefaultDialect::kAuto;
   throw Error("ANGEN_STRICT is '" + printable(text, 80) + "'; give true or false");
 }
 
@@ -54,8 +54,13 @@ const Packages& packages(Session& session) {
   return *session.packages;
 }
 
-std::string folder_of(const std::string& document, Sources& sources) {
-  if (document.empty() || !sources.exists(document)) return "";
+bool is_there(const fs::path& path) {
+  std::error_code failed;
+  return fs::exists(path, failed);
+}
+
+std::string folder_around(const std::string& document) {
+  if (document.empty() || !is_there(document)) return "";
   return fs::absolute(document).parent_path().string();
 }
 
@@ -65,13 +70,13 @@ std::vector<std::string> folders_for(const Address& address, const std::string& 
   if (address.scheme == "model") return session.paths.models;
   if (address.scheme != "file" && !address.scheme.empty()) return {};
   std::vector<std::string> folders = session.paths.resources;
-  const std::string beside = folder_of(from, session.sources);
+  const std::string beside = folder_around(from);
   if (!beside.empty()) folders.push_back(beside);
   return folders;
 }
 
-std::optional<std::string> existing(const fs::path& path, Sources& sources) {
-  if (!sources.exists(path.string())) return std::nullopt;
+std::optional<std::string> existing(const fs::path& path) {
+  if (!is_there(path)) return std::nullopt;
   const std::string found = fs::absolute(path).lexically_normal().string();
   return found.size() > 1 && found.back() == '/' ? found.substr(0, found.size() - 1) : found;
 }
@@ -83,24 +88,23 @@ std::optional<std::string> find_in_packages(const Address& address, Session& ses
   const Packages& known = packages(session);
   for (const std::string& folder : is_model ? known.model_folders() : known.media_folders()) {
     if (address.scheme == "package") break;
-    if (auto found = existing(fs::path(folder) / address.path, session.sources)) return found;
+    if (auto found = existing(fs::path(folder) / address.path)) return found;
   }
   if (!is_model && address.scheme != "package") return std::nullopt;
   const std::size_t slash = address.path.find('/');
   const std::optional<std::string> folder = known.folder(address.path.substr(0, slash));
   if (!folder) return std::nullopt;
   const std::string rest = slash == std::string::npos ? "" : address.path.substr(slash + 1);
-  return existing(fs::path(*folder) / rest, session.sources);
+  return existing(fs::path(*folder) / rest);
 }
 
 // model://NAME/… in a document of a folder NAME, which may lie outside of the model path.
-std::optional<std::string> find_in_own_model(const Address& address, const std::string& from,
-                                             Session& session) {
+std::optional<std::string> find_in_own_model(const Address& address, const std::string& from) {
   const std::size_t slash = address.path.find('/');
   if (address.scheme != "model" || slash == std::string::npos) return std::nullopt;
-  const fs::path folder = folder_of(from, session.sources);
+  const fs::path folder = folder_around(from);
   if (folder.filename() != address.path.substr(0, slash)) return std::nullopt;
-  return existing(folder / address.path.substr(slash + 1), session.sources);
+  return existing(folder / address.path.substr(slash + 1));
 }
 
 bool is_like(const std::string& name, const std::string& other) {
@@ -151,10 +155,6 @@ void check_allowed(const std::string& file, const std::string& what, const Sourc
                       "(ANGEN_ALLOW_PATHS=true)");
 }
 
-bool is_file(const std::string& path, Session& session) {
-  return session.sources.exists(path) && is_plain_file(path);
-}
-
 bool may_name(const std::string& path, const std::string& file, const Source& at,
               Session& session) {
   return session.allowed.holds(path, file) || session.allowed.holds(path, at.file);
@@ -168,14 +168,13 @@ SearchPaths SearchPaths::from_environment(const std::string& beside) {
   add_path_list("GAZEBO_MODEL_PATH", paths.models);
   if (!beside.empty()) paths.models.push_back(beside);
   paths.beside = beside;
-  for (const char* folder : {ANGEN_SOURCE_MODELS, ANGEN_INSTALLED_MODELS}) {
-    std::error_code failed;
-    if (fs::is_directory(folder, failed)) paths.models.emplace_back(folder);
-  }
+  const fs::path shipped = own_folder().parent_path() / "share/angen_sim/worlds/models";
+  std::error_code failed;
+  paths.models.push_back(fs::weakly_canonical(shipped, failed).string());
   add_path_list("GAZEBO_RESOURCE_PATH", paths.resources);
   add_path_list("ROS_PACKAGE_PATH", paths.packages);
   paths.allow_any = allow_paths();
-  paths.strictness = strictness_of(std::getenv("ANGEN_STRICT"));
+  paths.default_dialect = dialect_of_variable(std::getenv("ANGEN_STRICT"));
   return paths;
 }
 
@@ -184,15 +183,14 @@ std::optional<std::string> find_uri(const std::string& uri, const std::string& f
   const Address address = split(uri);
   if (address.path.empty() || address.path.size() >= PATH_MAX) return std::nullopt;
   if (address.path[0] == '/') {
-    return address.scheme.empty() || address.scheme == "file"
-               ? existing(address.path, session.sources)
-               : std::nullopt;
+    return address.scheme.empty() || address.scheme == "file" ? existing(address.path)
+                                                              : std::nullopt;
   }
   for (const std::string& folder : folders_for(address, from, session)) {
-    if (auto found = existing(fs::path(folder) / address.path, session.sources)) return found;
+    if (auto found = existing(fs::path(folder) / address.path)) return found;
   }
   if (auto found = find_in_packages(address, session)) return found;
-  return find_in_own_model(address, from, session);
+  return find_in_own_model(address, from);
 }
 
 std::string searched_places(const std::string& uri, const std::string& from, Session& session) {
@@ -230,14 +228,6 @@ std::string need_uri(const std::string& uri, const std::string& what, const Sour
   throw Error(at, what + " '" + shown + "' is not found; " + hint(uri, address, what, at, session));
 }
 
-void warn_or_throw_missing(const Element& element, const Error& error, Session& session) {
-  const Element* uri = element.child("uri");
-  const bool named = uri != nullptr && !split(uri->text).path.empty();
-  if (!named || session.guessed || find_uri(uri->text, uri->source.file, session))
-    throw Error(error);
-  session.warn_or_throw(error);
-}
-
 int version_number(const std::string& text) {
   int minor = -1;
   if (text.compare(0, 2, "1.") != 0 || text.size() > 4) return -1;
@@ -247,19 +237,19 @@ int version_number(const std::string& text) {
 }
 
 std::string model_file(const std::string& path, const Source& at, Session& session) {
-  Sources& sources = session.sources;
-  if (!sources.is_folder(path)) return path;
+  std::error_code failed;
+  if (!fs::is_directory(path, failed)) return path;
   const fs::path folder = path;
   const fs::path config = folder / "model.config";
-  if (!sources.exists(config.string())) {
-    if (auto found = existing(folder / "model.sdf", sources)) {
+  if (!is_there(config)) {
+    if (auto found = existing(folder / "model.sdf")) {
       check_allowed(*found, "'model.sdf'", {*found, 0}, session);
       return *found;
     }
     throw Error(at, "the model folder " + path + " has no model.config; add one with <sdf>");
   }
   check_allowed(config.string(), "'model.config'", {config.string(), 0}, session);
-  const Element root = parse_xml(sources.read(config.string()), config.string());
+  const Element root = parse_xml(read_file(config.string()), config.string());
   const Element* best = nullptr;
   int best_version = -1;
   for (const Element& child : root.children) {
@@ -275,7 +265,7 @@ std::string model_file(const std::string& path, const Source& at, Session& sessi
     throw Error(root.source,
                 "no <sdf version=\"1.6\">model.sdf</sdf> of a version up to 1.9 in it");
   }
-  if (auto found = existing(folder / best->text, sources)) {
+  if (auto found = existing(folder / best->text)) {
     check_allowed(*found, "the file '" + best->text + "'", best->source, session);
     return *found;
   }
@@ -296,7 +286,7 @@ std::string find_beside(const std::string& name, const std::string& what, const 
   }
   for (const fs::path& place : places) {
     std::string path = place.lexically_normal().string();
-    if (!is_file(path, session)) continue;
+    if (!is_plain_file(path)) continue;
     if (may_name(path, file, at, session)) return path;
     std::string outside = what;
     outside.append(" ").append(printable(path, 300)).append(" of ").append(file);

@@ -24,9 +24,6 @@ std::string searched_places(const std::string& uri, const std::string& from, Ses
 std::string need_uri(const std::string& uri, const std::string& what, const Source& at,
                      Session& session);
 
-/// For an error of an element with a <uri>: a warning where that names nothing, thrown otherwise.
-void warn_or_throw_missing(const Element& element, const Error& error, Session& session);
-
 /// The SDF file of a model: of a folder, the one with the highest version in its model.config (at
 /// most 1.9), or its model.sdf where it has no model.config; a file is itself.
 std::string model_file(const std::string& path, const Source& at, Session& session);

@@ -5,10 +5,9 @@
 
 namespace angen::load {
 
-/// Elements that Angen does not know, and errors in parts that the rest does not need, are errors
-/// (kStrict) or warnings (kTolerant). kAuto: a world without any of Angen's plug-ins is tolerant, a
-/// model strict.
-enum class Strictness { kStrict, kTolerant, kAuto };
+/// The dialect of documents that do not say theirs (document/dialect.h): ours or Gazebo's. kAuto:
+/// that of a world without any of Angen's plug-ins is Gazebo's, a model's ours.
+enum class DefaultDialect { kOwn, kGazebo, kAuto };
 
 /// The folders in which model:// and file:// are searched, in order; documents may name no files
 /// elsewhere.
@@ -19,7 +18,7 @@ struct SearchPaths {
   std::vector<std::string> packages{};  // folders with ROS packages, whose files may be named
   std::vector<std::string> files{};     // may be named, too
   bool allow_any = false;               // documents may name every file
-  Strictness strictness = Strictness::kStrict;
+  DefaultDialect default_dialect = DefaultDialect::kOwn;
 
   /// ANGEN_MODEL_PATH, GAZEBO_MODEL_PATH, `beside`, the installed worlds/models;
   /// GAZEBO_RESOURCE_PATH for resources; ROS_PACKAGE_PATH; ANGEN_ALLOW_PATHS=true;

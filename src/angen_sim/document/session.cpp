@@ -17,15 +17,10 @@ void Session::ignore(const Source& source, const std::string& what) {
   ignored.push_back({Diagnostic::Severity::kWarning, source, what});
 }
 
-void Session::warn_or_throw(const Error& error) {
-  if (!tolerant) throw Error(error);
-  tolerated.push_back(error);
-  for (const Diagnostic& each : error.diagnostics()) warn(each.source, each.message);
-}
-
-void Session::decide(bool is_tolerant) {
-  tolerant = is_tolerant;
-  if (!tolerant && !tolerated.empty()) throw Error(tolerated.front());
+void Session::forget(const Element& element) {
+  read.erase(&element);
+  for (const auto& [name, value] : element.attributes) read_attributes.erase({&element, name});
+  for (const Element& child : element.children) forget(child);
 }
 
 }  // namespace angen::load

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <optional>
 #include <sstream>
 
@@ -29,32 +28,12 @@ Numbers numbers_in(const std::string& text) {
   return found;
 }
 
-namespace {
-
-// The first character of a text that ASCII lacks, as "U+00AD": one from a PDF may be invisible.
-std::string odd_character(const std::string& text) {
-  const auto not_ascii = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
-  const auto at = std::find_if(text.begin(), text.end(), not_ascii);
-  if (at == text.end() || !valid_utf8(text)) return "";
-  const auto first = static_cast<unsigned char>(*at);
-  const int tails = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : 1;
-  unsigned code = first & (0x3FU >> tails);
-  for (int i = 1; i <= tails; ++i) code = code << 6U | (static_cast<unsigned char>(at[i]) & 0x3FU);
-  std::ostringstream name;
-  name << "U+" << std::uppercase << std::hex << std::setw(4) << std::setfill('0') << code;
-  return name.str();
-}
-
-}  // namespace
-
 std::vector<double> numbers_of(const Element& element, std::size_t count) {
   const Numbers found = numbers_in(element.text);
   const std::string want = count == 1 ? "one number" : std::to_string(count) + " numbers";
   if (!found.bad.empty()) {
-    const std::string odd = odd_character(found.bad);
-    throw Error(element.source, "<" + element.name + "> contains '" + printable(found.bad) + "'" +
-                                    (odd.empty() ? "" : " with the character " + odd) +
-                                    ", which is not a number; give " + want);
+    throw Error(element.source, "<" + element.name + "> contains '" + printable(found.bad) +
+                                    "', which is not a number; give " + want);
   }
   if (found.values.size() != count) {
     throw Error(element.source, "<" + element.name + "> contains " +

@@ -54,22 +54,24 @@ std::string checked(const char* text, const Source& at) {
   throw Error(at, "a reference to a character that XML does not allow; leave it out");
 }
 
-Element convert(const tinyxml2::XMLElement& from, const std::string& file) {
+Element convert(const tinyxml2::XMLElement& from, const std::string& file, int& number) {
   Element to;
   to.name = from.Name();
-  to.source = {file, from.GetLineNum()};
+  to.source = {file, from.GetLineNum(), ++number};
   for (auto* a = from.FirstAttribute(); a != nullptr; a = a->Next()) {
-    to.attributes.emplace_back(a->Name(), checked(a->Value(), to.source));
+    const std::string value = checked(a->Value(), to.source);
+    const bool is_name = std::string(a->Name()) == "name";
+    to.attributes.emplace_back(a->Name(), is_name ? value : plain_numbers(value));
   }
   std::string text;
   for (auto* node = from.FirstChild(); node != nullptr; node = node->NextSibling()) {
     if (auto* child = node->ToElement()) {
-      to.children.push_back(convert(*child, file));
+      to.children.push_back(convert(*child, file, number));
     } else if (auto* piece = node->ToText()) {
       text += checked(piece->Value(), to.source);
     }
   }
-  to.text = trimmed(text);
+  to.text = to.name == "name" ? trimmed(text) : trimmed(plain_numbers(text));
   return to;
 }
 
@@ -109,51 +111,6 @@ std::size_t after_aside(const std::string& text, std::size_t at) {
     return found == std::string::npos ? text.size() : found + 1;
   }
   return at;
-}
-
-// The first typographic character where XML has none: in a tag, outside of its straight quotes. A
-// value that runs on into the next tag ends in a curly quote.
-std::optional<TypographicChar> typographic_in_markup(const std::string& text) {
-  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
-    const std::size_t after = after_aside(text, at);
-    if (after > at) {
-      at = after;
-      continue;
-    }
-    char quote = '\0';
-    std::size_t quoted = 0;
-    for (++at; at < text.size(); ++at) {
-      const char c = text[at];
-      if (quote != '\0' && c == '<') return find_typographic(text, quoted);
-      if (quote == '\0' && (c == '>' || c == '<')) break;
-      if (c == quote) {
-        quote = '\0';
-      } else if (quote == '\0' && (c == '"' || c == '\'')) {
-        quote = c;
-        quoted = at;
-      } else if (quote == '\0') {
-        const std::optional<TypographicChar> found = find_typographic(text.substr(at, 4));
-        if (found && found->at == 0)
-          return TypographicChar{at, found->size, found->name, found->plain};
-      }
-    }
-  }
-  return std::nullopt;
-}
-
-// Why text that is not XML is not: a typographic character, if there is one.
-Error syntax_error(const std::string& text, const std::string& file,
-                   const tinyxml2::XMLDocument& document) {
-  const std::optional<TypographicChar> found = typographic_in_markup(text);
-  if (!found) return Error({file, std::max(1, document.ErrorLineNum())}, reason(document));
-  std::string right = "write -, and <!-- and --> around a comment";
-  if (found->plain == '"' || found->plain == '\'') {
-    right = "write name=\"value\" with straight quotes";
-  }
-  if (found->plain == ' ') right = "write a plain blank";
-  return Error(
-      {file, line_at(text, found->at)},
-      "the typographic character " + found->name + " in a tag, which XML does not allow; " + right);
 }
 
 // The end of the tag that begins before `at`; counts its attributes.
@@ -280,14 +237,21 @@ Element parse_xml(const std::string& text, const std::string& file) {
     const std::string quoted = with_quotes(given);
     if (quoted != given) document.Parse(quoted.data(), quoted.size());
   }
-  if (document.Error()) throw syntax_error(text, file, document);
+  if (document.Error()) {
+    const std::string plain = straightened(given);  // curly quotes around values
+    if (plain != given) document.Parse(plain.data(), plain.size());
+  }
+  if (document.Error()) {
+    throw Error({file, std::max(1, document.ErrorLineNum())}, reason(document));
+  }
   const tinyxml2::XMLElement* root = document.RootElement();
   if (root == nullptr) throw Error({file, 1}, "no element in it; it needs an <sdf> element");
   if (root->NextSiblingElement() != nullptr) {
     throw Error({file, root->NextSiblingElement()->GetLineNum()},
                 "a second root element; put all into one <sdf>");
   }
-  return convert(*root, file);
+  int number = 0;
+  return convert(*root, file, number);
 }
 
 void check_text_size(const std::string& text) {

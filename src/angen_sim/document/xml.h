@@ -9,10 +9,10 @@
 namespace angen::load {
 
 constexpr std::size_t kMaxFileBytes = 64U << 20U;
-constexpr std::size_t kMaxTextBytes = 4U << 20U;  // of a text that a client sends
+constexpr std::size_t kMaxTextBytes = 4U << 20U;  // bytes of a text that a client sends
 constexpr std::size_t kMaxElements = 100'000;
 constexpr std::size_t kMaxModelElements = 10'000;
-constexpr std::size_t kMaxAttributes = 100;  // of one element
+constexpr std::size_t kMaxAttributes = 100;  // attributes of one element
 
 /// The root element of a document; `file` names it in messages. Throws Error for text that is
 /// not well-formed, not UTF-8, or too large.

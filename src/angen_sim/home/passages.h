@@ -6,7 +6,7 @@
 
 namespace angen {
 
-/// A name with the storey's number in place of "{storey}".
+/// A name with the storey's number instead of "{storey}".
 std::string with_storey(std::string name, const std::string& number);
 
 /// Doors, windows and openings with the rooms on their sides, and elevators with their landings, of

@@ -13,7 +13,7 @@ namespace angen {
 namespace {
 
 constexpr double kSquare = 0.05;        // m
-constexpr double kMaxSquares = 4e6;     // of a plan
+constexpr double kMaxSquares = 4e6;     // most squares of a plan
 constexpr double kWallHeight = 1.0;     // m: lower shapes are furniture
 constexpr double kSmallestRoom = 1.0;   // m^2
 constexpr double kPassage = 0.55;       // m, half the width of the widest gap between two rooms
@@ -22,7 +22,8 @@ constexpr double kTolerance = 0.08;     // m, of corners
 constexpr double kNarrow = 0.3;         // m, half the width of the narrowest room
 constexpr double kPillar = 0.25;        // m^2: smaller ones are left out
 constexpr double kLowestCeiling = 1.9;  // m
-constexpr double kAsMuch = 0.8;         // of the area found at a lower height is enough at a higher
+constexpr double kAsMuch =
+    0.8;  // share of the area found at a lower height that is enough at a higher
 constexpr double kHeights[] = {2.3, 2.0, 1.5,
                                1.0};  // m over the floor: above lintels, if there are
 
@@ -74,14 +75,14 @@ class Plan {
     grid_.origin = around.min() - Point2::Constant(margin * grid_.side);
     grid_.columns = static_cast<int>(std::ceil(size.x() / grid_.side)) + 2 * margin;
     grid_.rows = static_cast<int>(std::ceil(size.y() / grid_.side)) + 2 * margin;
-    grid_.labels.assign(grid_.index(0, grid_.rows), LabelGrid::kFree);
+    grid_.cells.assign(grid_.index(0, grid_.rows), Grid::kFree);
     for (const Solid& solid : solids) {
       if (is_cut(solid)) draw(solid);
     }
   }
 
   std::vector<Room> rooms() {
-    if (grid_.labels.empty()) return {};
+    if (grid_.cells.empty()) return {};
     away_ = wall_distances(grid_, 2 * kPassage);
     split_at_gaps();
     std::vector<Room> found;
@@ -108,7 +109,7 @@ class Plan {
     for (int row = square(grid_.origin.y(), low.y(), grid_.rows); row <= last_row; ++row) {
       for (int column = square(grid_.origin.x(), low.x(), grid_.columns); column <= last_column;
            ++column) {
-        if (is_in(grid_.middle(column, row))) grid_.at(column, row) = LabelGrid::kWall;
+        if (is_in(grid_.middle(column, row))) grid_.at(column, row) = Grid::kWall;
       }
     }
   }
@@ -153,37 +154,37 @@ class Plan {
   // Doorways as high as their walls connect rooms with each other and with the outside: parts
   // remain when narrow gaps are closed.
   void split_at_gaps() {
-    LabelGrid wide = grid_;
-    for (std::size_t i = 0; i < wide.labels.size(); ++i) {
-      if (away_[i] < kPassage) wide.labels[i] = LabelGrid::kWall;
+    Grid wide = grid_;
+    for (std::size_t i = 0; i < wide.cells.size(); ++i) {
+      if (away_[i] < kPassage) wide.cells[i] = Grid::kWall;
     }
     const std::vector<std::size_t> sizes = number_parts(wide);
     const double least = kSmallestRoom / 4 / (grid_.side * grid_.side);
-    for (std::size_t i = 0; i < wide.labels.size(); ++i) {
-      const std::int32_t label = wide.labels[i];
+    for (std::size_t i = 0; i < wide.cells.size(); ++i) {
+      const std::int32_t label = wide.cells[i];
       if (label >= 0 && static_cast<double>(sizes[static_cast<std::size_t>(label)]) >= least) {
-        grid_.labels[i] = label;
+        grid_.cells[i] = label;
       }
     }
     grow_labels(grid_);
     // Rooms that are narrow all over.
-    LabelGrid rest = grid_;
-    for (std::int32_t& label : rest.labels) {
-      if (label >= 0) label = LabelGrid::kWall;
+    Grid rest = grid_;
+    for (std::int32_t& label : rest.cells) {
+      if (label >= 0) label = Grid::kWall;
     }
     number_parts(rest);
-    for (std::size_t i = 0; i < rest.labels.size(); ++i) {
-      if (rest.labels[i] < 0) continue;
-      grid_.labels[i] = static_cast<std::int32_t>(sizes.size()) + rest.labels[i];
+    for (std::size_t i = 0; i < rest.cells.size(); ++i) {
+      if (rest.cells[i] < 0) continue;
+      grid_.cells[i] = static_cast<std::int32_t>(sizes.size()) + rest.cells[i];
     }
   }
 
   // The outside and the insides of walls are no rooms.
   std::vector<bool> rooms_by_label() const {
     std::vector<bool> is_room;
-    for (std::size_t i = 0; i < grid_.labels.size(); ++i) {
-      if (grid_.labels[i] < 0) continue;
-      const auto label = static_cast<std::size_t>(grid_.labels[i]);
+    for (std::size_t i = 0; i < grid_.cells.size(); ++i) {
+      if (grid_.cells[i] < 0) continue;
+      const auto label = static_cast<std::size_t>(grid_.cells[i]);
       if (label >= is_room.size()) is_room.resize(label + 1, false);
       if (away_[i] >= kNarrow) is_room[label] = true;
     }
@@ -193,22 +194,16 @@ class Plan {
   }
 
   std::optional<Room> room_of(std::int32_t label) const {
+    std::optional<Region> region = region_of(grid_, label, kTolerance, kPillar);
+    if (!region || signed_area(region->outline) < kSmallestRoom) return std::nullopt;
     Room room;
-    for (const Polygon& outline : outlines_of(grid_, label, kTolerance)) {
-      if (outline.size() < 3) continue;
-      const double area = signed_area(outline);
-      if (area > 0.0 && (room.outline.empty() || area > signed_area(room.outline))) {
-        room.outline = outline;
-      } else if (area < -kPillar) {
-        room.holes.push_back(outline);
-      }
-    }
-    if (room.outline.empty() || signed_area(room.outline) < kSmallestRoom) return std::nullopt;
+    room.outline = std::move(region->outline);
+    room.holes = std::move(region->holes);
     return room;
   }
 
   double height_;
-  LabelGrid grid_;
+  Grid grid_;
   std::vector<double> away_;  // m from each square to a wall
 };
 

@@ -10,9 +10,9 @@ namespace angen {
 
 /// A box around a shape, in the world.
 struct OrientedBox {
-  Pose pose;  // of its middle
+  Pose pose;  // pose of its middle
   Vec3 size = Vec3::Zero();
-  bool round = false;  // of a cylinder or capsule about z
+  bool round = false;  // a cylinder or capsule about z
 
   Eigen::AlignedBox3d bounds() const;
 };
@@ -21,7 +21,7 @@ struct OrientedBox {
 std::optional<OrientedBox> box_around(const Shape& shape, const Pose& frame);
 
 /// The overlap of two boxes, or of round shapes in them, along the direction in which they do
-/// least, m; at most 0 where they are apart.
+/// least, m; at most 0 if they are apart.
 double overlap_of(const OrientedBox& a, const OrientedBox& b);
 
 /// The boxes around the collisions of a model.

@@ -31,12 +31,12 @@ struct HomeSurvey {
     std::vector<double> stops;  // m, positions of the joint
   };
 
-  desc::HomeParts parts;  // of the world
+  desc::HomeParts parts;  // parts of the world
   desc::HomeSite site;
   std::vector<Standing> models;
   std::vector<Leaf> leaves;
   std::vector<Lift> lifts;
-  std::vector<Storey> storeys;  // as storeys_of()
+  std::vector<Storey> storeys;  // result of storeys_of()
 };
 
 /// Something of a description that is missing, so that it was derived, or that contradicts itself.
@@ -49,7 +49,7 @@ struct HomeFinding {
 std::vector<Room> rooms_of(const desc::HomeParts& parts, const Pose& frame,
                            const std::string& model);
 /// The storeys by elevation, as the world and these models describe them; or else by the floors of
-/// the rooms that they describe; or else by floors on which walls or doors stand. None where there
+/// the rooms that they describe; or else by floors on which walls or doors stand. None if there
 /// are neither. Heights and names that are not given are left to derive_home().
 std::vector<Storey> storeys_of(const desc::HomeParts& world,
                                const std::vector<std::pair<const desc::Model*, Pose>>& models);

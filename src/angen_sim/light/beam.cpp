@@ -11,7 +11,7 @@ namespace angen::light {
 namespace {
 
 constexpr double kOnSurface = 1e-9;  // m
-constexpr std::size_t kSides = 64;   // of the polygon that approximates a disc
+constexpr std::size_t kSides = 64;   // sides of the polygon that approximates a disc
 constexpr std::size_t kArc = 16;     // points of the polygon on an arc of a tube's end
 
 double area_of(const Lamp& lamp) {

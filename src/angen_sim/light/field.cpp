@@ -19,7 +19,7 @@ namespace {
 constexpr double kReach = 15.0;       // m around an 800 lm lamp, in which its light is followed
 constexpr float kDark = 1e-3F;        // lx: less reflected light is not followed
 constexpr double kBeyondSites = 0.5;  // m
-constexpr double kSettled = 1e-4;     // of the mean: a change that ends the bounces
+constexpr double kSettled = 1e-4;     // share of the mean: a change that ends the bounces
 constexpr int kMaxBounces = 200;
 // Costs of the parts of a solution, measured; they decide only how it is cut into ticks.
 constexpr std::int64_t kCostToMake = 64;  // a patch

@@ -20,15 +20,15 @@ using Rgb = Eigen::Array4f;  // r g b and one unused, for SIMD
 /// Light of one white lamp at level 1 on the patches that it reaches, directly or by reflections on
 /// static and anchored surfaces.
 struct Solution {
-  std::vector<std::uint32_t> patches;  // that the light reaches
+  std::vector<std::uint32_t> patches;  // patches that the light reaches
   std::vector<std::uint64_t> serials;
   std::uint32_t first_patch = 0;      // the lowest of `patches`
   std::vector<std::uint32_t> places;  // their indices, by patch - first_patch; or kNoPatch
   std::vector<std::pair<std::uint64_t, std::uint32_t>> by_hash;  // hash and index, ascending
   std::vector<float> direct;                                     // lx
   std::vector<Rgb> reflected;                                    // lx, from other patches
-  Eigen::AlignedBox3d bounds;                                    // of the patches and the lamp
-  std::uint64_t stamp = 0;                                       // unique
+  Eigen::AlignedBox3d bounds;        // bounds of the patches and the lamp
+  std::uint64_t stamp = 0;           // unique
   std::uint64_t serials_before = 0;  // patches with higher serials were made after this was begun
   bool outlined = false;             // has bounds only, of the directly lit surfaces
   // lx that patches outside of the solution receive from its patches, by hash; valid for one state.
@@ -47,7 +47,7 @@ struct Unfinished {
   struct Sampling {        // how a patch samples what it sees
     float density = 0.0F;  // links per m^2
     float extent = 0.0F;   // m, root of its links times its area
-    bool is_part = false;  // of a divided cell
+    bool is_part = false;  // part of a divided cell
   };
   struct Arrival {  // a link to a patch that counts as one from it
     std::uint32_t from = 0;
@@ -58,7 +58,7 @@ struct Unfinished {
   Solution solution;
   Eigen::AlignedBox3d world;     // m, bounds of static shapes
   std::vector<rays::Ray> first;  // from the lamp, to find the lit patches
-  std::size_t cast = 0;          // of `first`
+  std::size_t cast = 0;          // how many of `first` are cast
   std::size_t followed = 0;      // patches of the solution whose reflected light has been followed
   std::vector<std::uint32_t> places;  // by patch: its index, or kNoPatch
   std::vector<Rgb> leaving;           // lx that leave each patch
@@ -152,7 +152,7 @@ class Field {
     Eigen::AlignedBox3d reach;
     bool counted = false;     // see cost_of()
     bool made = false;        // making its patch has been counted
-    std::int64_t price = 0;   // of a ray from it in ordinary rays; 0 until it is queried
+    std::int64_t price = 0;   // price of a ray from it in ordinary rays; 0 until it is queried
     std::uint64_t scene = 0;  // the scene's revision in which they were found
   };
   using Box = Eigen::AlignedBox3d;
@@ -192,7 +192,7 @@ class Field {
   bool updating_ = false;
   std::vector<Box> boxes_;                // changes that the current update processes
   std::vector<std::uint32_t> releasing_;  // patch numbers to free after the update
-  std::size_t updated_ = 0;               // of `counted_`
+  std::size_t updated_ = 0;               // how many of `counted_` are updated
   std::vector<std::uint32_t> counted_;    // patches, in the order of counting
   std::vector<std::uint32_t> uncounted_;  // patches whose links only queries have used
 };

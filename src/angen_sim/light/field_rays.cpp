@@ -14,7 +14,7 @@ namespace angen::light {
 namespace {
 
 constexpr std::size_t kFans = 32;      // different spreads of a patch's links
-constexpr std::uint64_t kSet = 10;     // of 16 sets of fans, the best past doors and in gaps
+constexpr std::uint64_t kSet = 10;     // the best of 16 sets of fans past doors and in gaps
 constexpr std::size_t kFirst = 2048;   // rays from any other lamp
 constexpr std::size_t kLattice = 128;  // rays from a directional lamp, per side
 constexpr double kMargin = 1e-4;       // m, so that a ray does not hit its own surface

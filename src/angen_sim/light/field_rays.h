@@ -9,7 +9,7 @@
 namespace angen::light {
 
 constexpr std::size_t kLinks = 128;     // directions in which a patch gathers
-constexpr std::size_t kFineLinks = 32;  // of a part of a divided cell
+constexpr std::size_t kFineLinks = 32;  // links of a part of a divided cell
 
 std::vector<rays::Ray> link_rays(const Patch& patch);
 

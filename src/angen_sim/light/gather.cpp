@@ -18,7 +18,7 @@ constexpr double kGrazing = 0.15;       // least cosine in areas, which are inac
 constexpr std::size_t kStride = 797;    // odd, so that each direction is used once
 // Differences of light between neighboring directions that are refined.
 constexpr float kStepLux = 2.0F;    // lx
-constexpr float kStepShare = 2.0F;  // of the mean over all directions
+constexpr float kStepShare = 2.0F;  // share of the mean over all directions
 constexpr std::uint32_t kNoMover = UINT32_MAX;
 constexpr double kGatherMargin = 1e-4;  // m, so that a ray does not hit its own surface
 constexpr rays::Mobilities kMovable = rays::kAll & ~rays::only(rays::Mobility::kStatic);
@@ -351,7 +351,7 @@ Gathered Gather::gather(const Source& source, Eigen::AlignedBox3d& reach) {
   bool in_play = from.any;
   const auto count = static_cast<float>(kDirections);
   std::vector<Rgb> on_movers;  // lx
-  Rgb mean = Rgb::Zero();      // of those
+  Rgb mean = Rgb::Zero();      // mean of those
   for (std::size_t i = 0; i < kDirections; ++i) {
     if (before_[i] == kNoMover) continue;
     on_movers.push_back(on_mover(movers_[before_[i]], source, i, in_play));

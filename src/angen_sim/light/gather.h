@@ -55,18 +55,18 @@ class Gather {
     double range = 0.0;
     std::uint32_t shape = UINT32_MAX;
     std::uint32_t patch = kNoPatch;
-    std::uint64_t serial = 0;  // of the patch
+    std::uint64_t serial = 0;  // serial of the patch
   };
   struct Mover {
     Surface surface;
     bool anchored = false;
-    std::uint32_t around = 0;  // of a free mover: index of its first surface in `around_`
+    std::uint32_t around = 0;  // a free mover's index of its first surface in `around_`
   };
   struct Received {                   // from one lamp, by direction
-    std::uint64_t geometry = kNever;  // of the source, for `direct`
-    std::uint64_t stamp = kNever;     // of the solution, for `reflected`
+    std::uint64_t geometry = kNever;  // geometry of the source, for `direct`
+    std::uint64_t stamp = kNever;     // stamp of the solution, for `reflected`
     std::uint64_t located = kNever;   // the field's revision, for `reflected`
-    bool stale = false;               // of the source, for `reflected`
+    bool stale = false;               // the source is stale, for `reflected`
     bool lit = false;                 // any of `direct` is more than 0
     bool any = false;                 // any of `direct` or `reflected` is
     std::vector<float> direct;        // lx, without movers
@@ -101,12 +101,12 @@ class Gather {
   std::vector<Rgb> between_;        // albedo of a moving shape before that one, or negative
   float left_ = 1.0F;               // share of earlier bounces' light that movers do not absorb
   std::map<LampId, Received> received_;
-  std::vector<std::uint32_t> patches_;      // of all surfaces, each once
+  std::vector<std::uint32_t> patches_;      // patches of all surfaces, each once
   std::vector<std::uint32_t> slots_;        // by direction: index of its patch in `patches_`
   std::uint64_t located_ = kNever;          // the field's revision, for the patches
   std::uint64_t movers_revision_ = kNever;  // the scene's revision, for `movers_`
-  Eigen::AlignedBox3d fixed_reach_;         // of the paths to the surfaces and on to the next ones
-  Eigen::AlignedBox3d reach_;               // also of the paths from movers
+  Eigen::AlignedBox3d fixed_reach_;  // reach of the paths to the surfaces and on to the next ones
+  Eigen::AlignedBox3d reach_;        // also of the paths from movers
 };
 
 }  // namespace angen::light

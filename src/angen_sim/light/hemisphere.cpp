@@ -9,7 +9,7 @@ namespace {
 
 // Points i / n, radical inverse of i, have one in each cell of the lattice, and one of n / 128
 // successive ones: the first digits of i are its ring, the last ones its part of the circle.
-constexpr std::size_t kParts = 128;  // of a circle
+constexpr std::size_t kParts = 128;  // parts of a circle
 static_assert(kDirections % kParts == 0);
 
 std::size_t reversed(std::size_t part) {

@@ -25,7 +25,7 @@ struct Lamp {
   double half_angle = 0.0;  // rad, spot: from its axis to half the intensity; 0 for the cones below
   double inner_angle = 0.0;                      // rad, spot: full angle of its evenly lit cone
   double outer_angle = 0.0;                      // rad, spot: full angle beyond which it is dark
-  std::shared_ptr<const Photometry> photometry;  // of a point or spot, in place of its own
+  std::shared_ptr<const Photometry> photometry;  // a point's or spot's, instead of its own
   double photometric_flux = 0.0;                 // lm, of `photometry`
   bool cast_shadows = true;
 

@@ -39,7 +39,7 @@ class Lighting {
   void set_level(LampId lamp, double level);  // share of luminous_flux; 0 and less is dark
   double level(LampId lamp) const;
   void move(LampId lamp, const Pose& pose);
-  std::vector<Lit> lit() const;  // those of a level above 0
+  std::vector<Lit> lit() const;  // lamps of a level above 0
   bool dark() const { return lit_count_ == 0; }
   /// Grows when a lit lamp is added, removed, moved or changes its level, and with each new result.
   std::uint64_t lit_revision() const { return lit_revision_; }
@@ -136,7 +136,7 @@ class Lighting {
   const rays::Scene& scene_;
   mutable Slots<Entry, LampTag> lamps_;
   std::unique_ptr<Field> field_;
-  mutable std::vector<std::weak_ptr<Receiver>> receivers_;  // of all probes
+  mutable std::vector<std::weak_ptr<Receiver>> receivers_;  // receivers of all probes
   mutable std::unique_ptr<Unfinished> work_;                // for the solution of `worked_on_`
   bool work_moved_ = false;                                 // its lamp has moved since
   LampId worked_on_;
@@ -150,8 +150,8 @@ class Lighting {
   mutable bool changed_ = false;          // since the last advance()
   bool waiting_ = false;                  // for changes to end
   Nanoseconds followed_ = INT64_MIN / 2;  // when advance() last looked for changes
-  Nanoseconds first_change_ = 0;          // of the waiting changes
-  Nanoseconds last_change_ = 0;           // of the waiting changes
+  Nanoseconds first_change_ = 0;          // first of the waiting changes
+  Nanoseconds last_change_ = 0;           // last of the waiting changes
   std::uint64_t id_;                      // unique
   std::size_t lit_count_ = 0;
   mutable std::shared_ptr<const ReflectedLight> reflected_;  // null until it is queried

@@ -8,7 +8,7 @@ namespace {
 
 struct Between {
   std::size_t low = 0;
-  double share = 0.0;  // of the next one
+  double share = 0.0;  // share of the next one
 };
 
 Between between(const std::vector<double>& angles, double angle) {

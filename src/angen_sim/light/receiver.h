@@ -17,7 +17,7 @@ struct Receiver {
     Transport transport;  // the newest complete one, if `found`
     bool found = false;
     bool queued = false;           // to be computed by Lighting::advance
-    std::uint64_t key = 0;         // of its inputs
+    std::uint64_t key = 0;         // key of its inputs
     std::uint64_t scene = kNever;  // the scene's revision for which it is valid
 
     bool holds(std::uint64_t now_key, std::uint64_t revision) const {

@@ -21,7 +21,7 @@ constexpr float kMinWeight = 1e-3F;
 constexpr float kLift = 0.02F;            // m off the surfaces that pieces are looked for
 constexpr float kAlong = 0.99F;           // cosine to an axis that counts as along it
 constexpr int kSlanted = 6, kAround = 7;  // further than the six axes
-constexpr std::size_t kMaxCells = 1024;   // of some 5 kB; a camera that moves leaves old ones
+constexpr std::size_t kMaxCells = 1024;   // cells of some 5 kB; a camera that moves leaves old ones
 
 Eigen::Vector3i cell_of(const Eigen::Vector3f& point, float step) {
   return (point / step).array().floor().cast<int>();

@@ -99,8 +99,8 @@ class ReflectedLookup {
 
   const ReflectedLight& light_;
   Visible visible_;
-  std::array<Near, 8> last_;  // of ReflectedLight::near_
-  Eigen::ArrayXf weights_;    // of the pieces at one place
+  std::array<Near, 8> last_;  // entries of ReflectedLight::near_
+  Eigen::ArrayXf weights_;    // weights of the pieces at one place
 };
 
 }  // namespace angen::light

@@ -16,7 +16,7 @@ constexpr double kSunlit = 1e4;            // m, length of shadow rays to a dire
 constexpr int kCoarsest = 4, kFinest = 7;  // levels of cells: 4^level of them fill the square
 constexpr int kSlenderest = 3;             // 4^3 more columns than rows, or fewer
 constexpr double kClose = 0.35;            // diagonal of a cell by its distance
-constexpr double kShareError = 0.004;      // of the visible share, one standard deviation
+constexpr double kShareError = 0.004;      // error of the visible share, one standard deviation
 constexpr double kLuxError = 0.01;         // lx at level 1
 // A cell at the edge of a shadow, of which any share may be visible, is sampled once.
 constexpr double kVariance = 0.1;
@@ -133,7 +133,7 @@ class Face {
   Eigen::Vector2d extent_ = Eigen::Vector2d::Zero();  // m
   Eigen::Matrix3d frame_ = Eigen::Matrix3d::Identity();
   double distance_ = 0.0;
-  double cap_ = 0.0;  // of a globe: 1 - cosine of the cone in which it is seen
+  double cap_ = 0.0;  // a globe's: 1 - cosine of the cone in which it is seen
 };
 
 /// Sobol's first two dimensions: of the first 2^n points, each cell of a grid of 2^k x 2^(n - k)
@@ -193,7 +193,7 @@ const CellPoints& cell_points() {
 struct Cell {
   int level = 0;
   int column = 0, row = 0;
-  std::uint16_t point = 0;  // of CellPoints
+  std::uint16_t point = 0;  // index in CellPoints
   bool counts = false;      // false inside a ceiling
   bool seen = false;
   bool at_edge = false;  // a neighbor differs

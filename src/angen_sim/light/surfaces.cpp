@@ -11,7 +11,7 @@ namespace {
 constexpr double kCell = 0.4;       // m
 constexpr double kPlaneCell = 1.0;  // m: planes are infinite
 constexpr double kPart = 0.1;       // m, side of the parts of a divided cell
-constexpr int kSitesPerSide = 4;    // of a cell
+constexpr int kSitesPerSide = 4;    // sites along a side of a cell
 constexpr std::size_t kSites = std::size_t{kSitesPerSide} * kSitesPerSide;
 constexpr int kFineSitesPerSide = 2;
 constexpr double kSiteLift = 0.02;  // m: leaves stand a gap of some mm above sills
@@ -79,7 +79,8 @@ double Surfaces::area_of(const Key& key, const std::vector<Site>& sites) const {
   const Lattice cells = lattice(static_cast<std::uint32_t>(key[0]), key[1]);
   const Vec3 axis = cells.placement.pose.rotation * Vec3::Unit(cells.axis);
   const int per_side = key[5] == 1 ? kFineSitesPerSide : kSitesPerSide;
-  const double across = step_of(key).prod() / (per_side * per_side);  // of a site, along the axis
+  const double across =
+      step_of(key).prod() / (per_side * per_side);  // area of a site, along the axis
   double area = kLeastArea;
   for (const Site& site : sites) area += across / std::abs(site.normal.dot(axis));
   return area;

@@ -34,7 +34,7 @@ struct Patch {
   std::uint64_t serial = 0;  // unique over all patches ever made
   bool alive = true;         // not forgotten since
 
-  bool is_part() const { return key[5] != 0; }  // of a divided cell
+  bool is_part() const { return key[5] != 0; }  // part of a divided cell
 };
 
 /// Patches, made when they are first hit. A patch depends on the shapes only, not on the ray that
@@ -65,7 +65,7 @@ class Surfaces {
   struct HashKey {
     std::size_t operator()(const Key& key) const;
   };
-  struct Lattice {  // of one face of a shape
+  struct Lattice {  // lattice of one face of a shape
     rays::Placement placement;
     int axis = 0;
     double sign = 1.0;

@@ -10,7 +10,7 @@ namespace angen::node {
 
 struct CommandTopic {
   std::string topic;
-  std::string kind;  // of the device that it commands, and its name
+  std::string kind;  // kind of the device that it commands, and its name
   std::string name;
   Subscribe subscribe;
 };

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "node/text.h"
-#include "ros/lazy_publisher.h"
+#include "ros/wire.h"
 
 namespace angen::node {
 namespace {
@@ -35,12 +35,12 @@ Commands::Commands(ros::NodeHandle& node, Inbox& inbox,
       [this](const angen_msgs::Command::ConstPtr& command) {
         inbox_.post(any_action(command->target, command->text));
       };
-  any_ = node_.subscribe<angen_msgs::Command>("/angen/command", kCommandQueue, any);
+  any_ = node_.subscribe<angen_msgs::Command>("angen/command", kCommandQueue, any);
   const boost::function<void(const angen_msgs::Event::ConstPtr&)> note =
       [this](const angen_msgs::Event::ConstPtr& event) {
         inbox_.note({event->source, event->kind, event->event, event->detail});
       };
-  notes_ = node_.subscribe<angen_msgs::Event>("/angen/events/add", kCommandQueue, note);
+  notes_ = node_.subscribe<angen_msgs::Event>("angen/events/add", kCommandQueue, note);
 }
 
 void Commands::receive(const Plugin& plugin, const std::string& text) {
@@ -58,12 +58,14 @@ void Commands::subscribe(const std::shared_ptr<const Plugin>& plugin) {
   if (kind.command_topic().empty() || kinds_.count(kind.name) > 0) return;
   const boost::function<void(const std_msgs::String::ConstPtr&)> received =
       [this, plugin](const std_msgs::String::ConstPtr& text) { receive(*plugin, text->data); };
+  const std::string topic = in_namespace(kind.command_topic());
   try {
-    kinds_[kind.name] = handle_for_one(node_).subscribe<std_msgs::String>(kind.command_topic(),
-                                                                          kCommandQueue, received);
+    node_.resolveName(topic);  // throws
+    kinds_[kind.name] = Registered<ros::Subscriber>([node = node_, topic, received]() mutable {
+      return node.subscribe<std_msgs::String>(topic, kCommandQueue, received);
+    });
   } catch (const ros::Exception& error) {
-    ROS_WARN("no commands to a %s on %s: %s", kind.name.c_str(), kind.command_topic().c_str(),
-             error.what());
+    ROS_WARN("no commands to a %s on %s: %s", kind.name.c_str(), topic.c_str(), error.what());
   }
 }
 
@@ -90,10 +92,12 @@ void Commands::on_structure(const sim::Structure& structure, const std::vector<R
       continue;
     }
     try {
-      ros::NodeHandle handle = handle_for_one(node_);
-      kept[key] = each.subscribe(handle, each.topic, [this, each](Command command) {
+      node_.resolveName(each.topic);  // throws
+      const auto take = [this, each](Command command) {
         inbox_.post(sim::ToDevice{each.kind, each.name, std::move(command)});
-      });
+      };
+      kept[key] = Registered<ros::Subscriber>(
+          [node = node_, each, take]() mutable { return each.subscribe(node, each.topic, take); });
     } catch (const ros::Exception& error) {
       ROS_WARN("%s takes no commands on %s: %s", each.name.c_str(), each.topic.c_str(),
                error.what());

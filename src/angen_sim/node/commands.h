@@ -11,6 +11,7 @@
 
 #include "node/command_topics.h"
 #include "ros/inbox.h"
+#include "ros/registrar.h"
 #include "tf/frames.h"
 
 namespace angen::node {
@@ -33,10 +34,11 @@ class Commands {
   ros::NodeHandle& node_;
   Inbox& inbox_;
   std::vector<std::shared_ptr<const Plugin>> always_;
-  ros::Subscriber any_;                                                 // /angen/command
-  ros::Subscriber notes_;                                               // /angen/events/add
-  std::map<std::string, ros::Subscriber> kinds_;                        // by kind
-  std::map<std::pair<std::string, std::string>, ros::Subscriber> own_;  // by topic and device
+  ros::Subscriber any_;                                       // /angen/command
+  ros::Subscriber notes_;                                     // /angen/events/add
+  std::map<std::string, Registered<ros::Subscriber>> kinds_;  // by kind
+  std::map<std::pair<std::string, std::string>, Registered<ros::Subscriber>>
+      own_;  // by topic and device
 };
 
 }  // namespace angen::node

@@ -56,7 +56,7 @@ angen_msgs::Cost to_message(const Spent& spent) {
 
 CostTopic::CostTopic(ros::NodeHandle& node, sim::Simulation& simulation)
     : simulation_(simulation),
-      publisher_(LazyPublisher::of<angen_msgs::Cost>(node, "/angen/cost", 10)) {}
+      publisher_(LazyPublisher::of<angen_msgs::Cost>(node, "angen/cost", 10)) {}
 
 void CostPeriod::restart(Nanoseconds time, Time now) {
   since_ = time;

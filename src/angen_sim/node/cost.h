@@ -43,9 +43,9 @@ class CostPeriod {
 
   bool settled_ = false;
   Nanoseconds last_ = -1;  // time of the last tick; none before the first
-  Nanoseconds first_ = 0;  // of the node
+  Nanoseconds first_ = 0;  // start of the node
   Time first_now_;
-  Nanoseconds since_ = 0;  // of the period
+  Nanoseconds since_ = 0;  // start of the period
   Time since_now_;
 };
 

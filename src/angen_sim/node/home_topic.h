@@ -21,7 +21,7 @@ class HomeTopic {
 
  private:
   LatchedLazyPublisher<angen_msgs::Home> publisher_;
-  std::shared_ptr<const DerivedHome> home_;  // that was published last
+  std::shared_ptr<const DerivedHome> home_;  // the last one published
 };
 
 }  // namespace angen::node

@@ -38,7 +38,8 @@ class LagWarning {
 
  private:
   static constexpr double kFar = 0.5;
-  static constexpr double kBusy = 0.7;  // of a processor: the thread waits for no other program
+  static constexpr double kBusy =
+      0.7;  // share of a processor: the thread waits for no other program
   static constexpr std::chrono::seconds kWindow{10};
   static constexpr std::chrono::seconds kSilence{60};
 

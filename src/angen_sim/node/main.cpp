@@ -81,7 +81,8 @@ std::unique_ptr<Simulation> make(const std::string& path, std::uint64_t seed) {
   const std::size_t ignored = world.ignored.size();
   auto simulation =
       std::make_unique<Simulation>(std::move(world), seed, std::make_shared<angen::Catalog>());
-  for (const angen::sim::Event& event : simulation->snapshot()->events) {  // of how it was built
+  for (const angen::sim::Event& event :
+       simulation->snapshot()->events) {  // events of its construction
     if (event.event == "warning") std::fprintf(stderr, "%s\n", event.detail.c_str());
   }
   if (ignored > 0) {
@@ -185,7 +186,7 @@ std::unique_ptr<angen::record::Replay> make_replay(angen::node::Settings& settin
   return replay;
 }
 
-/// Null where ~record names nothing.
+/// Null if ~record names nothing.
 std::unique_ptr<angen::record::Recorder> make_recorder(const std::string& world,
                                                        const angen::node::Settings& settings,
                                                        Simulation& simulation) {

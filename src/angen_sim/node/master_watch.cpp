@@ -3,7 +3,6 @@
 #include <ros/console.h>
 #include <ros/master.h>
 #include <ros/this_node.h>
-#include <ros/xmlrpc_manager.h>
 
 #include <chrono>
 #include <optional>
@@ -13,7 +12,6 @@ namespace angen::node {
 namespace {
 
 constexpr std::chrono::seconds kMasterPeriod(1);
-constexpr char kService[] = "/angen/list";  // one that each node has
 
 enum class Answer { kNone, kError, kGood };
 
@@ -31,14 +29,6 @@ std::optional<int> pid_of_master() {
   const bool good = call_master("getPid", "", pid) == Answer::kGood;
   return good && pid.getType() == XmlRpc::XmlRpcValue::TypeInt ? std::optional<int>(pid)
                                                                : std::nullopt;
-}
-
-// Another node has taken this one's name: the master will end this one.
-bool is_replaced() {
-  XmlRpc::XmlRpcValue uri;
-  const bool known = call_master("lookupNode", ros::this_node::getName(), uri) == Answer::kGood;
-  return known && uri.getType() == XmlRpc::XmlRpcValue::TypeString &&
-         static_cast<std::string>(uri) != ros::XMLRPCManager::instance()->getServerURI();
 }
 
 }  // namespace
@@ -60,14 +50,14 @@ void MasterWatch::watch() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!wake_.wait_for(lock, kMasterPeriod, [this] { return ended_; })) {
     const std::optional<int> pid = pid_of_master();
-    XmlRpc::XmlRpcValue provider;
-    const Answer service = call_master("lookupService", kService, provider);
+    XmlRpc::XmlRpcValue uri;
+    const Answer registered = call_master("lookupNode", ros::this_node::getName(), uri);
     if (pid && !first) first = pid;
-    if ((pid && pid != first) || (service == Answer::kError && !is_replaced())) {
+    if ((pid && pid != first) || registered == Answer::kError) {
       lost_ = true;
       return;
     }
-    const bool answers = pid && service == Answer::kGood;
+    const bool answers = pid && registered == Answer::kGood;
     if (answers == answered) continue;
     answered = answers;
     if (answers) {

@@ -9,17 +9,20 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <thread>
 
 #include "core/stopwatch.h"
 #include "node/master_watch.h"
 #include "ros/changes.h"
 #include "ros/queue_threads.h"
+#include "ros/registrar.h"
 #include "ros/wire.h"
 
 namespace angen::node {
 namespace {
 
-constexpr std::uint32_t kSubscriberThreads = 2;  // of subscribers, which never wait
+constexpr std::uint32_t kSubscriberThreads = 2;  // threads of subscribers, which never wait
+constexpr std::chrono::milliseconds kNap(1);
 constexpr std::chrono::milliseconds kPausedNap(20);
 constexpr std::chrono::milliseconds kLongestNap(100);  // Ctrl-C is seen that soon
 
@@ -28,7 +31,8 @@ constexpr Nanoseconds kLongestLeap = 10 * kSecond;  // the longest jump of /cloc
 /// The parameter tf_prefix of a namespace or of one above it, as robot_state_publisher reads it.
 std::string tf_prefix_in(const std::string& space) {
   std::string key, prefix;
-  if (ros::param::search(graph_name("/" + space), "tf_prefix", key)) ros::param::get(key, prefix);
+  if (ros::param::search(graph_name(in_namespace(space)), "tf_prefix", key))
+    ros::param::get(key, prefix);
   return prefix;
 }
 
@@ -81,10 +85,10 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       publishers_(handle_, simulation, settings.topics, readings_),
       joints_(handle_),
       commands_(handle_, inbox_, settings.plugins),
-      controls_(simulation),
-      states_(handle_, inbox_, settings.states_rate),
-      performance_(handle_, simulation),
-      services_(inbox_, events_, settings.models, settings.topics, rate_) {}
+      services_(inbox_, events_, settings.models, settings.topics),
+      gazebo_(make_extension("libangen_gazebo.so",
+                             {simulation, inbox_, rate_, handle_, services_.handle(),
+                              settings.models, settings.topics, settings.states_rate})) {}
 
 Node::End Node::run(const std::atomic<bool>& stop) {
   const Serving serving(inbox_, services_);
@@ -92,18 +96,19 @@ Node::End Node::run(const std::atomic<bool>& stop) {
   while (!stop && ros::ok() && !(master && master->lost())) {
     const std::shared_ptr<const sim::Snapshot> snapshot = advance();
     publish(*snapshot);
-    inbox_.published();
     if (!ready_) {
-      announce();
+      announce(stop);
       master.emplace();
     }
+    if (Registrar::instance().idle()) inbox_.published();
     pace(*snapshot, stop);
   }
   return master && master->lost() ? End::kMasterLost : End::kStopped;
 }
 
-void Node::announce() {
-  ready_ = handle_.advertise<std_msgs::Bool>("/angen/ready", 1, true);
+void Node::announce(const std::atomic<bool>& stop) {
+  while (!Registrar::instance().idle() && !stop && ros::ok()) std::this_thread::sleep_for(kNap);
+  ready_ = handle_.advertise<std_msgs::Bool>("angen/ready", 1, true);
   std_msgs::Bool ready;
   ready.data = true;
   ready_.publish(ready);
@@ -130,8 +135,8 @@ std::shared_ptr<const sim::Snapshot> Node::simulate() {
     if (replay_->done()) end_replay();
     return snapshot;
   }
-  return fast_ && pacer_.rate() == 0.0 && controls_.empty() ? simulation_.leap(until)
-                                                            : simulation_.tick();
+  const bool may_leap = fast_ && pacer_.rate() == 0.0 && !(gazebo_ && gazebo_->needs_ticks());
+  return may_leap ? simulation_.leap(until) : simulation_.tick();
 }
 
 void Node::end_replay() {
@@ -154,7 +159,7 @@ void Node::follow_structure(const sim::Snapshot& snapshot) {
   publishers_.on_structure(snapshot, *frames, robots, changes);
   joints_.on_structure(snapshot, robots);
   commands_.on_structure(*structure_, robots);
-  controls_.on_structure(*structure_, changes);
+  if (gazebo_) gazebo_->on_structure(*structure_, changes);
 }
 
 void Node::publish(const sim::Snapshot& snapshot) {
@@ -164,8 +169,7 @@ void Node::publish(const sim::Snapshot& snapshot) {
   if (snapshot.structure != structure_) follow_structure(snapshot);
   publishers_.publish(snapshot);
   joints_.publish(snapshot);
-  states_.publish(snapshot, now);
-  performance_.publish(snapshot, now);
+  if (gazebo_) gazebo_->publish(snapshot, now);
   transforms_.publish(snapshot);
   markers_.publish(snapshot, now);
   scene_.publish(snapshot, now);
@@ -176,7 +180,7 @@ void Node::publish(const sim::Snapshot& snapshot) {
   const std::string lag =
       lag_.update(snapshot.time, rate_, snapshot.paused, now, Stopwatch::system_clocks().cpu);
   if (!lag.empty()) ROS_WARN("%s", lag.c_str());
-  if (!replaying()) controls_.update(snapshot);
+  if (gazebo_ && !replaying()) gazebo_->control(snapshot);
 }
 
 void Node::pace(const sim::Snapshot& snapshot, const std::atomic<bool>& stop) {

@@ -4,9 +4,6 @@
 #include <memory>
 #include <string>
 
-#include "gazebo/joint_control.h"
-#include "gazebo/performance.h"
-#include "gazebo/states.h"
 #include "node/commands.h"
 #include "node/cost.h"
 #include "node/home_topic.h"
@@ -17,6 +14,7 @@
 #include "node/summary_topic.h"
 #include "record/recorder.h"
 #include "record/replay.h"
+#include "ros/extension.h"
 #include "ros/inbox.h"
 #include "ros/pacer.h"
 #include "ros/readings.h"
@@ -61,8 +59,8 @@ class Node {
   /// Sleeps where time is ahead of its schedule by a batch of ticks.
   void pace(const sim::Snapshot& snapshot, const std::atomic<bool>& stop);
   /// Advertises /angen/ready, the last topic: once it is there, so are all others and every
-  /// service.
-  void announce();
+  /// service. Waits for the master until `stop`.
+  void announce(const std::atomic<bool>& stop);
 
   std::shared_ptr<const sim::Snapshot> simulate();
   bool replaying() const { return replay_ != nullptr && !replay_->done(); }
@@ -76,10 +74,10 @@ class Node {
   bool paused_after_;
   ros::NodeHandle handle_;
   Inbox inbox_;
-  std::atomic<double> rate_;  // as Settings::rate, but a service may set it
+  std::atomic<double> rate_;  // like Settings::rate, but a service may set it
   Pacer pacer_;
   LagWarning lag_;
-  std::shared_ptr<const sim::Structure> structure_;  // that was published last
+  std::shared_ptr<const sim::Structure> structure_;  // the last one published
   ClockTopic clock_;
   Stats stats_;
   Events events_;
@@ -94,10 +92,8 @@ class Node {
   Publishers publishers_;
   JointStates joints_;
   Commands commands_;
-  JointControls controls_;
-  gazebo::StateTopics states_;
-  gazebo::Performance performance_;
   Services services_;
+  std::unique_ptr<Extension> gazebo_;  // null: its library is missing
   ros::Publisher ready_;
 };
 

@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <ros/console.h>
 #include <ros/master.h>
+#include <ros/names.h>
 #include <ros/network.h>
 #include <ros/this_node.h>
 #include <sys/socket.h>
@@ -21,12 +22,13 @@
 #include "core/diagnostics.h"
 #include "core/private_file.h"
 #include "core/process_lock.h"
+#include "node/services.h"
 
 namespace angen::node {
 namespace {
 
 constexpr int kConnectLimit = 2000;  // ms
-constexpr int kTries = 50;           // for a name that another one has locked
+constexpr int kTries = 50;           // for a service that another one has locked
 constexpr std::chrono::milliseconds kBetweenTries(100);
 
 bool connects(const addrinfo& address) {
@@ -60,14 +62,39 @@ bool answers(const std::string& uri) {
   return false;
 }
 
-/// Where the node of this name serves; empty where there is none.
-std::string other_uri(const std::string& name) {
-  XmlRpc::XmlRpcValue request, response, uri;
-  request[0] = name;
-  request[1] = name;
-  if (!ros::master::execute("lookupNode", request, response, uri, true)) return "";
+/// The result of a call to the master; empty if it has none.
+XmlRpc::XmlRpcValue asked(const char* method, const std::string& about) {
+  XmlRpc::XmlRpcValue request, response, result;
+  request[0] = ros::this_node::getName();
+  if (!about.empty()) request[1] = about;
+  if (!ros::master::execute(method, request, response, result, true)) return {};
+  return result;
+}
+
+/// Where the node of this name serves; empty if there is none.
+std::string uri_of(const std::string& name) {
+  XmlRpc::XmlRpcValue uri = asked("lookupNode", name);
   if (uri.getType() != XmlRpc::XmlRpcValue::TypeString || !answers(uri)) return "";
   return uri;
+}
+
+/// The node that provides a service; empty if none does.
+std::string provider_of(const std::string& service) {
+  XmlRpc::XmlRpcValue state = asked("getSystemState", "");
+  if (state.getType() != XmlRpc::XmlRpcValue::TypeArray) return "";
+  XmlRpc::XmlRpcValue& services = state[2];
+  for (int i = 0; i < services.size(); ++i) {
+    if (static_cast<std::string>(services[i][0]) == service) return services[i][1][0];
+  }
+  return "";
+}
+
+/// A running node with this one's name or services; empty if there is none.
+std::string other_node(const std::string& service) {
+  for (const std::string& name : {ros::this_node::getName(), provider_of(service)}) {
+    if (!name.empty() && !uri_of(name).empty()) return name;
+  }
+  return "";
 }
 
 /// Machines may share a home folder and each have a master at localhost.
@@ -77,15 +104,14 @@ std::string machine() {
   return name.data();
 }
 
-/// Nodes that start at once all find the name free at the master: the first one locks it.
-bool locks_name(const std::string& name) {
+/// Nodes that start at once all find the service free at the master: the first one locks it.
+bool locks(const std::string& service) {
   try {
     make_private_folder(state_folder());
     return lock_until_exit(state_folder() + "/nodes.lock",
-                           machine() + " " + ros::master::getURI() + " " + name);
+                           machine() + " " + ros::master::getURI() + " " + service);
   } catch (const Error& error) {
-    ROS_WARN("a node %s that starts at the same time is not noticed: %s", name.c_str(),
-             error.what());
+    ROS_WARN("a simulator that starts at the same time is not noticed: %s", error.what());
     return true;
   }
 }
@@ -93,21 +119,25 @@ bool locks_name(const std::string& name) {
 }  // namespace
 
 void require_no_other_node(bool replaces) {
-  const std::string& name = ros::this_node::getName();
-  bool locked = locks_name(name);
-  if (replaces) return;
-  std::string uri = other_uri(name);
-  // A node that starts is registered soon, and one that ends releases the name.
-  for (int tries = 0; !locked && uri.empty() && tries < kTries; ++tries) {
+  const std::string& own = ros::this_node::getName();
+  const std::string service = ros::names::resolve(kListService);
+  bool locked = locks(service);
+  std::string other = other_node(service);
+  if (replaces && (other.empty() || other == own)) return;
+  // A node that starts is registered soon, and one that ends releases its names.
+  for (int tries = 0; !locked && other.empty() && tries < kTries; ++tries) {
     std::this_thread::sleep_for(kBetweenTries);
-    locked = locks_name(name);
-    uri = other_uri(name);
+    locked = locks(service);
+    other = other_node(service);
   }
-  if (locked && uri.empty()) return;
-  throw Error("a node " + name + " runs already" + (uri.empty() ? "" : " at " + uri) +
-              " and would be ended by this one; end it by rosnode kill " + name +
-              ", replace it by _replace:=true, or give this one a master of its own by "
-              "ROS_MASTER_URI");
+  if (locked && other.empty()) return;
+  if (other.empty()) other = own;
+  throw Error("a simulator runs already in the namespace " + ros::this_node::getNamespace() +
+              ": node " + other + (other == own ? ", which this one would end" : "") +
+              "; end it by rosnode kill " + other +
+              (other == own ? ", replace it by _replace:=true" : "") +
+              ", or start this one in another namespace, as by ROS_NAMESPACE=house2, or with a "
+              "master of its own, by ROS_MASTER_URI");
 }
 
 }  // namespace angen::node

@@ -13,7 +13,7 @@
 namespace angen::node {
 namespace {
 
-constexpr Nanoseconds kOdometryPeriod = kSecond / 10;  // of a robot at rest
+constexpr Nanoseconds kOdometryPeriod = kSecond / 10;  // for a robot at rest
 
 // The part of a robot that its sensors' topics depend on.
 std::string space_of(const Robot* robot) {
@@ -56,7 +56,7 @@ Publishers::Source Publishers::sensor_source(const sim::SensorEntry& entry, cons
 
 void Publishers::follow_sensors(const sim::Structure& structure, const FrameTree& frames,
                                 const std::vector<Robot>& robots, const Numbers& numbers) {
-  std::size_t kept = 0;  // these stay where they are
+  std::size_t kept = 0;  // sensors that stay where they are
   while (kept < numbers.before.size() && numbers.before[kept] == kept) ++kept;
   std::vector<Source> others(std::make_move_iterator(sensors_.begin() + kept),
                              std::make_move_iterator(sensors_.end()));

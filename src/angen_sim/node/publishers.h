@@ -69,9 +69,9 @@ class Publishers {
   Topics topics_;
   Readings& readings_;
   Channels channels_;
-  std::vector<std::shared_ptr<Channel>> batched_;  // those that flush
-  std::vector<Source> sensors_;                    // as Structure::sensors
-  std::vector<Source> devices_;                    // as Structure::devices
+  std::vector<std::shared_ptr<Channel>> batched_;  // channels that flush
+  std::vector<Source> sensors_;                    // indexed like Structure::sensors
+  std::vector<Source> devices_;                    // indexed like Structure::devices
   std::vector<OnDemand> on_demand_;
   bool expects_images_ = false;
   std::vector<std::uint32_t> robots_;  // their devices, ascending

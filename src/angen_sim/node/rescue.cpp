@@ -1,12 +1,20 @@
 #include "node/rescue.h"
 
+#include <ros/this_node.h>
+
+#include <algorithm>
+
 #include "core/diagnostics.h"
 #include "core/private_file.h"
 #include "record/world_file.h"
 
 namespace angen::node {
 
-std::string default_rescue_path() { return state_folder() + "/rescue.world"; }
+std::string default_rescue_path() {
+  std::string space = ros::this_node::getNamespace();
+  std::replace(space.begin(), space.end(), '/', '_');
+  return state_folder() + "/rescue" + (space == "_" ? "" : space) + ".world";
+}
 
 void rescue(sim::Simulation& simulation, const std::string& path) {
   const std::string text = record::world_file(simulation.world(), simulation.saved());

@@ -10,7 +10,7 @@ namespace angen::node {
 /// again: its world is saved, and a new node may continue it.
 constexpr int kRescued = 75;
 
-/// rescue.world in state_folder().
+/// rescue.world in state_folder(), rescue_house1.world for a node in the namespace /house1.
 std::string default_rescue_path();
 
 /// Writes the world as it is now to `path`, all of it or nothing, for this user alone. The thread

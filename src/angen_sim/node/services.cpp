@@ -1,6 +1,8 @@
 #include "node/services.h"
 
 #include <ros/console.h>
+#include <ros/names.h>
+#include <ros/service_manager.h>
 
 #include <cmath>
 #include <exception>
@@ -18,10 +20,10 @@
 namespace angen::node {
 namespace {
 
-constexpr char kStep[] = "/angen/step";
+constexpr char kStep[] = "angen/step";
 constexpr std::uint32_t kServiceThreads = 8;
 constexpr std::size_t kMaxSteps = 4;             // calls that wait at once
-constexpr std::uint32_t kMaxTicks = 10'000'000;  // of a call
+constexpr std::uint32_t kMaxTicks = 10'000'000;  // limit of a call
 constexpr std::size_t kLongestAnswer = 10'000;   // bytes
 
 /// Counts one more while it lives.
@@ -57,7 +59,7 @@ Pose to_pose(const geometry_msgs::Pose& message) {
   return pose;
 }
 
-/// The summary of a device, NAME or KIND/NAME; empty where there is no state of one alone.
+/// The summary of a device, NAME or KIND/NAME; empty if there is no state of one alone.
 std::string state_of(const sim::Snapshot& snapshot, const std::string& target) {
   const sim::SharedArray<sim::DeviceEntry>& devices = snapshot.structure->devices;
   for (std::size_t i = 0; i < devices.size(); ++i) {
@@ -87,32 +89,30 @@ bool answered(Response& response, Work&& work) {
 
 }  // namespace
 
-Services::Services(Inbox& inbox, const Events& events, const std::string& models, Topics topics,
-                   std::atomic<double>& rate)
+Services::Services(Inbox& inbox, const Events& events, const std::string& models, Topics topics)
     : inbox_(inbox),
       events_(events),
       paths_(load::SearchPaths::from_environment(models)),
       topics_(topics),
-      threads_(queue_, kServiceThreads),
-      loggers_(queue_) {
-  ros::NodeHandle node;
-  node.setCallbackQueue(&queue_);
+      threads_(queue_, kServiceThreads) {
+  // roscpp's own deletes the loggers on Debian 12, so that the next log line ends the node.
+  ros::ServiceManager::instance()->unadvertiseService(ros::names::resolve("~get_loggers"));
+  node_.setCallbackQueue(&queue_);
   const auto serve_empty = [&](const std::string& name, const sim::Action& action) {
     const boost::function<bool(Empty::Request&, Empty::Response&)> called =
         [this, action](Empty::Request&, Empty::Response&) { return empty(action); };
-    servers_.push_back(node.advertiseService(name, called));
+    servers_.push_back(node_.advertiseService(name, called));
   };
-  serve_empty("/gazebo/pause_physics", sim::Pause{true});
-  serve_empty("/gazebo/unpause_physics", sim::Pause{false});
-  serve_empty("/gazebo/reset_simulation", sim::Reset{true});
-  serve_empty("/gazebo/reset_world", sim::Reset{false});
-  servers_.push_back(node.advertiseService(kStep, &Services::step, this));
-  servers_.push_back(node.advertiseService("/angen/spawn", &Services::spawn, this));
-  servers_.push_back(node.advertiseService("/angen/delete", &Services::erase, this));
-  servers_.push_back(node.advertiseService("/angen/command", &Services::command, this));
-  servers_.push_back(node.advertiseService("/angen/list", &Services::list, this));
-  servers_.push_back(node.advertiseService("/angen/save", &Services::save, this));
-  gazebo_ = std::make_unique<gazebo::Api>(node, inbox_, paths_, topics_, rate);
+  serve_empty("gazebo/pause_physics", sim::Pause{true});
+  serve_empty("gazebo/unpause_physics", sim::Pause{false});
+  serve_empty("gazebo/reset_simulation", sim::Reset{true});
+  serve_empty("gazebo/reset_world", sim::Reset{false});
+  servers_.push_back(node_.advertiseService(kStep, &Services::step, this));
+  servers_.push_back(node_.advertiseService("angen/spawn", &Services::spawn, this));
+  servers_.push_back(node_.advertiseService("angen/delete", &Services::erase, this));
+  servers_.push_back(node_.advertiseService("angen/command", &Services::command, this));
+  servers_.push_back(node_.advertiseService(kListService, &Services::list, this));
+  servers_.push_back(node_.advertiseService("angen/save", &Services::save, this));
 }
 
 // An Empty service has no message: false is all that it can say.
@@ -136,7 +136,7 @@ sim::Outcome Services::take(std::uint32_t ticks, const ros::M_string& client) {
   if (waiting.now() > kMaxSteps) {
     return {false, std::to_string(kMaxSteps) + " other steps wait; try again"};
   }
-  ClientWatch watch(kStep, client);
+  ClientWatch watch(ros::names::resolve(kStep), client);
   return inbox_.call(sim::Step{ticks}, [&] { return watch.lost(); });
 }
 
@@ -182,17 +182,7 @@ sim::Action Services::spawn_action(const angen_msgs::Spawn::Request& request) {
 }
 
 bool Services::spawn(angen_msgs::Spawn::Request& request, angen_msgs::Spawn::Response& response) {
-  return answered(response, [&] {
-    const sim::Action action = spawn_action(request);
-    sim::Outcome outcome = inbox_.call(action);
-    const auto* spawned = std::get_if<sim::Spawn>(&action);
-    for (std::size_t i = 0; spawned && outcome.ok && i < spawned->model.warnings.size(); ++i) {
-      const std::string warning = spawned->model.warnings[i].text();
-      ROS_WARN("%s", printable(warning, 2000).c_str());
-      outcome.message += "\nwarning: " + warning;
-    }
-    return outcome;
-  });
+  return answered(response, [&] { return inbox_.call(spawn_action(request)); });
 }
 
 bool Services::erase(angen_msgs::Delete::Request& request, angen_msgs::Delete::Response& response) {

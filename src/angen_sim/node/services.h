@@ -16,8 +16,6 @@
 #include <string>
 #include <vector>
 
-#include "gazebo/api.h"
-#include "node/logger_services.h"
 #include "node/status_topics.h"
 #include "ros/inbox.h"
 #include "ros/queue_threads.h"
@@ -27,15 +25,18 @@
 
 namespace angen::node {
 
+constexpr char kListService[] = "angen/list";  // one that each simulator has, in its namespace
+
 /// The services of the node. Parsing happens here, on the thread of the request; the
 /// world changes in its own. No exception leaves it: a failure is success = false and a
 /// message. Services have threads of their own, and calls that wait long never have all of them.
 class Services {
  public:
   /// `models` is a further folder that model:// is searched in.
-  /// `rate` is that of the node, which a service may set.
-  Services(Inbox& inbox, const Events& events, const std::string& models, Topics topics,
-           std::atomic<double>& rate);
+  Services(Inbox& inbox, const Events& events, const std::string& models, Topics topics);
+
+  /// Its services are served by the same threads.
+  const ros::NodeHandle& handle() const { return node_; }
 
   /// Serves until stop(), which waits for the calls that are being served.
   void start() { threads_.start(); }
@@ -61,14 +62,13 @@ class Services {
   const Events& events_;
   load::SearchPaths paths_;
   Topics topics_;
-  std::mutex catalog_mutex_;           // of the next
+  std::mutex catalog_mutex_;           // guards the next
   Catalog catalog_;                    // to know the kinds of new sensors by
   std::atomic<std::size_t> steps_{0};  // calls that wait
   ros::CallbackQueue queue_;
   QueueThreads threads_;
-  LoggerServices loggers_;
+  ros::NodeHandle node_;
   std::vector<ros::ServiceServer> servers_;
-  std::unique_ptr<gazebo::Api> gazebo_;
 };
 
 }  // namespace angen::node

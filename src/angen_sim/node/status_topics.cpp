@@ -21,7 +21,7 @@ double seconds(Pacer::Clock::duration d) { return std::chrono::duration<double>(
 }  // namespace
 
 ClockTopic::ClockTopic(ros::NodeHandle& node, double rate)
-    : publisher_(LazyPublisher::of<rosgraph_msgs::Clock>(node, "/clock", 100)),
+    : publisher_(LazyPublisher::of<rosgraph_msgs::Clock>(node, "clock", 100)),
       period_(std::max<Nanoseconds>(1, from_seconds(1.0 / rate))) {}
 
 void ClockTopic::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
@@ -29,7 +29,7 @@ void ClockTopic::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point
   if (slot == slot_ && now - sent_ < kStill) return;
   slot_ = slot;
   sent_ = now;
-  ros::Time::setNow(to_ros(snapshot.time));  // of this node: its log has that stamp
+  ros::Time::setNow(to_ros(snapshot.time));  // stamps of this node's log
   publisher_.publish([&] {
     rosgraph_msgs::Clock message;
     message.clock = to_ros(snapshot.time);
@@ -38,7 +38,7 @@ void ClockTopic::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point
 }
 
 Stats::Stats(ros::NodeHandle& node)
-    : publisher_(LazyPublisher::of<angen_msgs::Stats>(node, "/angen/stats", 10)) {}
+    : publisher_(LazyPublisher::of<angen_msgs::Stats>(node, "angen/stats", 10)) {}
 
 void Stats::start() {
   if (publisher_.has_subscribers() != timing_) {
@@ -83,7 +83,7 @@ angen_msgs::Stats Stats::message_of(const sim::Snapshot& snapshot, Pacer::Clock:
 }
 
 Events::Events(ros::NodeHandle& node)
-    : publisher_(LazyPublisher::of<angen_msgs::Event>(node, "/angen/events", 1000)) {}
+    : publisher_(LazyPublisher::of<angen_msgs::Event>(node, "angen/events", 1000)) {}
 
 void Events::publish(const sim::Snapshot& snapshot) {
   for (const sim::Event& event : snapshot.events) {

@@ -56,7 +56,7 @@ angen_msgs::SummaryEntry entry_of(const Kind& kind, const std::string& name, con
 
 SummaryTopic::SummaryTopic(ros::NodeHandle& node, Readings& readings)
     : readings_(readings),
-      publisher_(LazyPublisher::of<angen_msgs::Summary>(node, "/angen/summary", 10)) {}
+      publisher_(LazyPublisher::of<angen_msgs::Summary>(node, "angen/summary", 10)) {}
 
 void SummaryTopic::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
   if (!publisher_.has_subscribers() || now < next_) return;

@@ -23,7 +23,7 @@ class SummaryTopic {
   Readings& readings_;
   LazyPublisher publisher_;
   std::shared_ptr<const sim::Structure> structure_;
-  std::vector<Nanoseconds> stamps_;  // as published last: sensors, then devices; -1 for none
+  std::vector<Nanoseconds> stamps_;  // last published: sensors, then devices; -1 for none
   std::uint64_t subscriptions_ = 0;
   Pacer::Clock::time_point next_{};
 };

@@ -1,7 +1,5 @@
 #include "node/text.h"
 
-#include <strings.h>
-
 #include <algorithm>
 #include <sstream>
 #include <utility>
@@ -33,14 +31,6 @@ std::vector<std::string> fields_of(const std::string& text) {
 sim::Reject reject(const std::string& source, const std::string& kind, const std::string& text,
                    const std::string& why, const std::string& right) {
   return {source, kind, "`" + printable(text) + "`: " + why + "; " + right};
-}
-
-bool is_verb(const Kind& kind, const std::string& word) {
-  return std::any_of(kind.verbs.begin(), kind.verbs.end(), [&word](const Verb& verb) {
-    const std::size_t length = verb.name.size();
-    return strncasecmp(word.c_str(), verb.name.c_str(), length) == 0 &&
-           (word.size() == length || (verb.whole && parse_integer(word.substr(length))));
-  });
 }
 
 }  // namespace
@@ -77,7 +67,7 @@ sim::Action any_action(const std::string& target, const std::string& text) {
   if (!valid_utf8(target) || !valid_utf8(text)) return wrong("not UTF-8");
   const std::string name = unquoted(target);
   if (name.empty()) return wrong("no target");
-  if (unquoted(without_typography(text)).empty()) return wrong("no text");
+  if (unquoted(straightened(text)).empty()) return wrong("no text");
   return sim::ToDevice{"", name, {trimmed(text)}};
 }
 

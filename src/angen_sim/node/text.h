@@ -14,7 +14,7 @@ namespace angen::node {
 sim::Action topic_action(const Kind& kind, const std::string& text);
 /// /angen/command: NAME or KIND/NAME.
 sim::Action any_action(const std::string& target, const std::string& text);
-/// Of the parameter ~commands, "TARGET TEXT; TARGET TEXT": as any_action, in order.
+/// The parameter ~commands, "TARGET TEXT; TARGET TEXT": each as any_action(), in order.
 std::vector<sim::Action> listed_actions(const std::string& list);
 
 }  // namespace angen::node

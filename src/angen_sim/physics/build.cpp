@@ -21,9 +21,6 @@ using desc::Model;
 
 constexpr double kNoLimit = 1e15;
 
-// m/s. Robots made for Gazebo may be spawned deep in the floor, where Gazebo lifts them by 1 cm/s.
-constexpr double kPartForeign = 1.0;
-
 class Builder {
  public:
   Builder(const Model& model, ShapeFactory& shapes, std::uint64_t& serial)
@@ -127,7 +124,8 @@ class Builder {
     if (root(n) == root_index) return;
     add_masses(body, links);
     for (const desc::Link* link : links) {
-      body.upright = body.upright || link->upright;
+      body.upright = body.upright || link->anatomy.upright;
+      body.side_stiffness = std::max(body.side_stiffness, link->anatomy.side_stiffness);
       if (link->gravity) continue;
       const Pose com = body.zero.inverse() * link->pose * link->inertial.pose;
       body.weightless.push_back({com.position, link->inertial.mass});
@@ -181,7 +179,8 @@ class Builder {
         geom->body = at.body;
         geom->self_collides = link.self_collide.value_or(model_.self_collide);
         geom->in_body = at.in_body * collision.pose;
-        if (model_.tolerant && at.body->dynamic()) geom->fastest = kPartForeign;
+        if (at.body->dynamic()) geom->fastest = model_.customs.parting_speed;
+        geom->touches = Anatomy::find(link.anatomy.postures, collision.name) <= 0;
         at.body->geoms.push_back(geom.get());
         record_->geoms.push_back(std::move(geom));
       }
@@ -294,8 +293,8 @@ class Builder {
   ShapeFactory& shapes_;
   std::uint64_t& serial_;
   std::unique_ptr<ModelRecord> record_;
-  std::unordered_map<std::string, std::size_t> index_;  // of links
-  std::vector<std::size_t> group_;                      // of each link and, last, the world
+  std::unordered_map<std::string, std::size_t> index_;  // index of each link by name
+  std::vector<std::size_t> group_;                      // group of each link and, last, the world
   std::vector<Body*> body_of_;
 };
 

@@ -15,36 +15,32 @@ namespace {
 
 constexpr double kSoftest = 1e-8;      // least CFM of a contact: keeps redundant points solvable
 constexpr double kBounceSpeed = 0.05;  // m/s, nothing bounces below it
-constexpr double kStickMu = 1e6;       // from here on nothing slides
 constexpr std::size_t kManyJoints = 256;
-constexpr double kStopSteps =
-    2.0;  // contacts that friction stops within this many steps do not slide
-constexpr double kMinSlip = 1e-6;              // m/s
-constexpr double kMinLoad = 1e-6;              // N
 constexpr std::size_t kMaxInStep = 20000;      // points
 constexpr std::size_t kMaxInMeshes = 500'000;  // tests, some tenths of a second
-constexpr double kDeepest = 0.25;              // of a box's thickness, at rest
-constexpr double kUp = 0.9;                    // of a unit normal: on a floor
+constexpr double kDeepest = 0.25;              // share of a box's thickness, at rest
+constexpr double kUp = 0.9;                    // z of a unit normal: on a floor
 constexpr double kPush =
     50.0;  // m/s^2, at which a soft contact lifts a body that is deep in the floor
 
-// A person's chest and pelvis: ISO/TS 15066:2016, table A.3, effective spring constant.
-constexpr double kSideYield = 1.0 / 25e3;  // m/N
-constexpr double kSide = 0.5;              // |z| of the normal at a person's side, at most
-// m/s, at which a person parts from an obstacle: DART's threshold of bouncing, by default.
+constexpr double kSide = 0.5;  // |z| of the normal at a body's side, at most
+// m/s, at which a yielding side parts from what presses on it: DART's threshold of bouncing.
 constexpr double kRebound = 0.1;
 
 bool holds_to_world(const Joint* joint) {
   return !joint->first->dynamic() || !joint->second->dynamic();
 }
 
-// Whether a body jointed to the world, such as a leaf, is at the person's side. A latched one is
-// as rigid as the wall.
-bool is_squeezed(const Geom& person, const Geom& leaf, const Vec3& normal) {
-  if (!person.body->upright || !leaf.body->dynamic() || std::abs(normal.z()) >= kSide) return false;
-  const std::vector<Joint*>& joints = leaf.body->mechanism->joints;
-  return std::any_of(joints.begin(), joints.end(), holds_to_world) &&
-         std::none_of(joints.begin(), joints.end(), [](const Joint* j) { return j->latched; });
+// m/N, by which the side of a body yields to another that a joint to the world moves; 0 if it does
+// not. A latched one is as rigid as the wall.
+double side_yield(const Geom& geom, const Geom& other, const Vec3& normal) {
+  const double stiffness = geom.body->side_stiffness;
+  if (stiffness <= 0.0 || !other.body->dynamic() || std::abs(normal.z()) >= kSide) return 0.0;
+  const std::vector<Joint*>& joints = other.body->mechanism->joints;
+  const bool presses =
+      std::any_of(joints.begin(), joints.end(), holds_to_world) &&
+      std::none_of(joints.begin(), joints.end(), [](const Joint* j) { return j->latched; });
+  return presses ? 1.0 / stiffness : 0.0;
 }
 
 bool joined(const Body& a, const Body& b) {
@@ -61,44 +57,10 @@ const MeshBoxes& boxes_of(const Geom& geom) {
   return *boxes;
 }
 
-double usable_mu(double mu) { return mu >= kStickMu ? dInfinity : std::max(0.0, mu); }
-
-PairKey key_of(const Contacts::Pair& pair) { return {pair.first->serial, pair.second->serial}; }
-
-// The dynamic one first, and none for a static one.
-std::pair<const Mechanism*, const Mechanism*> mechanisms_of(const Contacts::Pair& pair) {
-  const Body& a = *pair.first->body;
-  const Body& b = *pair.second->body;
-  return a.dynamic() ? std::pair(a.mechanism, b.mechanism) : std::pair(b.mechanism, a.mechanism);
-}
-
-Vec3 across(const Vec3& normal, const Vec3& v) { return v - normal.dot(v) * normal; }
-
-Vec3 velocity_at(const Body& body, const Vec3& point) {
-  if (body.ode == nullptr) return Vec3::Zero();
-  return body.velocity() + body.spin().cross(point - body.at.position);
-}
-
-double inverse_mass(const Body& body) { return body.dynamic() ? 1.0 / body.mechanism->mass : 0.0; }
-
 double parting_speed(const Geom& a, const Geom& b, const dContactGeom& at) {
   const Vec3 position = ode::vec(at.pos);
-  const Vec3 velocity = velocity_at(*a.body, position) - velocity_at(*b.body, position);
+  const Vec3 velocity = a.body->velocity_at(position) - b.body->velocity_at(position);
   return velocity.dot(ode::vec(at.normal));
-}
-
-void set_direction(dContact& contact, const Vec3& direction) {
-  contact.surface.mode |= dContactFDir1;
-  for (int i = 0; i < 3; ++i) contact.fdir1[i] = direction[i];
-}
-
-void keep_direction(dContact& contact, const Geom& a, const Geom& b) {
-  const Geom& chooser = a.friction.direction1.isZero() ? b : a;
-  if (chooser.friction.direction1.isZero()) return;
-  const Vec3 given =
-      chooser.body->at.rotation * (chooser.in_body.rotation * chooser.friction.direction1);
-  const Vec3 along = across(ode::vec(contact.geom.normal), given);
-  if (along.norm() > 1e-6) set_direction(contact, along.normalized());
 }
 
 }  // namespace
@@ -182,81 +144,18 @@ void Contacts::make_joints() {
             [](const Pair& a, const Pair& b) { return key_of(a) < key_of(b); });
   feedback_.assign(found_.size(), dJointFeedback{});
   sum_loads();
+  start_grips();
   for (const Pair& pair : pairs_) {
     for (std::size_t i = 0; i < pair.count; ++i) make_joint(pair, pair.begin + i, true);
   }
 }
 
-void Contacts::make_joints_without_push() {
+void Contacts::make_joints_again(bool push) {
   dJointGroupEmpty(group_.get());
   for (const Pair& pair : pairs_) {
-    if (!pair.first->body->parts && !pair.second->body->parts) continue;
-    for (std::size_t i = 0; i < pair.count; ++i) make_joint(pair, pair.begin + i, false);
+    if (!pair.first->body->again && !pair.second->body->again) continue;
+    for (std::size_t i = 0; i < pair.count; ++i) make_joint(pair, pair.begin + i, push);
   }
-}
-
-void Contacts::set_friction(dContact& contact, const Pair& pair, const PointShare& share) const {
-  const Geom& a = *pair.first;
-  const Geom& b = *pair.second;
-  dSurfaceParameters& s = contact.surface;
-  s.mode |= dContactApprox1;
-  s.mu = share.friction * usable_mu(std::min(a.friction.mu, b.friction.mu));
-  s.mu2 = share.friction * usable_mu(std::min(a.friction.mu2, b.friction.mu2));
-  if (s.mu2 != s.mu) s.mode |= dContactMu2;
-  s.slip1 = (a.friction.slip1 + b.friction.slip1) / share.stiffness;
-  s.slip2 = (a.friction.slip2 + b.friction.slip2) / share.stiffness;
-  if (s.slip1 > 0.0) s.mode |= dContactSlip1;
-  if (s.slip2 > 0.0) s.mode |= dContactSlip2;
-  if (s.mu != s.mu2 || s.slip1 != s.slip2) {
-    keep_direction(contact, a, b);
-  } else if (s.mu > 0.0 && s.mu < dInfinity) {
-    align(contact, pair);
-  }
-}
-
-// ODE bounds the friction along two directions, each by itself: a pyramid. Coulomb's cone follows
-// from the choice of the first. A sliding contact has friction against its slip and none across.
-// A contact that does not slide, or may stop within a step, has the first direction along the force
-// that would make it slip: against the friction of the last step, and along the slip that is left.
-// That force is one for all points between two mechanisms, as the share of each point is no load.
-void Contacts::align(dContact& contact, const Pair& pair) const {
-  const Body& a = *pair.first->body;
-  const Body& b = *pair.second->body;
-  const Vec3 normal = ode::vec(contact.geom.normal);
-  const Vec3 position = ode::vec(contact.geom.pos);
-  const Vec3 slip = across(normal, velocity_at(a, position) - velocity_at(b, position));
-  const double inverse = inverse_mass(a) + inverse_mass(b);
-  const auto found = loads_.find(mechanisms_of(pair));
-  Vec3 load = slip / (step_ * inverse);  // N, on the first body
-  if (found == loads_.end()) {
-    const double falls = (a.dynamic() ? 1.0 : 0.0) - (b.dynamic() ? 1.0 : 0.0);
-    load += falls / inverse * across(normal, gravity_);
-  } else {
-    const Load& last = found->second;
-    const double stopped = kStopSteps * contact.surface.mu * last.pressed * step_ * inverse;
-    if (slip.norm() > std::max(stopped, kMinSlip)) {  // m/s
-      contact.surface.mode |= dContactMu2;
-      contact.surface.mu2 = 0.0;
-      return set_direction(contact, slip.normalized());
-    }
-    load -= (a.dynamic() ? 1.0 : -1.0) * across(normal, last.friction);
-  }
-  if (load.norm() > kMinLoad) set_direction(contact, load.normalized());
-}
-
-void Contacts::sum_loads() {
-  loads_.clear();
-  for (const Pair& pair : pairs_before_) {
-    const double sign = pair.first->body->dynamic() ? 1.0 : -1.0;
-    Load& load = loads_[mechanisms_of(pair)];
-    for (std::size_t i = pair.begin; i < pair.begin + pair.count; ++i) {
-      const ContactPoint& point = points_before_[i];
-      const double pressed = point.normal.dot(point.force);
-      load.pressed += std::abs(pressed);
-      load.friction += sign * (point.force - pressed * point.normal);
-    }
-  }
-  pairs_before_.clear();
 }
 
 void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
@@ -269,28 +168,28 @@ void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
   s.soft_erp = erp_;
   const PointShare& share = shares_[index];
   s.soft_cfm = std::max(cfm_ / share.stiffness, share.least_cfm);
-  set_friction(contact, pair, share);
+  set_friction(contact, pair, index);
   double fastest = fastest_;
   const Vec3 normal = ode::vec(contact.geom.normal);
-  const bool squeezes = is_squeezed(a, b, normal) || is_squeezed(b, a, normal);
-  const double parts_at = std::min({a.fastest, b.fastest, squeezes ? kRebound : dInfinity});
+  const double side = std::max(side_yield(a, b, normal), side_yield(b, a, normal));
+  const double parts_at = std::min({a.fastest, b.fastest, side > 0.0 ? kRebound : dInfinity});
   const double bounce = std::min(a.restitution, b.restitution);
   if (bounce > 0.0) {
     s.mode |= dContactBounce;
     s.bounce = bounce;
     s.bounce_vel = kBounceSpeed;
   }
-  const bool is_soft = a.stiffness || b.stiffness || squeezes;
+  const bool is_soft = a.stiffness || b.stiffness || side > 0.0;
   if (is_soft) {
     const double yield =
-        ((squeezes ? kSideYield * static_cast<double>(pair.count) : 0.0) +
-         (a.stiffness ? 1.0 / *a.stiffness : 0.0) + (b.stiffness ? 1.0 / *b.stiffness : 0.0)) /
+        (side * static_cast<double>(pair.count) + (a.stiffness ? 1.0 / *a.stiffness : 0.0) +
+         (b.stiffness ? 1.0 / *b.stiffness : 0.0)) /
         share.stiffness;
     const double damping = share.stiffness * (a.damping.value_or(0.0) + b.damping.value_or(0.0));
     s.soft_erp = step_ / (step_ + damping * yield);
     s.soft_cfm = std::max(kSoftest, 1.0 / (step_ / yield + damping));
     // In a step it gains this share of the speed of parting: a soft spring pushes as deep as it is.
-    const double gained = step_ / s.soft_cfm * (inverse_mass(*a.body) + inverse_mass(*b.body));
+    const double gained = step_ / s.soft_cfm * (a.body->inverse_mass() + b.body->inverse_mass());
     fastest *= 1.0 + 1.0 / gained;
     if (std::isfinite(parts_at)) {
       const bool parts = parting_speed(a, b, contact.geom) >= parts_at;
@@ -299,7 +198,7 @@ void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
   } else {
     fastest = std::min(fastest, parts_at);
   }
-  if (a.min_depth || b.min_depth) {  // in place of the layer that ODE takes off all depths
+  if (a.min_depth || b.min_depth) {  // instead of the layer that ODE takes off all depths
     const double depth = std::min(std::max(a.min_depth.value_or(0.0), b.min_depth.value_or(0.0)),
                                   kDeepest * std::min(a.thickness, b.thickness));
     contact.geom.depth += surface_layer_ - depth;
@@ -328,7 +227,7 @@ void Contacts::read_forces(const Pair& pair) {
   for (std::size_t i = pair.begin; i < pair.begin + pair.count; ++i) {
     const dContactGeom& found = found_[i];
     Vec3 force = sign * ode::vec(feedback_[i].f1);
-    if (!force.allFinite()) force = Vec3::Zero();  // of a step that found no motion
+    if (!force.allFinite()) force = Vec3::Zero();  // the step found no motion
     points_[i] = {ode::vec(found.pos), ode::vec(found.normal), found.depth, force};
   }
 }

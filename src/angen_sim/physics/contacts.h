@@ -24,6 +24,8 @@ class Contacts {
     std::size_t count = 0;
   };
 
+  static PairKey key_of(const Pair& pair) { return {pair.first->serial, pair.second->serial}; }
+
   Contacts(const desc::Physics& settings, const Vec3& gravity);
 
   void set(const desc::Physics& settings, const Vec3& gravity);
@@ -53,9 +55,14 @@ class Contacts {
   /// Sorts the pairs by serials and makes ODE's contact joints, in that order.
   void make_joints();
 
-  /// Replaces the contact joints by those of the bodies that `parts`, without the push that
-  /// separates overlapping bodies.
-  void make_joints_without_push();
+  /// Replaces the contact joints by those of the bodies marked `again`, with the push that
+  /// separates overlapping bodies or without.
+  void make_joints_again(bool push);
+
+  /// After a step: whether friction was bounded by other normal forces than the step gave. Marks
+  /// the bodies of such points `again`; their next joints have better bounds, `lower` ones if no
+  /// others were found.
+  bool revise_friction(bool lower);
 
   /// m/s, at which deep contacts separate.
   double fastest() const { return fastest_; }
@@ -98,7 +105,7 @@ class Contacts {
 
   /// All pairs, by serials.
   std::vector<ContactPair> list() const;
-  /// Those of one geom, by the other's serial and turned so that it is the first.
+  /// Contacts of one geom, by the other's serial and turned so that it is the first.
   std::vector<ContactPair> of(const Geom& geom) const;
 
  private:
@@ -106,6 +113,24 @@ class Contacts {
   struct Load {
     Vec3 friction = Vec3::Zero();  // N, on the first mechanism
     double pressed = 0.0;          // N
+  };
+
+  /// What bounds the friction of a contact point: mu times a normal force, of which a step begins
+  /// with a guess.
+  struct Grip {
+    Eigen::Vector2d mu = Eigen::Vector2d::Zero();     // along two directions
+    bool cone = true;                                 // false: the pyramid that a file asks for
+    Vec3 along = Vec3::UnitX();                       // the first direction
+    Eigen::Vector2d share = Eigen::Vector2d::Ones();  // part of the bounds, along each direction
+    double pressed = -1.0;   // N, the guess; below 0: none, ODE takes its own
+    bool firm = false;       // far from slipping: ODE takes its own, too
+    double error = 0.0;      // N, of the guess of the pass before
+    double corrected = 0.7;  // share of it by which the guess was corrected
+
+    /// N, least normal force that allows this friction (N, along both directions).
+    double needed(const Eigen::Vector2d& friction) const;
+    /// The next guess, after a step that gave this normal force (N); only falls if `lower`.
+    void correct(double gave, bool lower);
   };
 
   struct Resting {
@@ -122,8 +147,11 @@ class Contacts {
   void drop_active(const ModelRecord& model);
   std::vector<ContactPoint> points_of(const Pair& pair) const;
   void sum_loads();
+  void start_grips();
+  const ContactPoint& nearest_before(const Pair& pair, const Vec3& at) const;
+  bool revise(std::size_t index, bool lower);
   void make_joint(const Pair& pair, std::size_t index, bool pushes);
-  void set_friction(dContact& contact, const Pair& pair, const PointShare& share) const;
+  void set_friction(dContact& contact, const Pair& pair, std::size_t index);
   void align(dContact& contact, const Pair& pair) const;
   void read_forces(const Pair& pair);
 
@@ -135,15 +163,16 @@ class Contacts {
   double surface_layer_;  // m
   double fastest_;        // m/s
   ode::JointGroupHandle group_;
-  std::size_t most_joints_ = 0;  // that group_ has held
+  std::size_t most_joints_ = 0;  // most joints that group_ has held
   std::size_t in_meshes_ = 0;    // tests of meshes against each other in this step
   bool tangled_ = false;
   std::vector<Pair> pairs_;
   std::vector<dContactGeom> found_;
-  std::vector<PointShare> shares_;  // as found_
+  std::vector<PointShare> shares_;  // indexed like found_
+  std::vector<Grip> grips_;         // indexed like found_
   std::vector<ContactPoint> points_;
   std::map<std::pair<const Mechanism*, const Mechanism*>, Load> loads_;
-  std::vector<Pair> pairs_before_;  // of the step before this one
+  std::vector<Pair> pairs_before_;  // pairs of the step before this one
   std::vector<ContactPoint> points_before_;
   std::vector<dJointFeedback> feedback_;
   std::map<PairKey, Resting> resting_;

@@ -56,7 +56,7 @@ void Contacts::put_to_rest() {
   };
   for (const Pair& pair : pairs_) {
     if (!asleep(pair)) continue;
-    const PairKey key{pair.first->serial, pair.second->serial};
+    const PairKey key = key_of(pair);
     resting_[key] = {pair.first, pair.second, points_of(pair)};
     with_smaller_.emplace(key.second, key.first);
     for (Body* body : {pair.first->body, pair.second->body}) {
@@ -126,7 +126,7 @@ std::vector<ContactPair> Contacts::list() const {
     all.push_back({r.first->name, r.second->name, r.points});
   };
   for (const Pair& pair : pairs_) {
-    const PairKey key{pair.first->serial, pair.second->serial};
+    const PairKey key = key_of(pair);
     while (sleeping != resting_.end() && sleeping->first < key) take_sleeping();
     all.push_back({pair.first->name, pair.second->name, points_of(pair)});
   }

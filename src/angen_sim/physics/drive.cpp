@@ -11,7 +11,7 @@ namespace {
 constexpr double kAlong = 0.99;
 constexpr double kAcross = 0.14;
 constexpr double kEither = 0.707;
-constexpr double kEasy = 0.5;  // of the greatest force
+constexpr double kEasy = 0.5;  // share of the greatest force
 constexpr double kArm = 0.25;  // m; the turning torque is the force on this arm
 
 }  // namespace

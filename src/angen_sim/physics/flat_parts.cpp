@@ -50,9 +50,18 @@ struct FlatPart {
     const auto is_it = [&](const Triangle& known) { return known.index == triangle.index; };
     if (std::none_of(triangles.begin(), triangles.end(), is_it)) triangles.push_back(triangle);
   }
-  bool below(const Vec3& point) const {
-    return std::any_of(triangles.begin(), triangles.end(),
-                       [&](const Triangle& triangle) { return triangle.below(point); });
+  /// Whether the mesh has a triangle of the part's plane below a point; those beside its contacts
+  /// have none, and a ray finds them.
+  bool below(const Vec3& point, dGeomID mesh) const {
+    const auto is_below = [&](const Triangle& triangle) { return triangle.below(point); };
+    if (std::any_of(triangles.begin(), triangles.end(), is_below)) return true;
+    const auto& [index, corners, normal] = triangles.front();
+    const Vec3 start = point + (kOneHeight - normal.dot(point - corners[0])) * normal;
+    const ode::GeomHandle ray(dCreateRay(nullptr, 2.0 * kOneHeight));
+    dGeomRaySet(ray.get(), start.x(), start.y(), start.z(), -normal.x(), -normal.y(), -normal.z());
+    dContactGeom hit;
+    return ode::collide(ray.get(), mesh, 1, &hit) == 1 &&
+           std::abs(normal.dot(ode::vec(hit.normal))) > 1.0 - kOnePlane;
   }
   /// m, that the solid may be below the part: a point much deeper than ODE's hangs below it.
   double most_depth() const {
@@ -62,17 +71,17 @@ struct FlatPart {
     }
     return 2.0 * deepest + kDeeper;
   }
-  /// Whether a contact's edge has triangles of the part on both of its sides.
-  bool within(const dContactGeom& point) const {
+  /// Whether a contact's edge has triangles of the part's plane on both of its sides.
+  bool within(const dContactGeom& point, dGeomID mesh) const {
     const Vec3& up = triangles.front().normal;
     const Vec3 normal = ode::vec(point.normal);
     const Vec3 across = kBeside * (normal - up.dot(normal) * up).normalized();
     const Vec3 at = ode::vec(point.pos);
-    return below(at + across) && below(at - across);
+    return below(at + across, mesh) && below(at - across, mesh);
   }
 };
 
-/// The triangle of a contact; false where ODE does not name one, or it has no area.
+/// The triangle of a contact; false if ODE does not name one, or it has no area.
 bool triangle_of(dGeomID mesh, int index, Triangle& out) {
   if (index < 0) return false;
   out.index = index;
@@ -95,7 +104,7 @@ std::vector<dContactGeom> mended(const FlatPart& part, dGeomID mesh, dGeomID sol
   std::vector<dContactGeom> out;
   for (std::size_t i = 0; i < n; ++i) {
     dContactGeom& point = found[i];
-    if (point.depth > most_depth || !part.below(ode::vec(point.pos))) continue;
+    if (point.depth > most_depth || !part.below(ode::vec(point.pos), mesh)) continue;
     point.g1 = mesh_first ? mesh : solid;
     point.g2 = mesh_first ? solid : mesh;
     point.side1 = point.side2 = -1;
@@ -106,7 +115,7 @@ std::vector<dContactGeom> mended(const FlatPart& part, dGeomID mesh, dGeomID sol
   // The solid extends beyond the last triangle, over its edge: ODE reports contacts there.
   std::copy(part.on_faces.begin(), part.on_faces.end(), std::back_inserter(out));
   std::copy_if(part.on_edges.begin(), part.on_edges.end(), std::back_inserter(out),
-               [&](const dContactGeom& point) { return !part.within(point); });
+               [&](const dContactGeom& point) { return !part.within(point, mesh); });
   return out;
 }
 

@@ -47,6 +47,7 @@ void take_out(std::vector<Geom*>& list, const Geom* geom) {
 }  // namespace
 
 void Grid::update(Geom& geom) {
+  if (!geom.touches) return erase(geom);
   if (still_in_cells(geom)) return;
   std::array<int, 6> cells{};
   const bool bounded = cells_of(geom.box, cells);

@@ -9,17 +9,19 @@
 
 namespace angen::physics {
 
-/// Which geoms may touch: cubes of 2 m, and a list of those too large for them (planes). A query
-/// costs as much as there are near geoms, whatever the size of the world. Results are unordered.
+/// Finds geoms that may touch: cubes of 2 m, and a list of those too large for them (planes). A
+/// query costs as much as there are near geoms, whatever the size of the world. Results are
+/// unordered.
 class Grid {
  public:
-  /// Inserts a geom by its box, again after it has moved.
+  /// Inserts a geom by its box, again after it has moved. One that touches nothing is left out.
   void update(Geom& geom);
   void erase(Geom& geom);
 
   /// Calls visit(Geom&) once for each other geom whose box overlaps that of `geom`, which is filed.
   template <class F>
   void query(Geom& geom, F&& visit) {
+    if (!geom.touches) return;
     ++query_;
     geom.visited = query_;
     const auto check = [&](Geom* other) {

@@ -7,7 +7,7 @@ namespace angen::physics {
 namespace {
 
 constexpr std::uint32_t kCells = 16;     // along a side of a tile
-constexpr std::size_t kMaxTiles = 4096;  // that are kept, of some 50 kB each
+constexpr std::size_t kMaxTiles = 4096;  // tiles that are kept, of some 50 kB each
 
 std::uint32_t tiles_along(std::uint32_t count) { return (count - 2) / kCells + 1; }
 

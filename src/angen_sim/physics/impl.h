@@ -46,7 +46,7 @@ struct World::Impl {
   desc::Physics settings;
   Vec3 gravity;
   std::uint64_t seed;
-  ode::ThreadingHandle threading;  // of its own: a failed step leaves jobs in it
+  ode::ThreadingHandle threading;  // its own: a failed step leaves jobs in it
   ode::WorldHandle world;
   ShapeFactory shapes;
   std::uint64_t serial = 0;
@@ -65,6 +65,7 @@ struct World::Impl {
   Trouble trouble;
   std::vector<Stopped> stopped;
   bool crowded = false;
+  bool has_large_islands = false;
   std::vector<ContactPair> listed;
   bool list_is_old = false;
 
@@ -75,7 +76,8 @@ struct World::Impl {
   void set_up_joints(double step);
   void integrate(std::int64_t tick, double step);
   using Solve = std::function<void(const std::vector<Body*>&)>;
-  void part_bodies(const std::vector<BodyState>& start, double step, const Solve& solve);
+  void solve_again(const std::vector<BodyState>& start, bool push, const Solve& solve);
+  void agree_on_friction(const std::vector<BodyState>& start, const Solve& solve);
   void renew();
   void read_bodies();
   /// Corrects positions after a long step, which moves bodies at their final speed all along.

@@ -23,7 +23,7 @@ void set_param(const Joint& joint, int parameter, double value) {
       return dJointSetSliderParam(joint.main.get(), parameter, value);
     case Type::kUniversal:
       return dJointSetUniversalParam(joint.main.get(), parameter, value);
-    case Type::kScrew:  // of its way: ODE's angles end at half a turn
+    case Type::kScrew:  // by its way: ODE's angles end at half a turn
       return dJointSetPistonParam(joint.main.get(), parameter, value);
     default:
       return;
@@ -170,7 +170,7 @@ void correct_positions(const Joint& joint, bool on) {
   const double erp = on ? kStopErp : 0.0;
   set_param(joint, dParamStopERP, erp);
   if (joint.axes.size() > 1) set_param(joint, dParamStopERP + dParamGroup2 - dParamGroup1, erp);
-  // Of their own, where others have the world's.
+  // Axes of their own; others have the world's.
   if (joint.type == Type::kBall) {
     dJointSetBallParam(joint.main.get(), dParamERP, on ? kJointErp : 0.0);
   }
@@ -321,7 +321,7 @@ void update_joint(Joint& joint, double h) {
     joint.position = angle + 2.0 * M_PI * joint.turns;
     const Vec3 arm = -(at.rotation * joint.anchor_in_first);
     const Vec3 torque = ode::vec(main.t1) + arm.cross(ode::vec(main.f1)) + ode::vec(motor.t1);
-    const double at_stop = joint.lead * axis.dot(ode::vec(main.f1));  // of a screw
+    const double at_stop = joint.lead * axis.dot(ode::vec(main.f1));  // a screw's force at its stop
     joint.effort = axis.dot(torque) + at_stop + joint.spring_effort;
   } else {
     joint.position = dJointGetSliderPosition(joint.main.get());

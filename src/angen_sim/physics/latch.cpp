@@ -7,10 +7,10 @@ namespace angen::physics {
 
 namespace {
 
-constexpr double kLatchTime = 0.1;     // s
-constexpr double kBlow = 10.0;         // of its force: a blow shorter than 10 ms does not break it
+constexpr double kLatchTime = 0.1;  // s
+constexpr double kBlow = 10.0;      // times its force: a blow shorter than 10 ms does not break it
 constexpr double kLatchSpeed = 0.002;  // rad/s or m/s
-constexpr double kLatchAgain = 0.9;    // of its force
+constexpr double kLatchAgain = 0.9;    // share of its force
 
 }  // namespace
 

@@ -40,7 +40,7 @@ struct Aabb {
 /// Triangles as ODE wants them; keeps the vertices alive that ODE points to.
 struct MeshData {
   std::shared_ptr<const TriangleMesh> mesh;
-  Eigen::Matrix3Xd corners;  // m, of its triangles, each once; none where nothing of it moves
+  Eigen::Matrix3Xd corners;  // m, of its triangles, each once; none if nothing of it moves
   ode::MeshHandle data;
   mutable std::optional<MeshBoxes> boxes;  // once it has collided with another mesh
 };
@@ -61,14 +61,15 @@ struct alignas(64) Geom {
   double thickness = std::numeric_limits<double>::infinity();  // m, of a box
   double fastest = std::numeric_limits<double>::infinity();    // m/s, at which contacts push it out
   std::shared_ptr<const MeshData> mesh;
-  std::shared_ptr<HeightTiles> tiles;  // of a heightmap
-  ode::GeomHandle ode;                 // of a heightmap: the box around it
+  std::shared_ptr<HeightTiles> tiles;  // a heightmap's
+  ode::GeomHandle ode;                 // a heightmap's is the box around it
   ode::GeomHandle tile;                // takes the mesh of one tile after the other
   bool is_plane = false;
   bool is_wheel = false;                                // a cylinder that turns about its own axis
   std::array<int, 6> cells{};                           // the grid's, first and last in x, y, z
   std::vector<const std::vector<Geom*>*> shared_cells;  // the geoms in each of them, for queries
   bool in_grid = false;
+  bool touches = true;  // false: of another posture than the present one
   bool unbounded = false;
   std::uint64_t contacts_revision = 0;  // grows when its contacts change
   bool self_collides = false;           // it touches others of its model that do so too
@@ -89,7 +90,7 @@ struct Axis {
   double velocity = -1.0;
   double damping = 0.0;
   double friction = 0.0;
-  double stiffness = 0.0;  // of its spring
+  double stiffness = 0.0;  // its spring's
   double slack_at = 0.0;   // its rest position
   double initial = 0.0;
   std::optional<desc::JointSafety> safety;
@@ -108,7 +109,7 @@ struct Joint {
   double lead = 0.0;        // m/rad, of a screw
   ode::JointHandle main;    // the constraint with its stops; null as its bodies'
   ode::JointHandle motor;   // first row: motor, brake or dry friction; second row: damping
-  ode::JointHandle thread;  // of a screw: couples its way and its angle
+  ode::JointHandle thread;  // a screw's, couples its way and its angle
   dJointFeedback main_feedback{};
   dJointFeedback motor_feedback{};
   dJointFeedback thread_feedback{};
@@ -123,8 +124,8 @@ struct Joint {
   double latch_at = 0.0;       // rad or m, as ODE measures it
   double inertia = 0.0;        // least that moves about or along the first axis, kg m^2 or kg
   double spring_effort = 0.0;  // in the last step, where no row of `motor` gave it
-  double pushes = 0.0;         // that are added for the next step
-  double pushed = 0.0;         // that were in the last one
+  double pushes = 0.0;         // force added for the next step
+  double pushed = 0.0;         // force added for the last one
   double raw_angle = 0.0;      // in [-pi, pi]
   int turns = 0;
   double position = 0.0;
@@ -138,7 +139,7 @@ struct Drive {
   Vec3 velocity = Vec3::Zero();
   double yaw_rate = 0.0;
   double max_force = 0.0;
-  dJointFeedback feedback{};  // of `linear`, in the last step
+  dJointFeedback feedback{};  // feedback of `linear`, in the last step
 };
 
 /// Part of a body that gravity leaves alone.
@@ -168,17 +169,20 @@ struct Body {
   Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();  // about the center of mass, in its own axes
   bool floats = false;                               // gravity leaves all of it alone
   bool upright = false;
+  double side_stiffness = 0.0;         // N/m, see Anatomy
   Quat upright_at = Quat::Identity();  // the rotation that yaw is counted from
   bool may_sleep = true;
   bool awake = false;
   int idle_steps = 0;
+  Pose idle_at;                  // where its idle time began
   std::uint64_t collided = 0;    // the last step in which its pairs were tested
   std::uint32_t island = 0;      // scratch
   bool iterated = false;         // in a large island: the last step was by dWorldQuickStep
   double overlap = 0.0;          // m, of its deepest rigid contact, beyond the layer
   bool overlaps = false;         // since it was deep in something, until it is out
-  int parting_steps = 0;         // that are left since its island had such a body
+  int parting_steps = 0;         // steps left since its island had such a body
   bool parts = false;            // its island has a body with such steps
+  bool again = false;            // scratch: its step is taken again
   double pushed = 0.0;           // m/s, of its points, out of overlaps in the last step
   std::vector<PairKey> resting;  // contacts kept since it fell asleep
   std::vector<LinkId> links;
@@ -190,6 +194,10 @@ struct Body {
   bool dynamic() const { return mass > 0.0; }
   Vec3 velocity() const { return ode ? ode::vec(dBodyGetLinearVel(ode.get())) : Vec3::Zero(); }
   Vec3 spin() const { return ode ? ode::vec(dBodyGetAngularVel(ode.get())) : Vec3::Zero(); }
+  Vec3 velocity_at(const Vec3& point) const {
+    return ode ? Vec3(velocity() + spin().cross(point - at.position)) : Vec3::Zero();
+  }
+  double inverse_mass() const { return dynamic() ? 1.0 / mechanism->mass : 0.0; }
 };
 
 struct LinkRecord {
@@ -203,11 +211,11 @@ struct ModelRecord {
   Pose pose;
   std::vector<LinkId> link_ids;
   std::vector<JointId> joint_ids;
-  std::vector<LinkRecord> links;              // as in the description, until ids are given
+  std::vector<LinkRecord> links;              // indexed like the description, until ids are given
   std::vector<std::unique_ptr<Body>> bodies;  // destroyed after joints and geoms
   std::vector<std::unique_ptr<Mechanism>> mechanisms;
   std::vector<std::unique_ptr<Geom>> geoms;
-  std::vector<std::unique_ptr<Joint>> joints;  // as in the description
+  std::vector<std::unique_ptr<Joint>> joints;  // indexed like the description
 };
 
 }  // namespace angen::physics

@@ -60,4 +60,13 @@ bool take_lcp_failure() {
   return failed;
 }
 
+std::size_t collide(dGeomID a, dGeomID b, std::size_t most, dContactGeom* points) {
+  try {
+    return static_cast<std::size_t>(
+        dCollide(a, b, static_cast<int>(most), points, sizeof(dContactGeom)));
+  } catch (const Failure&) {
+    return 0;
+  }
+}
+
 }  // namespace angen::physics::ode

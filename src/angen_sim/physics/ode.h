@@ -2,6 +2,7 @@
 
 #include <ode/ode.h>
 
+#include <cstddef>
 #include <memory>
 #include <stdexcept>
 
@@ -45,6 +46,9 @@ void prepare_thread();
 
 /// True when this thread's ODE reported a failed LCP since the last call.
 bool take_lcp_failure();
+
+/// Contact points of two geoms, at most `most`; none if ODE fails, at a degenerate triangle, say.
+std::size_t collide(dGeomID a, dGeomID b, std::size_t most, dContactGeom* points);
 
 inline Vec3 vec(const dReal* v) { return {v[0], v[1], v[2]}; }
 inline Quat quat(const dReal* q) { return {q[0], q[1], q[2], q[3]}; }

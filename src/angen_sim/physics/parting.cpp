@@ -74,8 +74,8 @@ bool mark_parting(const std::vector<Body*>& awake, const Contacts& contacts) {
   return any;
 }
 
-void part(const std::vector<Body*>& awake, const std::vector<BodyState>& start, Contacts& contacts,
-          double h, const std::function<void(const std::vector<Body*>&)>& solve) {
+void part(const std::vector<Body*>& awake, const std::vector<BodyState>& start, double fastest,
+          double h, const std::function<void()>& solve) {
   struct Pushed {
     Body* body;
     const BodyState* start;
@@ -84,29 +84,24 @@ void part(const std::vector<Body*>& awake, const std::vector<BodyState>& start, 
   std::vector<Pushed> pushed;
   std::vector<Body*> bodies;
   for (std::size_t i = 0; i < awake.size(); ++i) {
-    if (!awake[i]->parts) {
-      dBodyDisable(awake[i]->ode.get());
-      continue;
-    }
+    awake[i]->again = awake[i]->parts;
+    if (!awake[i]->parts) continue;
     pushed.push_back({awake[i], &start[i], awake[i]->velocity(), awake[i]->spin()});
     bodies.push_back(awake[i]);
-    restore(*awake[i], start[i]);
   }
-  contacts.make_joints_without_push();
   set_correction(bodies, false);
-  solve(bodies);
+  solve();
   set_correction(bodies, true);
-  for (const Body* body : awake) dBodyEnable(body->ode.get());
-  std::map<const Mechanism*, double> fastest;  // m/s, of its points, by the push
+  std::map<const Mechanism*, double> speeds;  // m/s, of its points, by the push
   for (Pushed& each : pushed) {
     each.velocity -= each.body->velocity();
     each.spin -= each.body->spin();
-    double& most = fastest[each.body->mechanism];
+    double& most = speeds[each.body->mechanism];
     most = std::max(most, each.velocity.norm() + each.spin.norm() * radius_of(*each.body));
   }
   for (const Pushed& each : pushed) {
-    const double most = fastest[each.body->mechanism];
-    const double share = most > contacts.fastest() ? contacts.fastest() / most : 1.0;
+    const double most = speeds[each.body->mechanism];
+    const double share = most > fastest ? fastest / most : 1.0;
     each.body->pushed = share * most;
     const Vec3 velocity = each.body->velocity() + share * each.velocity;
     const Vec3 spin = each.body->spin() + share * each.spin;

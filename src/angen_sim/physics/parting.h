@@ -18,8 +18,8 @@ namespace angen::physics {
 bool mark_parting(const std::vector<Body*>& awake, const Contacts& contacts);
 
 /// The second of the two steps, of bodies that were at `start` (as `awake`) before the first one.
-/// `solve` takes a step of those bodies.
-void part(const std::vector<Body*>& awake, const std::vector<BodyState>& start, Contacts& contacts,
-          double h, const std::function<void(const std::vector<Body*>&)>& solve);
+/// `solve` takes a step of those bodies from there, without the push of contacts.
+void part(const std::vector<Body*>& awake, const std::vector<BodyState>& start, double fastest,
+          double h, const std::function<void()>& solve);
 
 }  // namespace angen::physics

@@ -14,7 +14,7 @@ namespace angen::physics {
 namespace {
 
 struct Motion {
-  Vec3 velocity = Vec3::Zero();  // of the center of mass
+  Vec3 velocity = Vec3::Zero();  // the center of mass'
   Vec3 spin = Vec3::Zero();
 };
 

@@ -11,16 +11,30 @@ namespace angen::physics {
 
 namespace {
 
-constexpr double kSlow = 0.01;      // m/s
-constexpr double kSlowTurn = 0.01;  // rad/s
-constexpr double kIdleTime = 0.5;   // s
-constexpr int kJitter = 10;         // idle steps that a fast one undoes, where steps are iterated
+constexpr double kSlow = 0.01;       // m/s
+constexpr double kSlowTurn = 0.01;   // rad/s
+constexpr double kStill = 1e-5;      // m
+constexpr double kStillTurn = 1e-5;  // rad
+constexpr double kIdleTime = 0.5;    // s
+constexpr int kJitter = 10;          // idle steps that a fast one undoes, where steps are iterated
 
-int idle_steps(const Body& body, int count) {
+/// Whether it is where its idle time began: what is slow may be on its way, or turn back.
+bool is_still(const Body& body) {
+  return (body.at.position - body.idle_at.position).squaredNorm() < kStill * kStill &&
+         body.at.rotation.angularDistance(body.idle_at.rotation) < kStillTurn;
+}
+
+int idle_steps(Body& body, int count) {
   const bool slow = body.velocity().squaredNorm() < kSlow * kSlow &&
                     body.spin().squaredNorm() < kSlowTurn * kSlowTurn && body.pushed < kSlow;
   if (!body.may_sleep) return 0;
-  if (slow) return body.idle_steps + count;
+  if (slow && body.idle_steps > 0 && (body.iterated || is_still(body))) {
+    return body.idle_steps + count;
+  }
+  if (slow) {
+    body.idle_at = body.at;
+    return count;
+  }
   // The iterated solution of a pile at rest is wrong for a step now and then.
   return body.iterated ? std::max(0, body.idle_steps - kJitter) : 0;
 }

@@ -12,7 +12,8 @@ void wake_up(Body& body, std::vector<Body*>& awake);
 void stop(Mechanism& mechanism, std::vector<Body*>& awake);
 
 /// Puts whole islands to sleep (bodies that touch or are jointed) when each of their bodies has
-/// been slower than 0.01 m/s and 0.01 rad/s for half a second and no motor turns. Takes them out of
+/// been slower than 0.01 m/s and 0.01 rad/s and within 0.01 mm and 0.01 mrad for half a second (in
+/// piles that are iterated slower alone) and no motor turns. Takes them out of
 /// `awake`; returns true when something fell asleep. Must follow each step, of `count` times h
 /// seconds.
 bool let_sleep(std::vector<Body*>& awake, const Contacts& contacts, double h, int count);

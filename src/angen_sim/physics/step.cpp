@@ -15,6 +15,9 @@ namespace angen::physics {
 
 namespace {
 
+// Most passes that look for the bounds of friction; in the second half they only fall.
+constexpr int kPasses = 24;
+
 bool by_serial(const Body* a, const Body* b) { return a->serial < b->serial; }
 
 }  // namespace
@@ -60,6 +63,7 @@ void World::Impl::collide() {
   crowded = crowded || contacts.tangled();
   std::sort(awake.begin(), awake.end(), by_serial);
   for (Body* body : awake) give_to_ode(*body);
+  has_large_islands = mark_large_islands(awake, contacts.active());
   contacts.make_joints();
 }
 
@@ -102,35 +106,61 @@ void World::Impl::set_up_joints(double step) {
   }
 }
 
-// The results of the first step are discarded.
-void World::Impl::part_bodies(const std::vector<BodyState>& start, double step,
-                              const Solve& solve) {
+// The step of the bodies marked `again` is taken once more, from `start`.
+void World::Impl::solve_again(const std::vector<BodyState>& start, bool push, const Solve& solve) {
+  std::vector<Body*> bodies;
+  for (std::size_t i = 0; i < awake.size(); ++i) {
+    if (awake[i]->again) {
+      bodies.push_back(awake[i]);
+      restore(*awake[i], start[i]);
+    } else {
+      dBodyDisable(awake[i]->ode.get());
+    }
+  }
+  contacts.make_joints_again(push);
   std::vector<Unstable> others = std::move(trouble.unstable);
   others.erase(std::remove_if(others.begin(), others.end(),
-                              [](const Unstable& unstable) { return unstable.body->parts; }),
+                              [](const Unstable& unstable) { return unstable.body->again; }),
                others.end());
-  part(awake, start, contacts, step, solve);
+  solve(bodies);
   trouble.unstable.insert(trouble.unstable.end(), others.begin(), others.end());
+  for (const Body* body : awake) dBodyEnable(body->ode.get());
+}
+
+// The step that friction takes part in gives the normal forces that bound it: it is taken again
+// until they agree.
+void World::Impl::agree_on_friction(const std::vector<BodyState>& start, const Solve& solve) {
+  for (int pass = 0; pass < kPasses && !trouble.never; ++pass) {
+    for (Body* body : awake) body->again = false;
+    if (!contacts.revise_friction(pass >= kPasses / 2)) return;
+    const Islands islands(awake, contacts.active());
+    std::vector<char> again(awake.size(), 0);
+    for (const Body* body : awake) {
+      if (body->again) again[islands.of(*body)] = 1;
+    }
+    for (Body* body : awake) body->again = again[islands.of(*body)] != 0;
+    solve_again(start, true, solve);
+  }
 }
 
 void World::Impl::integrate(std::int64_t tick, double step) {
   add_lift();
   set_up_joints(step);
-  const bool large = mark_large_islands(awake, contacts.active());
   const Solve solve = [&](const std::vector<Body*>& bodies) {
     const auto first_try = [&](dWorldID ode_world, double part) {
-      large ? step_by_size(ode_world, bodies, part, seed, tick) : void(dWorldStep(ode_world, part));
+      has_large_islands ? step_by_size(ode_world, bodies, part, seed, tick)
+                        : void(dWorldStep(ode_world, part));
     };
     if (!solve_step(world.get(), bodies, step, seed, tick, first_try, &trouble)) ++failed;
   };
-  if (mark_parting(awake, contacts)) {
-    std::vector<BodyState> start;
-    for (const Body* body : awake) start.push_back(state_of(*body));
-    solve(awake);
-    if (!trouble.never) part_bodies(start, step, solve);
-  } else {
-    solve(awake);
+  const bool parting = mark_parting(awake, contacts);
+  std::vector<BodyState> start;
+  for (const Body* body : awake) start.push_back(state_of(*body));
+  solve(awake);
+  if (parting && !trouble.never) {
+    part(awake, start, contacts.fastest(), step, [&] { solve_again(start, false, solve); });
   }
+  agree_on_friction(start, solve);
   contacts.finish();
   contacts.remember(tick);
   if (trouble.broken) renew();

@@ -11,7 +11,7 @@ namespace angen::physics {
 
 namespace {
 
-constexpr double kThinnest = 1e-3;  // m, of a box in place of a mesh
+constexpr double kThinnest = 1e-3;  // m, of a box instead of a mesh
 constexpr double kApart = 1e-9;     // m, centers that are less apart coincide
 
 // ODE's cylinders have no normal (NaN) where a center is on an axis or two are exactly side by
@@ -35,27 +35,17 @@ Eigen::AlignedBox3d in_frame_of(const Geom& geom, const Aabb& box) {
   return {center - half, center + half};
 }
 
-// None where ODE fails, at a degenerate triangle, say.
-std::size_t collide_geoms(dGeomID a, dGeomID b, std::size_t most, dContactGeom* points) {
-  try {
-    return static_cast<std::size_t>(
-        dCollide(a, b, static_cast<int>(most), points, sizeof(dContactGeom)));
-  } catch (const ode::Failure&) {
-    return 0;
-  }
-}
-
 /// Contact points of a mesh or a heightmap's tile, `ground`, and another geom.
 std::size_t collide_ground(dGeomID ground, const Geom& other, bool ground_first,
                            dContactGeom* points) {
   dGeomID solid = other.ode.get();
-  const std::size_t n = ground_first ? collide_geoms(ground, solid, kMaxFound, points)
-                                     : collide_geoms(solid, ground, kMaxFound, points);
+  const std::size_t n = ground_first ? ode::collide(ground, solid, kMaxFound, points)
+                                     : ode::collide(solid, ground, kMaxFound, points);
   if (n == 0) return 0;
   const auto on_plane = [&](const Vec3& normal, double offset, dContactGeom* found) {
     if (other.mesh) return collide_mesh_plane(other, normal, offset, found);
     const ode::GeomHandle plane(dCreatePlane(nullptr, normal.x(), normal.y(), normal.z(), offset));
-    return collide_geoms(solid, plane.get(), kMaxOnPlane, found);
+    return ode::collide(solid, plane.get(), kMaxOnPlane, found);
   };
   return fix_flat_parts(ground, solid, on_plane, ground_first, points, n, kMaxFound);
 }
@@ -113,7 +103,7 @@ std::size_t touching_points(const Geom& first, const Geom& second, dContactGeom*
   } else if (second.mesh && !second.body->dynamic()) {
     n = collide_ground(b, first, false, points);
   } else {
-    n = collide_geoms(a, b, kMaxFound, points);
+    n = ode::collide(a, b, kMaxFound, points);
   }
   fix_normals(first, second, points, n);
   return n;
@@ -127,8 +117,8 @@ std::size_t touching_box(const Geom& first, const Geom& second, dContactGeom* po
   const ode::GeomHandle box(dCreateBox(nullptr, size.x(), size.y(), size.z()));
   ode::set_pose(box.get(),
                 moving.body->at * moving.in_body * Pose{bounds.center(), Quat::Identity()});
-  const std::size_t n = first_moves ? collide_geoms(box.get(), second.ode.get(), kMaxFound, points)
-                                    : collide_geoms(first.ode.get(), box.get(), kMaxFound, points);
+  const std::size_t n = first_moves ? ode::collide(box.get(), second.ode.get(), kMaxFound, points)
+                                    : ode::collide(first.ode.get(), box.get(), kMaxFound, points);
   for (std::size_t i = 0; i < n; ++i) {
     points[i].g1 = first.ode.get();
     points[i].g2 = second.ode.get();

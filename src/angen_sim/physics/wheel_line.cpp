@@ -12,11 +12,11 @@ namespace angen::physics {
 namespace {
 
 constexpr double kParallel = 1.0 - 1e-4;   // least cosine between a wheel's axis and its joint's
-constexpr double kConcentric = 0.1;        // of the radius, from the joint's axis
+constexpr double kConcentric = 0.1;        // share of the radius, from the joint's axis
 constexpr double kOnMantle = 0.2;          // most cosine between the axis and a point's normal
 constexpr double kOneNormal = 1.0 - 1e-6;  // least cosine between normals of one line
 constexpr double kShortest = 1e-6;         // m, of a line
-constexpr double kEndStiffness = 1e-3;     // of a point
+constexpr double kEndStiffness = 1e-3;     // stiffness of a point
 // An axis that is corrected by some 1e-6 rad in a step must not press an end.
 constexpr double kEndCfm = 1e-4;
 

@@ -8,9 +8,9 @@ namespace angen::physics {
 
 /// The part of one contact point in load and friction.
 struct PointShare {
-  double stiffness = 1.0;  // of a point's
+  double stiffness = 1.0;  // share of a point's
   double least_cfm = 0.0;  // m/s per N
-  double friction = 1.0;   // of a point's
+  double friction = 1.0;   // share of a point's
 };
 
 /// Marks cylinders that turn about their own axis, by a joint of their body: wheels.

@@ -305,6 +305,15 @@ CollisionId World::collision(const std::string& name) const {
   return geom == impl_->geoms.end() ? CollisionId{} : geom->second->id;
 }
 
+void World::set_touches(CollisionId collision, bool touches) {
+  Geom& geom = *impl_->collisions.at(collision);
+  if (geom.touches == touches) return;
+  geom.touches = touches;
+  follow_body(geom);
+  impl_->grid.update(geom);
+  impl_->wake(*geom.body);
+}
+
 std::vector<ContactPair> World::contacts(CollisionId collision) const {
   if (!collision.valid()) return {};
   return impl_->contacts.of(*impl_->collisions.at(collision));

@@ -24,7 +24,7 @@ using CollisionId = Id<struct PhysicsCollisionTag>;
 using JointId = Id<struct PhysicsJointTag>;
 
 struct LinkState {
-  Pose pose;                             // of the link's frame (not its center of mass)
+  Pose pose;                             // the link's frame (not its center of mass)
   Vec3 linear_velocity = Vec3::Zero();   // m/s at the link's origin
   Vec3 angular_velocity = Vec3::Zero();  // rad/s
 };
@@ -65,7 +65,7 @@ class World {
   const std::vector<JointId>& joints(ModelId model) const;
 
   LinkState link(LinkId link) const;
-  Pose pose(LinkId link) const;    // of the link's frame
+  Pose pose(LinkId link) const;    // the link's frame
   double mass(LinkId link) const;  // kg, 0 for static links
   bool awake(LinkId link) const;   // false for static and sleeping ones
   void wake(LinkId link);
@@ -104,9 +104,11 @@ class World {
   /// Moves a whole model, also a static one, by a displacement in the world; joints keep their
   /// positions; it is at rest then. Throws Error for a place beyond the limits.
   void move(ModelId model, const Pose& by);
-  /// Moves a link and all that is joined to it. Throws Error where a joint holds it to something
+  /// Moves a link and all that is joined to it. Throws Error if a joint holds it to something
   /// static.
   void move(LinkId link, const Pose& by);
+  /// Whether a collision touches others from now on; wakes its body.
+  void set_touches(CollisionId collision, bool touches);
   /// Sets the velocity of a link's origin, and of links fixed to it; wakes it.
   void set_velocity(LinkId link, const Vec3& linear, const Vec3& angular);
   /// Puts joints where they have a position, within their limits (rad or m, as ids from joints());
@@ -125,7 +127,7 @@ class World {
   /// Collides and integrates one step that is `count` times as long; see allows_long_steps().
   void step(std::int64_t tick, std::int64_t count);
 
-  /// Whether each awake body is upright, as people are, and touches only the ground below it, or is
+  /// Whether each awake body never tilts and touches only the ground below it, or is
   /// loose and has been at rest for 0.05 s.
   bool allows_long_steps() const;
 

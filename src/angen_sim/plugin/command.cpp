@@ -76,7 +76,7 @@ const Verb* find_verb(const Kind& kind, std::vector<std::string>& words) {
   return nullptr;
 }
 
-/// The words as numbers; none where one of them is not a finite number.
+/// The words as numbers; none if one of them is not a finite number.
 std::vector<double> numbers_of(const std::vector<std::string>& words) {
   std::vector<double> numbers;
   for (const std::string& word : words) {
@@ -97,7 +97,7 @@ bool takes_values(const Kind& kind, const std::vector<std::string>& words, Comma
   return true;
 }
 
-/// Which of as many numbers as the kind takes is beyond its limit.
+/// Says which value is beyond the limit of its unit; "" if none is.
 std::string values_problem(const Kind& kind, const std::vector<double>& values) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::string problem = limit_problem(limit_of_unit(kind.value_units()[i]), values[i]);
@@ -125,8 +125,16 @@ std::string forms_of(const Kind& kind) {
   return join_names(forms);
 }
 
+bool is_verb(const Kind& kind, const std::string& text) {
+  std::vector<std::string> words = words_of(text);
+  const Verb* verb = words.empty() ? nullptr : find_verb(kind, words);
+  double number = 0.0;
+  return verb != nullptr && (words.size() == 1 || (verb->whole && words.size() == 2 &&
+                                                   parse_number(words[1], true, number)));
+}
+
 std::string parse_command(const Kind& kind, Command& command) {
-  const std::string text = unquoted(without_typography(command.text));
+  const std::string text = unquoted(straightened(command.text));
   std::vector<std::string> words = words_of(text);
   if (kind.verbs.empty() && kind.value_units().empty()) {
     if (command.values.empty()) command.values = numbers_of(words);

@@ -9,17 +9,20 @@ namespace angen {
 
 /// A command for one device: the text after the target's name.
 struct Command {
-  std::string text;  // as it was sent: "Open", "Dim 40"; empty where it has values alone
+  std::string text;                 // the text sent: "Open", "Dim 40"; empty if it has values alone
   std::vector<double> values = {};  // a text of numbers alone (of a drive: m/s, rad/s), or
                                     // the numbers of a verb that takes several
-  std::string verb = {};  // one of the kind's, written as there; none where the kind has none
-  double number = 0.0;    // of a verb that takes one, within its range
+  std::string verb = {};  // one of the kind's, written as there; none if the kind has none
+  double number = 0.0;    // the number of a verb that takes one, within its range
 };
 
 /// Finds the kind's verb in `command.text` ("Dim 40", "dim, 40", "Floor1") and fills in verb and
 /// number. Returns the error in the text and the right forms, "" where it is right. A kind
 /// without verbs takes any text; numbers alone become values.
 std::string parse_command(const Kind& kind, Command& command);
+
+/// Whether the text is a verb of the kind, or one with its integer, such as Floor1.
+bool is_verb(const Kind& kind, const std::string& text);
 
 /// "On, Off and Dim <percent>".
 std::string forms_of(const Kind& kind);

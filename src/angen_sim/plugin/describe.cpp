@@ -3,6 +3,7 @@
 
 #include "plugin/library.h"
 #include "plugin/ray_color.h"
+#include "plugin/wiring.h"
 
 namespace angen {
 

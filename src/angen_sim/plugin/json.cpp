@@ -72,11 +72,19 @@ std::string object(const Verb& v) {
          "}";
 }
 
+// The events after which a flag is yes, and no.
+std::vector<std::string> events_of(const Field& f) {
+  if (f.begin_event.empty()) return {};
+  if (f.in_alarm) return {f.begin_event, f.end_event};
+  return {f.end_event, f.begin_event};
+}
+
 std::string object(const Field& f) {
   return "{" +
          members("name", json(f.name), "type", json(name_of(f.type)), "unit", json(f.unit), "doc",
                  json(f.doc), "words", list(f.words), "shown", json(f.in_summary), "decimals",
-                 json(f.decimals), "alarm", json(f.alarm), "with", json(f.with)) +
+                 json(f.decimals), "alarm", json(f.alarm), "events", list(events_of(f)), "with",
+                 json(f.with)) +
          "}";
 }
 

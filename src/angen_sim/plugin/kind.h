@@ -12,9 +12,9 @@ namespace angen {
 struct Verb {
   std::string name;       // "Dim", as commands write it; upper and lower case are the same
   std::string doc;        // one line
-  std::string argument;   // meaning of the number: "percent"; empty where the verb has none
-  std::string unit;       // of the number
-  Range range;            // of the number
+  std::string argument;   // meaning of the number: "percent"; empty if the verb has none
+  std::string unit;       // unit of the number
+  Range range;            // limits of the number
   bool whole = false;     // the number is an integer; it may follow the verb without a blank
   std::size_t count = 1;  // how many numbers it takes, where it takes any; `argument` names each
 };
@@ -27,14 +27,13 @@ struct Field {
   Type type = Type::kNumber;
   std::string unit;
   std::string doc;
-  std::vector<std::string>
-      words;         // of a choice, its values; of a flag in a summary, for yes and no
-  int decimals = 0;  // of a number in a summary
+  std::vector<std::string> words;  // a choice's values; a flag's words for yes and no in a summary
+  int decimals = 0;                // decimals of a number in a summary
   bool in_summary = false;
-  std::string names;        // of numbers in a summary: the field of texts that names each of them
+  std::string names;        // the field of texts that names each number in a summary
   bool as_percent = false;  // a summary shows a share of 1 as a percentage
   bool alarm = false;       // a flag that is yes while the sensor detects its target
-  std::string begin_event;  // of a flag: the event of its change to `in_alarm`; empty: none
+  std::string begin_event;  // the event of a flag's change to `in_alarm`; empty: none
   std::string end_event;    // and of its change back
   bool in_alarm = true;     // the flag's value while the sensor detects something
   std::string with;         // "model range_difference": the parameter's value that it exists with

@@ -40,15 +40,6 @@ class Silence {
   console_bridge::LogLevel level_;
 };
 
-// The library that this code is in.
-fs::path own_library() {
-  static const char here = 0;
-  Dl_info info;
-  if (dladdr(&here, &info) == 0 || info.dli_fname == nullptr) return {};
-  std::error_code ignored;
-  return fs::weakly_canonical(info.dli_fname, ignored);
-}
-
 // The bytes of a file, in one read: libraries have megabytes.
 std::string contents(const fs::path& file) {
   std::error_code failed;
@@ -63,7 +54,7 @@ std::string contents(const fs::path& file) {
 // True when the file's type names show a plug-in registered for angen::Plugin. Read, not loaded:
 // loading runs code, and a directory of libraries may hold anything.
 bool registers_plugins(const fs::path& file) {
-  if (file.filename() == own_library().filename()) return false;  // it holds the words searched for
+  if (file.filename() == "libangen_plugin.so") return false;  // it holds the words searched for
   const std::string bytes = contents(file);
   return bytes.find("N12class_loader4impl10MetaObjectI") != std::string::npos &&
          bytes.find("N5angen6PluginE") != std::string::npos;
@@ -200,7 +191,7 @@ ScriptLoader started_loader() {
   static std::mutex mutex;
   const std::lock_guard<std::mutex> lock(mutex);
   if (script_loader == nullptr) {
-    const std::string host = own_library().parent_path() / "libangen_script.so";
+    const std::string host = own_folder() / "libangen_script.so";
     // Global: modules of Python that are libraries do not name the library of the interpreter.
     void* handle = dlopen(host.c_str(), RTLD_NOW | RTLD_GLOBAL);
     if (handle == nullptr) throw Error(std::string("Python does not start: ") + dlerror());
@@ -257,7 +248,7 @@ struct Catalog::Impl {
   const bool any_path;
   std::mutex mutex;
   std::map<std::string, Plugins> libraries;  // by the requested name
-  std::set<std::string> aliases;             // of these names
+  std::set<std::string> aliases;             // aliases of these names
 };
 
 Catalog::Catalog() : Catalog(allow_paths()) {}
@@ -287,8 +278,7 @@ void Catalog::add(const std::string& filename, std::shared_ptr<const Plugin> plu
 Plugins Catalog::own() {
   std::set<std::string> names;
   std::error_code ignored;
-  for (const fs::directory_entry& entry :
-       fs::directory_iterator(own_library().parent_path(), ignored)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(own_folder(), ignored)) {
     fs::path file = entry.path();
     if (file.extension() != ".json" || !fs::exists(file.replace_extension(".so"), ignored))
       continue;

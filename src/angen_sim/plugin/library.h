@@ -45,7 +45,7 @@ class Catalog {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The path of a library on the plug-in path, empty where there is none of that name; of a path,
+/// The path of a library on the plug-in path, empty if there is none of that name; of a path,
 /// where its folder is on it.
 std::string find_library(const std::string& filename);
 
@@ -67,7 +67,7 @@ struct PluginDoc {
 /// library that does not load has an entry whose kind has no name and the reason as its doc.
 std::vector<PluginDoc> describe(Catalog& catalog);
 
-/// Describes one library; throws Error where it does not load. `library` in the result is
+/// Describes one library; throws Error if it does not load. `library` in the result is
 /// the file's name without its folder.
 std::vector<PluginDoc> describe(Catalog& catalog, const std::string& library);
 

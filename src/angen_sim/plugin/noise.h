@@ -10,7 +10,7 @@
 namespace angen {
 
 /// Gaussian noise of one field of a reading: a number, or each of a list of numbers. Values that
-/// are not finite (nothing in reach) have none, nor has 0 where the noise is relative.
+/// are not finite (nothing in reach) have none, nor has 0 if the noise is relative.
 struct Noise {
   std::string field;
   double mean = 0.0;

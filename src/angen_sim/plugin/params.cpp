@@ -86,7 +86,8 @@ const Element* Params::take(const std::string& path, const std::string& type,
 
 double Params::number(const std::string& path, double fallback, const std::string& unit,
                       const std::string& doc, Range range) {
-  const Element* given = take(path, "number", number_text(fallback), unit, doc);
+  const std::string shown_fallback = std::isnan(fallback) ? "" : number_text(fallback);  // none
+  const Element* given = take(path, "number", shown_fallback, unit, doc);
   if (given == nullptr) return fallback;
   const std::optional<double> value = parse_finite(given->text);
   if (!value) {
@@ -110,7 +111,7 @@ int Params::integer(const std::string& path, int fallback, const std::string& un
   const Element* given = take(path, "integer", std::to_string(fallback), unit, doc);
   if (given == nullptr) return fallback;
   std::optional<int> value = parse_integer(given->text);
-  if (!value && takes_first_) {  // as Gazebo reads it
+  if (!value && takes_first_) {  // the first one, as Gazebo reads it
     value = whole_part(given->text);
     if (value) {
       warn(path, "<" + path + "> is \"" + given->text + "\", must be a whole number; " +

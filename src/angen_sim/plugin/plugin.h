@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -9,16 +10,38 @@
 #include <utility>
 #include <vector>
 
+#include "core/home.h"
+#include "core/pose.h"
 #include "core/random.h"
+#include "core/time.h"
 #include "plugin/command.h"
 #include "plugin/kind.h"
 #include "plugin/params.h"
+#include "plugin/parts.h"
 #include "plugin/ray_geometry.h"
 #include "plugin/reading.h"
 #include "plugin/saved_params.h"
-#include "plugin/view.h"
+#include "rays/scene.h"
 
 namespace angen {
+
+class View;     // plugin/view.h
+class Wiring;   // plugin/wiring.h
+class Outputs;  // plugin/outputs.h
+
+/// Rays that a sensor casts, in the world frame.
+using RayBatch = std::vector<rays::Ray>;
+
+/// Answers to a sensor's rays, in their order.
+struct Hits {
+  const rays::Hit* data = nullptr;
+  std::size_t count = 0;
+
+  const rays::Hit& operator[](std::size_t i) const { return data[i]; }
+  std::size_t size() const { return count; }
+  const rays::Hit* begin() const { return data; }
+  const rays::Hit* end() const { return data + count; }
+};
 
 struct Verdict {
   bool accepted = true;
@@ -46,6 +69,11 @@ class Device {
   virtual Nanoseconds idle_until(const View&) const { return 0; }
   /// Called before update() or command() after that much time (ns) without updates.
   virtual void skip(Nanoseconds) {}
+  /// Whether its ticks may take up to 20 ms while no body is awake but those of such devices.
+  virtual bool takes_long_steps() const { return false; }
+  /// Called after report(): the poses of the limbs that it declared by Wiring::anatomy, in the
+  /// frame of their link. As the model has them unless overridden.
+  virtual void pose_limbs(std::vector<Pose>&) const {}
   /// Parameters with which a device that starts in this state continues as this one would; the
   /// others stay as they were given. Poses and joint positions are saved with the model.
   virtual void save(SavedParams&) const {}
@@ -82,7 +110,7 @@ class Sensor {
 using Draws = std::function<Rng(int samples_ago)>;
 
 /// Makes the readings of a steady sensor that differ by noise, or by time in a known way. Snapshots
-/// hold it in place of readings that have not been read yet. Any thread may call it, also after the
+/// hold it instead of readings that have not been read yet. Any thread may call it, also after the
 /// sensor was deleted, so it depends on neither.
 class LazyReading {
  public:
@@ -120,7 +148,7 @@ struct ModelInfo {
     std::string type;  // fixed, revolute, prismatic, ball, universal
     std::string parent;
     std::string child;
-    Vec3 axis = Vec3::Zero();  // its first, in the world at position 0; zero where it has none
+    Vec3 axis = Vec3::Zero();  // its first, in the world at position 0; zero if it has none
     double lower = 0.0;        // rad or m
     double upper = 0.0;
     double height = 0.0;    // m, of its anchor in the world
@@ -134,7 +162,7 @@ struct ModelInfo {
   std::vector<std::string> links;
   std::vector<Joint> joints;
   std::vector<std::string> lights;
-  std::vector<Storey> storeys;  // of the world, by elevation; none where it has no walls
+  std::vector<Storey> storeys;  // the world's, by elevation; none if it has no walls
 
   const Joint* joint(const std::string& joint_name) const;
 };

@@ -84,7 +84,7 @@ struct Reading {
     }
     return nullptr;
   }
-  /// The field's value; of a choice its name, of an integer also the number. Throws Error where it
+  /// The field's value; of a choice its name, of an integer also the number. Throws Error if it
   /// is missing, as all may be where the plug-in has failed, or of another type.
   template <class T>
   T get(const std::string& name) const {

@@ -1,50 +1,8 @@
 #pragma once
 
-// Included by the .cpp of a plug-in library only.
-#include <class_loader/class_loader.hpp>
-#include <memory>
-#include <string>
-
+// Included by the .cpp of a plug-in library: all that it may use.
+#include "plugin/outputs.h"
 #include "plugin/plugin.h"
-
-/// Puts a Plugin subclass into the library's list. The name that class_loader keeps it under holds
-/// the file's too: two libraries may have classes of the same name.
-#define ANGEN_REGISTER_PLUGIN(Type) ANGEN_REGISTER_PLUGIN_HOP(Type, __COUNTER__)
-#define ANGEN_REGISTER_PLUGIN_HOP(Type, Number) ANGEN_REGISTER_PLUGIN_AS(Type, Number)
-#define ANGEN_REGISTER_PLUGIN_AS(Type, Number)                                       \
-  namespace {                                                                        \
-  [[maybe_unused]] const auto angen_registration_##Number =                          \
-      class_loader::impl::registerPlugin<Type, angen::Plugin>(#Type " in " __FILE__, \
-                                                              "angen::Plugin");      \
-  }
-
-/// A sensor class and its kind, with no Plugin subclass to write: ANGEN_REGISTER_SENSOR(Type, NAME,
-/// DOC), or ANGEN_REGISTER_SENSOR(Type, Kind(NAME, DOC).number(…)…). Put it into the class's
-/// namespace.
-#define ANGEN_REGISTER_SENSOR(Type, ...)                                        \
-  struct Type##Plugin : angen::Plugin {                                         \
-    const angen::Kind& kind() const override {                                  \
-      using angen::Kind;                                                        \
-      static const Kind described(__VA_ARGS__);                                 \
-      return described;                                                         \
-    }                                                                           \
-    std::unique_ptr<angen::Sensor> make_sensor(angen::Params&) const override { \
-      return std::make_unique<Type>();                                          \
-    }                                                                           \
-  };                                                                            \
-  ANGEN_REGISTER_PLUGIN(Type##Plugin)
-
-/// Registers a device that any model may have.
-#define ANGEN_REGISTER_DEVICE(Type, ...)                                 \
-  struct Type##Plugin : angen::Plugin {                                  \
-    const angen::Kind& kind() const override {                           \
-      using angen::Kind;                                                 \
-      static const Kind described(__VA_ARGS__);                          \
-      return described;                                                  \
-    }                                                                    \
-    bool serves(const angen::ModelInfo&) const override { return true; } \
-    std::unique_ptr<angen::Device> make_device() const override {        \
-      return std::make_unique<Type>();                                   \
-    }                                                                    \
-  };                                                                     \
-  ANGEN_REGISTER_PLUGIN(Type##Plugin)
+#include "plugin/registration.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"

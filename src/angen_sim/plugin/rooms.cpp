@@ -4,6 +4,8 @@
 #include <limits>
 #include <string>
 
+#include "plugin/view.h"
+
 namespace angen {
 
 int RoomPlan::at(const Vec3& point) const {

@@ -3,9 +3,12 @@
 #include <string_view>
 #include <vector>
 
-#include "plugin/view.h"
+#include "core/home.h"
 
 namespace angen {
+
+class View;
+struct DeviceView;
 
 /// The rooms of one climate: those that its model describes, in their order. It is valid as long as
 /// the view's home.

@@ -9,7 +9,7 @@ namespace angen {
 
 namespace {
 
-constexpr char kNone[] = "–";  // of a value that there is not, as the temperature without a climate
+constexpr char kNone[] = "–";  // a missing value, such as the temperature without a climate
 
 std::string fixed(double value, int decimals) {
   if (std::isnan(value)) return kNone;

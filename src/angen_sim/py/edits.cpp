@@ -8,7 +8,7 @@
 namespace angen::py {
 
 void bind_edits(pyb::class_<World>& world) {
-  const Vec3 none = Vec3::Zero();
+  const std::vector<double> none(3, 0.0);  // a Vec3 would import numpy
   world
       .def(
           "motion",

@@ -6,7 +6,7 @@
 
 namespace angen::py {
 
-/// As docs/home.md lists it.
+/// The home in the form that docs/home.md lists.
 pybind11::dict home_dict(const Home& home);
 
 }  // namespace angen::py

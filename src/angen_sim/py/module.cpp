@@ -9,6 +9,8 @@
 #include "core/names.h"
 #include "plugin/json.h"
 #include "py/edits.h"
+#include "py/geometry.h"
+#include "py/grid.h"
 #include "py/home.h"
 #include "py/replay.h"
 #include "py/subclass.h"
@@ -123,6 +125,8 @@ pyb::dict take_readings(World& world) {
 void bind_world(pyb::module_& module) {
   pyb::class_<World> world(module, "World", "A world that advances by step() and run().");
   bind_edits(world);
+  bind_geometry(world);
+  bind_grid(module, world);
   world
       .def(pyb::init([](const std::string& path, std::uint64_t seed, const std::string& record,
                         bool anywhere, std::optional<double> memory_limit) {
@@ -300,11 +304,16 @@ class Sensor:
     """A sensor in Python. Override configure(params, wiring), aim(view) -> (n, 8) rows of origin,
     direction, min, max (m, world frame) or None, and read(view, ranges, rng) -> dict. `fields`
     declares the keys of that dict, as {'range': 'number m', 'hit': 'flag'}: type and unit; types
-    are flag, integer, number, text, numbers and texts. None are declared: any are taken."""
+    are flag, integer, number, text, numbers and texts. None are declared: any are taken.
+    describe(kind) (static) declares them with docs and words, see Kind."""
 
     fields = {}
     rate = 10.0
     sample_period = 0.0
+
+    @staticmethod
+    def describe(kind):
+        pass
 
     def configure(self, params, wiring):
         pass
@@ -319,9 +328,14 @@ class Sensor:
 class Device:
     """A device in Python. Override serves(model, joints, lights) -> bool (static), configure(params,
     wiring), command(text, values, view) -> None or a reason to reject, update(view, outputs) and
-    report(view) -> dict, whose keys `fields` declares, as of a Sensor."""
+    report(view) -> dict, whose keys `fields` declares, as of a Sensor. describe(kind) (static)
+    declares verbs too, as kind.verb('Dim', 'dims it', 'percent', '%', min=0, max=100)."""
 
     fields = {}
+
+    @staticmethod
+    def describe(kind):
+        pass
 
     @staticmethod
     def serves(model, joints, lights):

@@ -5,6 +5,9 @@
 #include <utility>
 
 #include "core/text.h"
+#include "plugin/outputs.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 #include "py/python_error.h"
 
 namespace angen::py {
@@ -140,6 +143,7 @@ class PythonPlugin : public Plugin {
     const auto fields = pyb::cast<std::map<std::string, std::string>>(type_.get().attr("fields"));
     for (const auto& [name, declared] : fields)
       kind_.fields.push_back(declared_field(name, declared));
+    type_.get().attr("describe")(pyb::cast(&kind_, pyb::return_value_policy::reference));
   }
 
   const Kind& kind() const override { return kind_; }
@@ -165,6 +169,59 @@ class PythonPlugin : public Plugin {
   Held type_;
   bool is_sensor_;
 };
+
+// The methods of Kind, whose calls can be chained, as in C++.
+void bind_kind(pyb::module_& module) {
+  const auto same = pyb::return_value_policy::reference;
+  const auto name = pyb::arg("name"), unit = pyb::arg("unit"), doc = pyb::arg("doc");
+  const auto described = [](Kind& kind) -> Kind& {  // by a field, which the next word is about
+    if (kind.fields.empty()) throw Error("describe(kind): the first field comes before this");
+    return kind;
+  };
+  pyb::class_<Kind>(module, "Kind", "The verbs and fields of a kind, to describe.")
+      .def(
+          "verb",
+          [](Kind& kind, std::string verb, std::string meaning, std::string argument,
+             std::string its_unit, double min, double max, bool whole) -> Kind& {
+            kind.verbs.push_back({std::move(verb),
+                                  std::move(meaning),
+                                  std::move(argument),
+                                  std::move(its_unit),
+                                  {min, max},
+                                  whole});
+            return kind;
+          },
+          same, name, doc, pyb::arg("argument") = "", pyb::arg("unit") = "",
+          pyb::arg("min") = Range{}.min, pyb::arg("max") = Range{}.max, pyb::arg("whole") = false)
+      .def("flag", &Kind::flag, same, name, doc)
+      .def("integer", &Kind::integer, same, name, unit, doc)
+      .def("number", &Kind::number, same, name, unit, doc)
+      .def("text", &Kind::text, same, name, doc)
+      .def("choice", &Kind::choice, same, name, pyb::arg("words"), doc)
+      .def("numbers", &Kind::numbers, same, name, unit, doc)
+      .def("texts", &Kind::texts, same, name, doc)
+      .def(
+          "shown",
+          [=](Kind& kind, int decimals) -> Kind& { return described(kind).shown(decimals); }, same,
+          pyb::arg("decimals") = 0)
+      .def(
+          "shown_as",
+          [=](Kind& kind, const std::string& yes, const std::string& no) -> Kind& {
+            return described(kind).shown_as(yes, no);
+          },
+          same)
+      .def(
+          "alarm",
+          [=](Kind& kind, const std::string& yes, const std::string& no) -> Kind& {
+            return described(kind).alarm(yes, no);
+          },
+          same)
+      .def(
+          "events",
+          [=](Kind& kind, const std::string& begin, const std::string& end,
+              bool in_alarm) -> Kind& { return described(kind).events(begin, end, in_alarm); },
+          same, pyb::arg("begin"), pyb::arg("end"), pyb::arg("in_alarm") = true);
+}
 
 void bind_params(pyb::module_& module) {
   pyb::class_<Params>(module, "Params", "A plug-in's parameters; a wrong value raises angen.Error.")
@@ -254,6 +311,7 @@ std::shared_ptr<const Plugin> python_device(const std::string& kind, pyb::object
 }
 
 void bind_plugin_types(pyb::module_& module) {
+  bind_kind(module);
   bind_params(module);
   bind_wiring(module);
   bind_view(module);

@@ -52,7 +52,7 @@ World::World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalo
   }
   note(simulation_.world().warnings, warnings_);
   note(simulation_.world().ignored, ignored_);
-  note_warnings(*simulation_.snapshot());  // of how it was built
+  note_warnings(*simulation_.snapshot());  // warnings of its construction
   begin();
 }
 
@@ -64,7 +64,7 @@ World::World(const std::string& text, const std::string& name, std::uint64_t see
       simulation_(*owned_) {
   note(simulation_.world().warnings, warnings_);
   note(simulation_.world().ignored, ignored_);
-  note_warnings(*simulation_.snapshot());  // of how it was built
+  note_warnings(*simulation_.snapshot());  // warnings of its construction
   begin();
 }
 
@@ -172,10 +172,8 @@ void World::spawn(const std::string& what, const std::string& name, const std::v
     drain(sim::Attach{load::sensor(what, name, to_pose(pose)), on});
   } else {
     sim::Spawn spawn{load::model(what, name, to_pose(pose), paths_)};
-    const std::vector<Diagnostic> warnings = spawn.model.warnings;
     const std::vector<Diagnostic> ignored = spawn.model.ignored;
     drain(std::move(spawn));
-    note(warnings, warnings_);
     note(ignored, ignored_);
   }
 }

@@ -38,7 +38,7 @@ class World {
   void run(std::uint64_t ticks, bool long_steps);
   std::uint64_t ticks_in(double seconds) const;
 
-  /// These throw Error when the simulator rejects the action.
+  /// Throw Error if the simulator rejects the action.
   void command(const std::string& kind, const std::string& name, const std::string& text,
                const std::vector<double>& values);
   void spawn(const std::string& what, const std::string& name, const std::vector<double>& pose,
@@ -47,6 +47,9 @@ class World {
   void edit(sim::Edit edit);
   /// The present motion of a model, link or collision.
   sim::Motion motion(const std::string& entity) const;
+  std::vector<rays::Hit> cast(const std::vector<rays::Ray>& rays) const {
+    return simulation_.cast(rays);
+  }
   void request(const std::string& kind, const std::string& name, bool wanted);
   void reset();
 
@@ -75,7 +78,7 @@ class World {
   static void note(std::string text, std::vector<std::string>& to);
   void note_warnings(const sim::Snapshot& snapshot);
   void drain(sim::Action action);
-  /// Error where a plug-in has thrown since; the world has continued without it.
+  /// Error if a plug-in has thrown since; the world has continued without it.
   void raise_failure();
   void take(std::shared_ptr<const sim::Snapshot> snapshot);
 
@@ -88,7 +91,7 @@ class World {
   std::optional<ReadingLog> readings_;
   std::vector<std::string> warnings_;
   std::vector<std::string> ignored_;
-  std::string failure_;  // of a plug-in, until it is raised
+  std::string failure_;  // a plug-in's, until it is raised
   record::Fingerprint fingerprint_;
 };
 

@@ -11,7 +11,7 @@ namespace angen::rays {
 namespace {
 
 constexpr std::uint32_t kBlock = 4;  // cells along a side of the smallest blocks
-constexpr double kPad = 1e-9;        // of the extent
+constexpr double kPad = 1e-9;        // share of the extent
 
 /// Whether the ray is inside the box anywhere in [min, max].
 bool crosses(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& direction, double min,

@@ -45,8 +45,8 @@ class HeightTree : public TriangleTree {
   void visit_cells(std::uint32_t column, std::uint32_t row, Query& q) const;
 
   std::shared_ptr<const HeightGrid> grid_;
-  std::vector<float> xs_;  // of the columns. GCC 12 at -O2 loses the rounding to float otherwise
-  std::vector<float> ys_;  // of the rows
+  std::vector<float> xs_;  // x of the columns. GCC 12 at -O2 loses the rounding to float otherwise
+  std::vector<float> ys_;  // y of the rows
   double pad_ = 0.0;       // m, more than rounding can move a ray or a box
   std::vector<Level> levels_;  // the last has one block
 };

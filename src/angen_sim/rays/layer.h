@@ -17,12 +17,12 @@ namespace angen::rays {
 struct SceneQuery {
   RTCIntersectContext context;  // first member: Embree returns its address
   Vec3 origin, direction;
-  double length2;  // of the direction
+  double length2;  // square of the direction's length
   double min;
   Intersection best;   // range starts at the ray's max
-  std::uint64_t rank;  // of the nearest hit; the lower wins a tie
+  std::uint64_t rank;  // rank of the nearest hit; the lower wins a tie
   const Solid* solid;
-  bool anchored, moving;  // which of the movable shapes it can hit
+  bool anchored, moving;  // whether it can hit these movable shapes
 
   /// False for a ray that cannot hit anything: not finite, without direction, with an empty
   /// interval.
@@ -46,7 +46,7 @@ struct SceneQuery {
   Hit hit() const;
 };
 
-constexpr std::int64_t kTenths = 10;  // of the time of an ordinary ray
+constexpr std::int64_t kTenths = 10;  // tenths of the time of an ordinary ray
 
 /// Changes of a layer, ascending: none, places of a few moving shapes, of many, any other.
 enum class Changed { kNothing, kFewMoved, kMoved, kAny };

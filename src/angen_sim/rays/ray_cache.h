@@ -24,7 +24,7 @@ class RayCache {
 
   std::size_t size() const { return rays_.size(); }
 
-  /// Caches hits on these movers in place of those cached before. Must be called again when one of
+  /// Caches hits on these movers instead of those cached before. Must be called again when one of
   /// them has been moved or removed, and after measure().
   void settle(const Scene& scene, const std::vector<ShapeId>& movers);
 
@@ -36,7 +36,7 @@ class RayCache {
   // Four rays as floats, to find quickly which of them may meet a box.
   struct Packet {
     Eigen::Array4f origin[3];
-    Eigen::Array4f inverse[3];  // of the direction
+    Eigen::Array4f inverse[3];  // inverse of the direction
     Eigen::Array4f range;
   };
 

@@ -52,7 +52,8 @@ struct Scene::Impl {
   std::vector<Eigen::Vector3f> reflectances;  // by index
   std::vector<Place> places;                  // by index
   std::vector<std::pair<ShapeId, WarmShape>> warmed;
-  std::vector<WarmShape> warm;  // of these, as of the last commit
+  std::vector<WarmShape> warm;                                    // in use since the last commit
+  std::map<std::uint32_t, std::pair<Shape::Type, Solid>> hidden;  // by index
   Layer fixed{true};
   Layer moving{false};
   std::map<const TriangleMesh*, std::weak_ptr<const MeshTree>> meshes;
@@ -63,6 +64,29 @@ struct Scene::Impl {
   std::vector<std::uint32_t> changes;  // indices of changed standing shapes, the latest last
   std::uint64_t forgotten = 1;         // mark of the first entry in `changes`
   mutable std::uint64_t read = 1;      // the latest mark given out
+
+  void put_in(ShapeId id, Solid solid) {
+    const Entry& entry = entries.at(id);
+    solid.placed = ++placements;
+    solid.anchored = entry.mobility == Mobility::kAnchored;
+    Layer& into = layer(entry.mobility);
+    std::vector<Solid>& list = into.list(entry.type);
+    places[id.index] = {id, &into, entry.type, static_cast<std::uint32_t>(list.size())};
+    list.push_back(std::move(solid));
+    touch(id.index, entry.mobility);
+  }
+
+  Solid take_out(ShapeId id) {
+    const Entry& entry = entries.at(id);
+    std::vector<Solid>& list = layer(entry.mobility).list(entry.type);
+    const std::uint32_t at = places[id.index].at;
+    std::swap(list[at], list.back());
+    places[list[at].slot].at = at;
+    Solid solid = std::move(list.back());
+    list.pop_back();
+    touch(id.index, entry.mobility);
+    return solid;
+  }
 
   void touch(std::uint32_t index, Mobility mobility) {
     layer(mobility).change(Changed::kAny);
@@ -105,6 +129,7 @@ struct Scene::Impl {
   void bound_warm_shapes() {
     warm.clear();
     for (const auto& [id, shape] : warmed) {
+      if (hidden.count(id.index) != 0) continue;
       warm.push_back(shape);
       const Solid& placed = solid(id.index);
       warm.back().box = placed.box;
@@ -144,19 +169,13 @@ ShapeId Scene::add(const Shape& shape, const Pose& pose, Mobility mobility,
   impl_->places[id.index] = {};
   if (shape.type == Shape::Type::kEmpty) return id;
   solid.slot = id.index;
-  solid.placed = ++impl_->placements;
-  solid.anchored = mobility == Mobility::kAnchored;
-  Layer& layer = impl_->layer(mobility);
-  std::vector<Solid>& list = layer.list(shape.type);
-  impl_->places[id.index] = {id, &layer, shape.type, static_cast<std::uint32_t>(list.size())};
-  list.push_back(std::move(solid));
-  impl_->touch(id.index, mobility);
+  impl_->put_in(id, std::move(solid));
   return id;
 }
 
 void Scene::warm(ShapeId shape, double temperature) {
   const Entry& entry = impl_->entries.at(shape);
-  if (entry.type == Shape::Type::kEmpty) return;
+  if (entry.type == Shape::Type::kEmpty && impl_->hidden.count(shape.index) == 0) return;
   auto& warmed = impl_->warmed;
   const auto known = std::find_if(warmed.begin(), warmed.end(),
                                   [&](const auto& each) { return each.first == shape; });
@@ -196,23 +215,34 @@ void Scene::set_anchored(ShapeId shape, bool anchored) {
   impl_->touch(shape.index, Mobility::kAnchored);
 }
 
+void Scene::show(ShapeId shape, bool shown) {
+  Entry& entry = impl_->entries.at(shape);
+  const auto hidden = impl_->hidden.find(shape.index);
+  if (shown && hidden != impl_->hidden.end()) {
+    entry.type = hidden->second.first;
+    hidden->second.second.place(entry.pose);
+    impl_->put_in(shape, std::move(hidden->second.second));
+    impl_->hidden.erase(hidden);
+  } else if (!shown && entry.type != Shape::Type::kEmpty) {
+    impl_->hidden.emplace(shape.index, std::pair(entry.type, impl_->take_out(shape)));
+    impl_->places[shape.index].layer = nullptr;
+    entry.type = Shape::Type::kEmpty;
+  } else {
+    return;
+  }
+  impl_->warm_dirty = true;
+}
+
 void Scene::remove(ShapeId shape) {
+  show(shape, true);
   const Entry entry = impl_->entries.at(shape);
+  if (entry.type != Shape::Type::kEmpty) impl_->take_out(shape);
   impl_->entries.remove(shape);
   if (entry.type == Shape::Type::kEmpty) return;
   auto& warmed = impl_->warmed;
   warmed.erase(std::remove_if(warmed.begin(), warmed.end(),
                               [&](const auto& each) { return each.first == shape; }),
                warmed.end());
-  Layer& layer = impl_->layer(entry.mobility);
-  std::vector<Solid>& list = layer.list(entry.type);
-  const std::uint32_t at = impl_->places[shape.index].at;
-  if (at + 1 != list.size()) {
-    list[at] = std::move(list.back());
-    impl_->places[list[at].slot].at = at;
-  }
-  list.pop_back();
-  impl_->touch(shape.index, entry.mobility);
   if (entry.type == Shape::Type::kMesh) impl_->forget_unused_meshes();
 }
 
@@ -294,7 +324,7 @@ Shaft Scene::shaft(const Vec3& from, double near, std::uint32_t shape_index) con
 
 Hit Scene::cast_at(std::uint32_t shape_index, const Ray& ray) const {
   SceneQuery q;
-  if (!q.prepare(ray, kAll)) return {};
+  if (impl_->places.at(shape_index).layer == nullptr || !q.prepare(ray, kAll)) return {};
   return q.try_solid(impl_->solid(shape_index), true) ? q.hit() : Hit{};
 }
 

@@ -86,6 +86,8 @@ class Scene {
   void move(ShapeId shape, const Pose& pose);
   /// Makes a movable shape anchored or moving; ignores static shapes.
   void set_anchored(ShapeId shape, bool anchored);
+  /// Whether casts may hit a shape from now on; a hidden one is as an empty one.
+  void show(ShapeId shape, bool shown);
   void remove(ShapeId shape);
 
   /// Makes additions, moves and removals visible to casts. Cheap when nothing changed.

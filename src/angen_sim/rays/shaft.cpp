@@ -33,8 +33,8 @@ ShaftHull::ShaftHull(const Vec3& from, double near, const Eigen::AlignedBox3d& t
   for (const auto& [u, v] : {std::pair{0, 1}, {1, 2}, {2, 0}}) add_sides(u, v);
 }
 
-// As seen along an axis, the hull has two sides through the point and a corner, with all other
-// corners inward of them; none where the point is within the box.
+// Seen along an axis, the hull has two sides through the point and a corner, with all other
+// corners inward of them; none if the point is within the box.
 void ShaftHull::add_sides(int u, int v) {
   const auto part = [&](const Vec3& p) {
     return Eigen::Vector2d(p[u] - from_[u], p[v] - from_[v]);

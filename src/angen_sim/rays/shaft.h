@@ -25,7 +25,7 @@ class ShaftHull {
  private:
   struct Side {
     Vec3 outward;
-    double offset;  // of the plane: outward . p
+    double offset;  // offset of the plane: outward . p
   };
 
   void add_sides(int u, int v);
@@ -34,7 +34,7 @@ class ShaftHull {
 
   Vec3 from_;
   double near_;
-  std::array<Vec3, 8> corners_;  // of the box at its end
+  std::array<Vec3, 8> corners_;  // corners of the box at its end
   Eigen::AlignedBox3d box_;
   std::array<Side, 12> sides_;
   std::size_t side_count_ = 0;

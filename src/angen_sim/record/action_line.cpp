@@ -31,7 +31,7 @@ class Writes {
   void put(const char*, const std::vector<LogFile>& files) { write_files(files, line_); }
   template <class T, std::enable_if_t<std::is_integral_v<T>, int> = 0>
   void put(const char* key, T whole) {
-    line_.whole(key, static_cast<std::uint64_t>(whole));  // of -1, the greatest
+    line_.whole(key, static_cast<std::uint64_t>(whole));  // the greatest one, of -1
   }
   template <int kRows, int kColumns>
   void put(const char* key, const Eigen::Matrix<double, kRows, kColumns>& matrix) {
@@ -234,7 +234,7 @@ struct WriteAction {
   void operator()(const T& action) const {
     write(action, line);
   }
-  // These are SpawnText, AttachText, or in no log.
+  // Such actions are SpawnText, AttachText, or in no log.
   void operator()(const sim::Spawn&) const {}
   void operator()(const sim::Attach&) const {}
   void operator()(const sim::Save&) const {}

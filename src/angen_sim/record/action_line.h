@@ -7,7 +7,7 @@ namespace angen::record {
 
 /// Writes the content of a log's line, which follows its tick.
 void write_content(const LogContent& content, LineWriter& line);
-/// Throws Error where the line has no action of a log.
+/// Throws Error if the line has no action of a log.
 LogContent read_content(const LineReader& line);
 
 /// The files of a world or a model, as pairs of address and hash.

@@ -90,7 +90,7 @@ namespace {
 /// Converts numbers itself: RapidJSON reads outside of a table for one with hundreds of zeros.
 class Document : public rapidjson::Document {
  public:
-  /// Empty where all of the line is JSON.
+  /// Empty if all of the line is JSON.
   rapidjson::ParseResult read(const std::string& line) {
     rapidjson::MemoryStream stream(line.data(), line.size());
     rapidjson::Reader reader;
@@ -103,7 +103,7 @@ class Document : public rapidjson::Document {
     return result;
   }
 
-  /// The reader calls this in place of the base's, which would make it a text.
+  /// The reader calls this instead of the base's, which would make it a text.
   bool RawNumber(const char* text, rapidjson::SizeType length, bool /*copy*/) {
     const char* const end = text + length;
     std::uint64_t whole = 0;

@@ -17,12 +17,12 @@ constexpr std::uint64_t kLogFormat = 1;
 
 /// A file that a world or a model is made of besides its text: a mesh or a picture.
 struct LogFile {
-  std::string uri;  // as the text has it
+  std::string uri;  // the URI in the text
   std::string hash;
 };
 
 struct LogHeader {
-  std::string version;  // of Angen
+  std::string version;  // Angen's version
   std::string host;     // compiler, C library and processor, for a comparison
   std::uint64_t seed = 0;
   Nanoseconds step = 0;

@@ -63,7 +63,7 @@ Recorder::Recorder(std::string file, const Origin& origin, sim::Simulation& simu
 
 Recorder::~Recorder() {
   simulation_.observe(nullptr, nullptr);
-  write_fingerprint();  // of the end
+  write_fingerprint();  // fingerprint at the end
   close(file_);
 }
 

@@ -27,7 +27,7 @@ Origin origin_of(const std::string& world, bool allow_any = false);
 /// executed before can be replayed. The simulation must not have ticked yet, and outlive this.
 class Recorder {
  public:
-  /// Throws Error where the file exists, or cannot be written.
+  /// Throws Error if the file exists, or cannot be written.
   Recorder(std::string file, const Origin& origin, sim::Simulation& simulation);
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -65,7 +65,7 @@ class Recorder {
     std::string hash;
   };
   std::map<std::string, Hashed> hashes_;  // by path
-  std::mutex mutex_;                      // of requests_
+  std::mutex mutex_;                      // guards requests_
   std::vector<ReadingRequest> requests_;
 };
 

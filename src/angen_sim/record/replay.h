@@ -23,7 +23,7 @@ class Replay {
   /// was, too.
   Replay(Log log, std::shared_ptr<Catalog> catalog, ReplaySettings settings = {});
 
-  /// A tick, or a leap to `until` at most. Not after done(). Throws Error where an action of the
+  /// A tick, or a leap to `until` at most. Not after done(). Throws Error if an action of the
   /// log cannot take place.
   std::shared_ptr<const sim::Snapshot> advance(Nanoseconds until = kForever);
   /// Everything in the log has taken place, or the time of stop_at() is reached.

@@ -23,7 +23,7 @@ struct Facet {
 struct Finish {
   Eigen::Vector3f color;
   Eigen::Vector3f emissive;
-  std::shared_ptr<const Texture> texture{};  // in place of the color
+  std::shared_ptr<const Texture> texture{};  // instead of the color
 };
 
 /// A heightmap in the frame of its patch.
@@ -91,7 +91,7 @@ class Patch {
   std::vector<Face> faces_;
   std::vector<std::uint32_t> first_triangles_;  // by face
   std::vector<std::uint32_t> face_of_;          // by triangle
-  BoxTree boxes_;                               // of the faces, then of the heightmaps
+  BoxTree boxes_;                               // boxes of the faces, then of the heightmaps
 };
 
 }  // namespace angen::render

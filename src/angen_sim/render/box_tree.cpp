@@ -19,7 +19,7 @@ float area(const Box& box) {
 
 /// Some boxes, as numbers, and how to divide them.
 struct Bins {
-  /// Of boxes whose middles are from `low` to `high` on an axis.
+  /// Bins of boxes whose middles are from `low` to `high` on an axis.
   Bins(int on_axis, float from, float to)
       : axis(on_axis), low(from), per_bin(kBins / (to - from)) {}
 

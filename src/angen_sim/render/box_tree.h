@@ -16,10 +16,10 @@ struct Boxes4 {
   std::array<Column, 3> min, max;  // by axis
 };
 
-/// Which of four boxes: bit i for the i-th.
+/// A set of four boxes: bit i for the i-th.
 using Four = unsigned;
 
-/// Those that overlap a box.
+/// Boxes that overlap a box.
 inline Four overlapping(const Box& box, const Boxes4& boxes) {
   Four found = 0;
   for (unsigned i = 0; i < 4; ++i) {

@@ -33,7 +33,7 @@ float Hull::margin() const {
                                                   box_.max().cwiseAbs().maxCoeff());
 }
 
-// As seen along an axis, two lines through the middle of `from` and a corner of `to` have all other
+// Seen along an axis, two lines through the middle of `from` and a corner of `to` have all other
 // corners on one side of them; none if that middle is within `to`. They are moved out until `from`
 // is on that side as well.
 void Hull::add_sides(int u, int v) {

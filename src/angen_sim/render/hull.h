@@ -20,7 +20,7 @@ class Hull {
 
   /// The hull in a frame that is turned and at `position` in that of the hull.
   Hull seen_from(const Eigen::Matrix3f& rotation, const Eigen::Vector3f& position) const;
-  /// Which boxes have a part in the hull, and perhaps some beside it.
+  /// Boxes that have a part in the hull, and perhaps some beside it.
   Four overlaps(const Boxes4& boxes) const;
   /// False only if no part of the face is in the hull.
   bool overlaps(const Face& face) const;

@@ -16,10 +16,10 @@ struct Placed {
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
   bool shines_through = false;
-  rays::Embree<RTCGeometry> instance{};  // of a mover
+  rays::Embree<RTCGeometry> instance{};  // a mover's
 };
 
-/// Which bodies may be in the way of some rays.
+/// Bodies that may be in the way of some rays.
 struct Among {
   bool fixed = true;
   bool movers = true;
@@ -72,7 +72,7 @@ class Instances {
  private:
   std::vector<Placed> placed_;        // the fixed one is the last
   std::vector<std::uint32_t> boxed_;  // the movers that are not empty
-  BoxTree boxes_;                     // of these
+  BoxTree boxes_;                     // boxes of these
   rays::Embree<RTCScene> seen_;       // movers
   rays::Embree<RTCScene> opaque_;     // movers that throw shadows
 };

@@ -18,7 +18,7 @@ inline bool has_packets_of_16() {
 /// Calls trace(valid, half) for both halves of a packet; both types are columns of numbers.
 template <class Half, class Packet, class Trace>
 void in_halves(const int* valid, Packet& packet, const Trace& trace) {
-  constexpr std::size_t kBytes = 8 * sizeof(float);  // of a half's column
+  constexpr std::size_t kBytes = 8 * sizeof(float);  // bytes of a half's column
   static_assert(sizeof(Packet) == 2 * sizeof(Half));
   for (std::size_t half = 0; half < 2; ++half) {
     alignas(32) int wanted[8];

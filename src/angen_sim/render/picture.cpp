@@ -192,7 +192,10 @@ void ColorWriter::end_block() {
 }
 
 void ColorWriter::set_squares() {
-  facing_ = {};
+  for (Facing& facing : facing_) {
+    facing.way_count = 0;
+    facing.turned = false;
+  }
   for (std::size_t k = 0; k < kTiles; ++k) {
     points_[kFirstTile + k] = has_[k] ? tiles_[k].starts : Box();
     Facing& facing = facing_[k / (kTiles / facing_.size())];

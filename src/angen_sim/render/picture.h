@@ -15,7 +15,7 @@ namespace angen::render {
 /// Writes the depths of tiles.
 class DepthWriter : public Visitor {
  public:
-  /// Of an image of that width.
+  /// For an image of that width.
   DepthWriter(int width, float* depths) : width_(width), depths_(depths) {}
   void add(const TracedTile& tile) override;
 
@@ -27,7 +27,7 @@ class DepthWriter : public Visitor {
 /// The light of an image.
 struct Illumination {
   const std::vector<light::Lit>& lamps;
-  const std::vector<Box>& reaches;  // of the lamps
+  const std::vector<Box>& reaches;  // reaches of the lamps
   const Ambience& ambience;
 };
 
@@ -63,11 +63,11 @@ class ColorWriter : public Visitor {
   DepthWriter depths_;
   Sights sights_;
   std::optional<Reflections> reflected_;
-  // Of the present block:
+  // State of the present block:
   std::array<Tile, kTiles> tiles_;
   std::array<bool, kTiles> has_{};    // the tile is in the image
   std::array<Box, kSquares> points_;  // lifted off their surfaces; empty without hits
-  std::array<Facing, 4> facing_;      // of its quarters
+  std::array<Facing, 4> facing_;      // facings of its quarters
 };
 
 }  // namespace angen::render

@@ -67,7 +67,7 @@ class Rasterizer {
 
   const Eye& eye_;
   const Instances& instances_;
-  // Of the square that was started:
+  // State of the square that was started:
   int column_ = 0, row_ = 0;
   Vec3 first_, right_, down_;                             // directions
   float least_closeness_ = 0.0F, most_closeness_ = 0.0F;  // 1/m

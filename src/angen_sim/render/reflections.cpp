@@ -14,7 +14,7 @@ constexpr float kSpan = 0.25F;        // m, diagonal of a piece
 constexpr float kOffPlane = 1e-3F;    // m
 constexpr float kOnePlane = 0.9999F;  // cosine between normals
 
-/// Which points are visible from another, as bits; see light::ReflectedLookup.
+/// Points that are visible from another, as bits; see light::ReflectedLookup.
 std::uint32_t seen_from(const Eigen::Vector3f& from, const Eigen::Vector3f* to, int count,
                         const Instances& instances) {
   alignas(64) int wanted[kLanes] = {};

@@ -28,7 +28,7 @@ class Reflections {
   /// What is known of the surfaces at a corner of tiles.
   struct Corner {
     std::array<Known, 4> known;
-    std::size_t count = 0;  // of all that were added; the last ones are there
+    std::size_t count = 0;  // count of all that were added; the last ones are there
 
     const Known* find(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
                       float within) const;
@@ -50,8 +50,8 @@ class Reflections {
 
   light::ReflectedLookup lookup_;
   std::size_t corners_across_;
-  std::vector<Corner> corners_;     // of the row of blocks
-  std::array<bool, kTiles> has_{};  // of the present block
+  std::vector<Corner> corners_;     // corners of the row of blocks
+  std::array<bool, kTiles> has_{};  // tiles of the present block that have one
   std::array<Piece, kSquares> pieces_;
 };
 

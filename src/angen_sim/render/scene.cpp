@@ -108,7 +108,7 @@ struct Scene::Impl {
   int threads;
   Slots<Entry, BodyTag> entries;
   Instances instances;
-  Reaches reaches;      // of lamps among the bodies that do not move
+  Reaches reaches;      // reaches of lamps among the bodies that do not move
   bool new_set = true;  // bodies were added or removed
   bool moved = false;
   Pictures last;

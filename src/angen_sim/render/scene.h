@@ -32,7 +32,7 @@ struct Surface {
   Pose pose;                                           // in its body's frame
   Eigen::Vector3f color{0.7F, 0.7F, 0.7F};             // diffuse albedo, r g b, 0..1
   Eigen::Vector3f emissive = Eigen::Vector3f::Zero();  // 1: the middle of the displayed range
-  std::shared_ptr<const MeshLook> look{};              // of a mesh's parts, in place of `color`
+  std::shared_ptr<const MeshLook> look{};              // look of a mesh's parts, instead of `color`
   // One for each part of the look, or one for the whole surface; they replace colors.
   std::vector<std::shared_ptr<const Texture>> textures{};
 };
@@ -48,7 +48,8 @@ struct Body {
 struct Ambience {
   Eigen::Vector3f ambient{0.4F, 0.4F, 0.4F};     // r g b, 0..1, as SDF's <scene> gives it
   Eigen::Vector3f background{0.7F, 0.7F, 0.7F};  // without a hit, as displayed
-  std::shared_ptr<const light::ReflectedLight> reflected{};  // of the lamps; null if not known
+  std::shared_ptr<const light::ReflectedLight>
+      reflected{};  // light of the lamps; null if not known
 };
 
 /// Bodies and their images. Adding and moving cost little; the next image builds the hierarchies.

@@ -11,7 +11,7 @@ namespace angen::render {
 namespace {
 
 constexpr float kMin = 0.1F;            // lx; less is not worth a test for shadows
-constexpr float kBeforeLamp = 0.9999F;  // of a shadow ray; the lamp may be in a surface
+constexpr float kBeforeLamp = 0.9999F;  // share of a shadow ray; the lamp may be in a surface
 constexpr float kFarAway = 1e4F;        // m, the farthest shadow of a directional lamp
 constexpr float kEdgeOn = 1e-6F;  // m from the lamp to the plane of a face that it sees as a line
 constexpr int kCodes = 1 << 14;

@@ -44,7 +44,7 @@ struct alignas(64) Tile {
   Columns color;  // albedo
   bool in_image[kLanes];
   bool is_even;     // all pixels show the same facet, from the same side
-  int column, row;  // of its first pixel
+  int column, row;  // place of its first pixel
   Box seen;         // around the points; empty without hits
   Box starts;       // around the lifted points
 };
@@ -52,7 +52,7 @@ struct alignas(64) Tile {
 /// Sets rays from points along the ways from there.
 void set_segments(const Columns& from, const Columns& way, RTCRay16& rays);
 
-/// Sets `seen`, which has a number for each point, to 0 where one of the faces is between the point
+/// Sets `seen`, which has a number for each point, to 0 if one of the faces is between the point
 /// and that place.
 void drop_hidden(const Faces& faces, const Eigen::Vector3f& from, const Columns& points, int* seen);
 

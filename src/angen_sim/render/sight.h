@@ -9,7 +9,7 @@
 
 namespace angen::render {
 
-/// Which rays from some points to a lamp are free.
+/// Free rays from some points to a lamp.
 enum class Sight { kNone, kAll, kSome };
 
 /// Answers for all points of a box at once: kSome where that is not certain. Boxes are divided into

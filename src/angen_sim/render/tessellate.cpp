@@ -5,7 +5,7 @@
 namespace angen::render {
 namespace {
 
-constexpr int kSides = 64;  // of a circle: chords are within 0.12 % of the radius
+constexpr int kSides = 64;  // sides of a circle: chords are within 0.12 % of the radius
 constexpr float kEndlessPlane = 500.0F;
 
 using Index = std::uint32_t;

@@ -37,7 +37,7 @@ constexpr int every_other_bit(int of) {
 /// The rays of a tile, with their hits. The length of a direction makes a range the depth.
 struct TracedTile {
   int number = 0;              // in its block
-  int column = 0, row = 0;     // of its first pixel
+  int column = 0, row = 0;     // place of its first pixel
   const int* valid = nullptr;  // not 0 in the image
   const RTCRayHit16& rays;
 

@@ -93,7 +93,7 @@ bool equal(const desc::Light& a, const desc::Light& b) {
          a.direction == b.direction;
 }
 
-/// Those of the world's own, which are before all others.
+/// Lights of the world's own, which are before all others.
 void relate_own(Numbers& numbers, const sim::SharedArray<sim::LightEntry>& before,
                 const sim::SharedArray<sim::LightEntry>& now) {
   const auto is_own = [](const sim::LightEntry& light) { return light.model == UINT32_MAX; };

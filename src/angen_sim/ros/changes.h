@@ -11,8 +11,8 @@ namespace angen::node {
 struct Numbers {
   static constexpr std::uint32_t kNone = UINT32_MAX;
 
-  std::vector<std::uint32_t> before;  // of each entry there is now; kNone: it is new
-  std::vector<std::uint32_t> after;   // of each entry there was; kNone: it was removed
+  std::vector<std::uint32_t> before;  // each present entry's old index; kNone: it is new
+  std::vector<std::uint32_t> after;   // each old entry's present index; kNone: it was removed
 };
 
 /// Entries added and removed between two structures. Others keep their order. A model's entries are

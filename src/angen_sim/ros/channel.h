@@ -21,7 +21,7 @@ namespace angen::node {
 
 /// The rest of a message, besides the reading.
 struct Label {
-  std::string name;   // of the sensor or device
+  std::string name;   // name of the sensor or device
   std::string frame;  // header.frame_id
 };
 
@@ -54,7 +54,7 @@ Message to_message(const StampedReading& reading, Fill<Message> fill) {
   message.header.frame_id = reading.label->frame;
   try {
     fill(*reading.reading, *reading.label, message);
-  } catch (const Error& error) {                          // of Reading::get()
+  } catch (const Error& error) {                          // thrown by Reading::get()
     if (reading.reading->find(kErrorField) == nullptr) {  // an event says that it has failed
       ROS_ERROR_THROTTLE(10.0, "the message of %s is incomplete: %s", reading.label->name.c_str(),
                          error.what());
@@ -207,7 +207,7 @@ class LatchedBatchChannel : public Channel {
   }
 
  private:
-  static constexpr std::uint32_t kQueue = 100;  // as of LatchedChannel
+  static constexpr std::uint32_t kQueue = 100;  // like LatchedChannel's
 
   LatchedLazyPublisher<Array> publisher_;
   Fill<Message> fill_;

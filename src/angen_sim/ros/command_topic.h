@@ -23,7 +23,7 @@ struct CommandTopicRule {
       std::function<std::vector<std::string>(const sim::Structure&, const sim::DeviceEntry&)>;
 
   Subscribe subscribe;
-  Topics topics;  // of one device; null: those of its robot
+  Topics topics;  // topics of one device; null: its robot's
 };
 
 /// A subscription to messages of one type.
@@ -42,7 +42,7 @@ Subscribe subscribe_as(Command (*make)(const Message&)) {
 inline Command command_of(std::vector<double> values) { return {"", std::move(values), "", 0.0}; }
 
 /// The topic that `parameter` of its <plugin> names, or `fallback`, below <robotNamespace>; none
-/// where both are empty.
+/// if both are empty.
 CommandTopicRule::Topics topics_by_parameter(std::string parameter, std::string fallback);
 
 }  // namespace angen::node

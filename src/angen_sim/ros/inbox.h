@@ -49,8 +49,8 @@ class Inbox {
   sim::Simulation& simulation_;
   std::chrono::milliseconds timeout_;
   std::mutex mutex_;
-  std::condition_variable wake_;  // of the main thread
-  std::condition_variable done_;  // of those who wait for a pass
+  std::condition_variable wake_;  // wakes the main thread
+  std::condition_variable done_;  // wakes callers that wait for a pass
   bool waiting_ = false;          // an action was queued since the last wait
   std::uint64_t passes_ = 0;
   std::atomic<std::uint64_t> posted_{0};

@@ -12,6 +12,8 @@
 #include <string>
 #include <utility>
 
+#include "ros/registrar.h"
+
 namespace angen::node {
 
 /// To advertise or subscribe a topic that may go: a handle keeps some 300 bytes of each topic that
@@ -30,7 +32,7 @@ class Traffic {
 };
 
 /// A topic whose messages are made only while it has subscribers. Connect callbacks count them:
-/// querying a publisher costs as much as publishing.
+/// querying a publisher costs as much as publishing. The Registrar advertises it.
 class LazyPublisher {
  public:
   /// Throws roscpp's exception for an invalid topic.
@@ -49,7 +51,9 @@ class LazyPublisher {
         [listeners](const ros::SingleSubscriberPublisher& subscriber) {
           if (!is_this_node(subscriber)) --listeners->count;
         });
-    made.publisher_ = handle_for_one(node).advertise(options);
+    node.resolveName(topic);  // throws
+    made.publisher_ = Registered<ros::Publisher>(
+        [node, options]() mutable { return handle_for_one(node).advertise(options); });
     return made;
   }
 
@@ -61,7 +65,9 @@ class LazyPublisher {
   template <class Make>
   void publish(Make&& make) const {
     if (!has_subscribers()) return;
-    publisher_.publish(make());
+    const ros::Publisher* publisher = publisher_.get();
+    if (publisher == nullptr) return;
+    publisher->publish(make());
     Traffic::count();
   }
 
@@ -77,7 +83,7 @@ class LazyPublisher {
   };
 
   std::shared_ptr<Listeners> listeners_ = std::make_shared<Listeners>();
-  ros::Publisher publisher_;
+  Registered<ros::Publisher> publisher_;
 };
 
 /// A latched topic: each newcomer gets the last message. It is made for the first
@@ -89,11 +95,11 @@ class LatchedLazyPublisher {
 
   /// Throws roscpp's exception for an invalid topic.
   LatchedLazyPublisher(ros::NodeHandle& node, const std::string& topic, std::uint32_t queue) {
-    ros::AdvertiseOptions options;
-    options.init<Message>(topic, queue);
-    options.latch = true;
-    latch_ = handle_for_one(node).advertise(options);  // connection headers name the topic
+    ros::AdvertiseOptions latch;  // connection headers say that the topic is latched
+    latch.init<Message>(topic, queue);
+    latch.latch = true;
     const std::shared_ptr<State> state = state_;
+    ros::AdvertiseOptions options;
     options.init<Message>(
         topic, queue,
         [state](const ros::SingleSubscriberPublisher& newcomer) {
@@ -107,8 +113,17 @@ class LatchedLazyPublisher {
           const std::lock_guard<std::mutex> lock(state->mutex);
           --state->listeners;
         });
-    options.latch = false;
-    publisher_ = handle_for_one(node).advertise(options);
+    node.resolveName(topic);  // throws
+    publishers_ = Registered<Publishers>(
+        [node, latch, options]() mutable {
+          ros::Publisher latched = handle_for_one(node).advertise(latch);
+          return Publishers{latched, handle_for_one(node).advertise(options)};
+        },
+        // A newcomer may have missed a message that was set before get() returned the publisher.
+        [state](const Publishers& publishers) {
+          const std::lock_guard<std::mutex> lock(state->mutex);
+          if (state->make) state->send(publishers.publisher, state->make);
+        });
   }
 
   /// From now on `make` makes the message; it may be called by any thread until the next
@@ -133,22 +148,31 @@ class LatchedLazyPublisher {
   }
 
  private:
-  template <class Any>
-  void send(Any& make) const {
-    if (state_->listeners == 0) return;
-    publisher_.publish(make());
-    Traffic::count();
-  }
+  struct Publishers {
+    ros::Publisher latch;
+    ros::Publisher publisher;
+  };
 
   struct State {
+    template <class Any>
+    void send(const ros::Publisher& publisher, Any& make_message) const {
+      if (listeners == 0) return;
+      publisher.publish(make_message());
+      Traffic::count();
+    }
+
     std::mutex mutex;  // a newcomer never gets an older message after a newer one
     int listeners = 0;
     Make make;
   };
 
+  template <class Any>
+  void send(Any& make) const {
+    if (const Publishers* made = publishers_.get()) state_->send(made->publisher, make);
+  }
+
   std::shared_ptr<State> state_ = std::make_shared<State>();
-  ros::Publisher latch_;
-  ros::Publisher publisher_;
+  Registered<Publishers> publishers_;
 };
 
 }  // namespace angen::node

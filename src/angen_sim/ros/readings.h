@@ -33,7 +33,7 @@ class Readings {
   };
 
   std::shared_ptr<const sim::Structure> structure_;
-  std::vector<Made> made_;  // as Structure::sensors
+  std::vector<Made> made_;  // indexed like Structure::sensors
 };
 
 }  // namespace angen::node

@@ -17,8 +17,8 @@ std::string value_of(const std::vector<const Element*>& elements, const std::str
 
 std::vector<std::string> robot_topics(const Robot& robot, const std::string& requested) {
   if (!requested.empty() && requested[0] == '/') return {graph_name(requested)};
-  std::vector<std::string> topics = {graph_name("/" + robot.name + "/" + requested)};
-  if (robot.first) topics.push_back(graph_name("/" + requested));
+  std::vector<std::string> topics = {graph_name(in_namespace(robot.name + "/" + requested))};
+  if (robot.first) topics.push_back(graph_name(in_namespace(requested)));
   return topics;
 }
 

@@ -18,7 +18,7 @@ struct Robot {
   bool first = false;
   std::string odom_frame;  // `odom`; of a further robot NAME/odom
   std::string base_frame;
-  std::vector<std::string> command_topics;  // of a first robot also without NAME/
+  std::vector<std::string> command_topics;  // a first robot's also without NAME/
   std::vector<std::string> odometry_topics;
 };
 

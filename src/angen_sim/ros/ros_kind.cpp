@@ -18,9 +18,9 @@ namespace angen::node {
 namespace {
 
 struct Registry {
-  std::mutex mutex;  // of kinds
+  std::mutex mutex;  // guards kinds
   std::map<std::string, RosKind> kinds;
-  std::mutex loading;           // of tried
+  std::mutex loading;           // guards tried
   std::set<std::string> tried;  // libraries
 };
 
@@ -101,7 +101,7 @@ RosKindBuilder& RosKindBuilder::transform(Fill<geometry_msgs::TransformStamped> 
                                           std::string off_switch) {
   Format format;
   format.type = ros::message_traits::datatype<tf2_msgs::TFMessage>();
-  format.topic = "/tf";
+  format.topic = "tf";
   format.off_switch = std::move(off_switch);
   format.open = format.latched = opener<TransformChannel>(fill);
   format.fill = [fill](const Reading& reading, const Label& label, void* made) {
@@ -111,13 +111,6 @@ RosKindBuilder& RosKindBuilder::transform(Fill<geometry_msgs::TransformStamped> 
   };
   kind_.formats.push_back(std::move(format));
   return *this;
-}
-
-RosKindBuilder& RosKindBuilder::odometry() {
-  kind_.is_odometry = true;
-  return frame([](const sim::SensorEntry& sensor) {
-    return value_of({&sensor.desc->plugin_element}, "odometryFrame", "odom");
-  });
 }
 
 RosKind RosKindBuilder::done() {

@@ -26,11 +26,11 @@ struct Format {
   /// In a kind with several messages: the end of the topic, and the parameter that changes it.
   std::string leaf;  // empty: it is not published where the parameter is not given
   std::string leaf_parameter;
-  std::string other_leaf;       // in place of `leaf` where this parameter is given
+  std::string other_leaf;       // instead of `leaf` where this parameter is given
   std::string other_leaf_with;  // empty: never
   bool leaf_alone = false;      // it is the topic, below <robotNamespace>; not the end of one
-  std::string topic;            // of all sensors: /tf
-  std::string off_switch;       // a parameter that is false where it is not published
+  std::string topic;            // one topic for all sensors: /tf
+  std::string off_switch;       // a parameter that is false if it is not published
   Open open;                    // a message for each reading; may throw exceptions of roscpp
   Open latched;                 // the same for states, the last of them latched
   std::string array_type;       // angen_msgs/PirArray, or empty: there is none
@@ -60,16 +60,22 @@ struct RosKind {
   /// The frame of a sensor's messages.
   using Frame = std::function<std::string(const sim::SensorEntry&)>;
 
-  std::vector<Format> formats;             // the first is the one to name; at least one
-  std::optional<RayStyle> rays;            // none: rviz shows no rays
-  bool caption = false;                    // rviz shows its summary over it
-  ModelStyle model;                        // of a device
-  Frame frame;                             // null: one of its own, or <frameName>
-  bool is_camera = false;                  // its frame is optical (REP 103)
-  bool is_odometry = false;                // it moves <robotBaseFrame> in its frame
-  bool is_truth = false;                   // of the link <bodyName> in its frame
+  /// Messages that say where a robot is in their frame.
+  struct Odometry {
+    std::string base;              // the frame that moves
+    bool starts_at_model = false;  // 0 is where the robot was put, instead of the world's origin
+  };
+
+  std::vector<Format> formats;   // the first is the one to name; at least one
+  std::optional<RayStyle> rays;  // none: rviz shows no rays
+  bool caption = false;          // rviz shows its summary over it
+  ModelStyle model;              // a device's
+  Frame frame;                   // null: one of its own, or <frameName>
+  bool is_camera = false;        // its frame is optical (REP 103)
+  std::function<Odometry(const sim::SensorEntry&)> odometry;  // null: its messages are none
+  Frame truth;                             // its messages are the pose of that link; null: none
   bool is_robot = false;                   // a drive with the frames and topics of a Robot
-  std::vector<CommandTopicRule> commands;  // of a device, by type of message; a robot has one
+  std::vector<CommandTopicRule> commands;  // a device's, by type of message; a robot has one
   /// Whether something else publishes a sensor's messages; null: never.
   std::function<bool(const sim::SensorEntry&)> published_elsewhere;
 };
@@ -156,11 +162,14 @@ class RosKindBuilder {
     kind_.is_camera = true;
     return *this;
   }
-  /// Its frame is <odometryFrame>, in which <robotBaseFrame> moves.
-  RosKindBuilder& odometry();
-  /// The true pose of the link <bodyName>.
-  RosKindBuilder& truth() {
-    kind_.is_truth = true;
+  /// Its messages are the odometry of a robot, in that frame.
+  RosKindBuilder& odometry(RosKind::Frame in, RosKind::Odometry (*of)(const sim::SensorEntry&)) {
+    kind_.odometry = of;
+    return frame(std::move(in));
+  }
+  /// Its messages are the true pose of the link of that name; "" is its own.
+  RosKindBuilder& truth(RosKind::Frame link) {
+    kind_.truth = std::move(link);
     return *this;
   }
   RosKindBuilder& published_elsewhere(std::function<bool(const sim::SensorEntry&)> where) {

@@ -16,7 +16,7 @@
 namespace angen::node {
 namespace {
 
-/// Empty where the library does not load or has no sensor: the world reports it when it is built.
+/// Empty if the library does not load or has no sensor: the world reports it when it is built.
 std::string kind_of(const std::string& library, Catalog& catalog) {
   try {
     for (const auto& plugin : catalog.library(library)) {
@@ -53,7 +53,7 @@ std::vector<NewSensor> new_sensors(const desc::Model& model) {
 }
 
 void check_topics(const std::vector<NewSensor>& sensors, Catalog& catalog, Topics topics) {
-  std::map<std::string, std::string> own;  // of these sensors
+  std::map<std::string, std::string> own;  // topics of these sensors
   for (const NewSensor& sensor : sensors) {
     const desc::Sensor& described = *sensor.described;
     sim::SensorEntry entry;

@@ -15,10 +15,10 @@ struct NewSensor {
   const desc::Sensor* described = nullptr;
 };
 
-/// Those of a model.
+/// Topics of a model.
 std::vector<NewSensor> new_sensors(const desc::Model& model);
 
-/// Throws Error where one of them would publish on a topic of this node that carries another type
+/// Throws Error if one of them would publish on a topic of this node that carries another type
 /// of message. Topics under a robot's name are not checked. Any thread.
 void check_topics(const std::vector<NewSensor>& sensors, Catalog& catalog, Topics topics);
 

@@ -17,11 +17,13 @@ bool is_off(const sim::SensorEntry& sensor, const std::string& parameter) {
 
 }  // namespace
 
+const Element* namespace_of(const Element& plugin) { return plugin.child("robotNamespace"); }
+
 std::string below_namespace(const Element& plugin, const std::string& topic) {
-  const Element* space = plugin.child("robotNamespace");
+  const Element* space = namespace_of(plugin);
   const bool is_absolute =
       topic.empty() || topic[0] == '/' || space == nullptr || space->text.empty();
-  return is_absolute ? topic : "/" + space->text + "/" + topic;
+  return is_absolute ? topic : in_namespace(space->text + "/" + topic);
 }
 
 std::vector<std::string> sensor_topics(const sim::SensorEntry& sensor, const Format& format,
@@ -32,7 +34,7 @@ std::vector<std::string> sensor_topics(const sim::SensorEntry& sensor, const For
   if (format.leaf_alone) {
     const std::string leaf = text_of(sensor, format.leaf_parameter);
     requested = leaf.empty() ? format.leaf : leaf;
-  } else if (!format.leaf_parameter.empty()) {  // of several, as Gazebo's cameras name them
+  } else if (!format.leaf_parameter.empty()) {  // one of several, as Gazebo's cameras name them
     const std::string base = text_of(sensor, "cameraName");
     std::string leaf = text_of(sensor, format.leaf_parameter);
     const bool other = !text_of(sensor, format.other_leaf_with).empty();
@@ -57,6 +59,8 @@ bool is_on_topic_of_kind(Topics topics, const Format& format, const Robot* robot
   return topics == Topics::kKind && !format.array_type.empty() && robot == nullptr;
 }
 
-std::string kind_topic(const std::string& kind) { return graph_name("/angen/" + kind); }
+std::string kind_topic(const std::string& kind) {
+  return graph_name(in_namespace("angen/" + kind));
+}
 
 }  // namespace angen::node

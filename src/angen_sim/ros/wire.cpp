@@ -1,5 +1,7 @@
 #include "ros/wire.h"
 
+#include <ros/this_node.h>
+
 #include <cctype>
 #include <cstdio>
 
@@ -42,8 +44,13 @@ std::string graph_name(const std::string& text) {
   return starts ? out : "a" + out;
 }
 
+std::string in_namespace(const std::string& name) {
+  const std::string& space = ros::this_node::getNamespace();
+  return (space == "/" ? "" : space) + (name.rfind('/', 0) == 0 ? "" : "/") + name;
+}
+
 std::string default_topic(const std::string& kind, const std::string& name) {
-  return "/angen/" + kind + "/" + name;
+  return in_namespace("angen/" + kind + "/" + name);
 }
 
 std::string topic_of(const std::string& kind, const std::string& name,

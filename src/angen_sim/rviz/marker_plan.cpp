@@ -58,14 +58,13 @@ DrawnModel draw_model(const sim::Structure& structure, std::uint32_t first_link,
     const std::string group = marker_group(structure, first_link + l);
     const float alpha = strongest_alpha(group);
     DrawnLink link;
-    link.walks = model.links[l].upright;
     for (const desc::Visual& visual : model.links[l].visuals) {
       for (Drawing& drawing : draw(visual)) {
         drawing.marker.header.frame_id = "world";
         drawing.marker.ns = group;
         drawing.marker.id = next_id++;
         drawing.marker.color.a = std::min(drawing.marker.color.a, alpha);
-        const int limb = link.walks ? sim::limb_of(visual.name) : sim::kNoLimb;
+        const int limb = Anatomy::find(model.links[l].anatomy.limbs, visual.name);
         link.drawings.push_back({std::move(drawing), limb});
       }
     }

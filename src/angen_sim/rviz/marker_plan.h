@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "rviz/marker_shapes.h"
-#include "sim/gait.h"
 #include "sim/snapshot.h"
 
 namespace angen::node {
@@ -14,23 +13,20 @@ namespace angen::node {
 /// `furniture 0`, `robots`, … with the storey that its description places the model on.
 std::string marker_group(const sim::Structure& structure, std::uint32_t link);
 
-/// A marker, and the limb of a person that it is a part of.
+/// A marker, and the limb that it is a part of, in Anatomy::limbs; -1: none.
 struct LinkDrawing : Drawing {
-  int limb = sim::kNoLimb;
+  int limb = -1;
 };
 
 /// Markers of one link.
 struct DrawnLink {
   std::vector<LinkDrawing> drawings;
-  bool walks = false;  // it is a person
-  sim::Gait gait;
-  Pose at;  // at the last publication, and its time
-  Nanoseconds time = -1;
+  sim::LimbPoses limbs;
 };
 
 /// Markers of one model, with the groups and ids that they keep until the model is deleted.
 struct DrawnModel {
-  std::vector<DrawnLink> links;  // as desc::Model::links
+  std::vector<DrawnLink> links;  // indexed like desc::Model::links
 };
 
 /// Numbers them from `next_id` on. `first_link` is the model's first in Structure::links.

@@ -154,7 +154,7 @@ Marker draw_rays(const RayGeometry& rays, double tilt, const std::vector<double>
   marker.scale.x = kRayWidth;
   std::size_t i = 0;
   for (const Vec3& direction : rays.directions(tilt)) {
-    const double range = i < ranges.size() ? std::min(ranges[i], rays.max) : rays.max;
+    const double range = i < ranges.size() ? std::clamp(ranges[i], 0.0, rays.max) : rays.max;
     ++i;
     marker.points.push_back(to_point(Vec3::Zero()));
     marker.points.push_back(to_point(direction * range));

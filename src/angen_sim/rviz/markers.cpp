@@ -13,7 +13,7 @@ constexpr std::chrono::milliseconds kMarkerPeriod(66);
 }  // namespace
 
 Markers::Markers(ros::NodeHandle& node, Readings& readings)
-    : publisher_(LazyPublisher::of<visualization_msgs::MarkerArray>(node, "/angen/markers", 100)),
+    : publisher_(LazyPublisher::of<visualization_msgs::MarkerArray>(node, "angen/markers", 100)),
       overlays_(next_id_, readings) {}
 
 void Markers::draw_models(const sim::Structure& structure, const Changes& changes) {
@@ -30,7 +30,18 @@ void Markers::draw_models(const sim::Structure& structure, const Changes& change
       if (before == Numbers::kNone) mark(static_cast<std::uint32_t>(links_.size() - 1));
     }
   }
-  for (const DrawnModel& removed : old) {  // those that stay have been moved out
+  bodies_.clear();
+  for (std::uint32_t d = 0; d < structure.devices.size(); ++d) {
+    const sim::DeviceEntry& device = structure.devices[d];
+    if (device.body < 0) continue;
+    for (std::uint32_t link = 0; link < structure.links.size(); ++link) {
+      const sim::LinkEntry& entry = structure.links[link];
+      if (entry.model == device.model && static_cast<int>(entry.link) == device.body) {
+        bodies_.emplace_back(d, link);
+      }
+    }
+  }
+  for (const DrawnModel& removed : old) {  // models that stay have been moved out
     for (const DrawnLink& link : removed.links) {
       for (const Drawing& drawing : link.drawings) gone_.markers.push_back(drawing.marker);
     }
@@ -56,10 +67,19 @@ void Markers::mark(std::uint32_t link) {
   changed_.push_back(link);
 }
 
+void Markers::mark_limbs(const sim::Snapshot& snapshot) {
+  for (const auto& [device, link] : bodies_) {
+    if (links_[link]->limbs == snapshot.limbs[device]) continue;
+    links_[link]->limbs = snapshot.limbs[device];
+    mark(link);
+  }
+}
+
 void Markers::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
   if (!publisher_.has_subscribers()) return;
   if (snapshot.structure != structure_) on_structure(snapshot);
   for (const std::uint32_t link : snapshot.moved_links) mark(link);
+  mark_limbs(snapshot);
   if (now < next_send_) return;
   next_send_ = now + kMarkerPeriod;
   const std::uint64_t joined = publisher_.subscriptions();
@@ -81,26 +101,17 @@ Markers::Array Markers::collect(const sim::Snapshot& snapshot, bool all) {
   } else {
     for (const std::uint32_t link : changed_) put_link(snapshot, link, array);
   }
-  for (const std::uint32_t link : std::exchange(changed_, {})) {
-    marked_[link] = false;
-    if (links_[link]->gait.swings()) mark(link);  // until the limbs of who stops hang down
-  }
+  for (const std::uint32_t link : std::exchange(changed_, {})) marked_[link] = false;
   overlays_.append(snapshot, all, array);
   return array;
 }
 
 void Markers::put_link(const sim::Snapshot& snapshot, std::uint32_t link, Array& array) {
-  DrawnLink& drawn = *links_[link];
+  const DrawnLink& drawn = *links_[link];
   const Pose& at = snapshot.link_poses[link];
-  if (drawn.walks && snapshot.time != drawn.time) {
-    const double way = (at.position - drawn.at.position).head<2>().norm();
-    const double past = to_seconds(snapshot.time - drawn.time);
-    drawn.gait.advance(at, drawn.time < 0 || past <= 0.0 ? 0.0 : way / past);
-    drawn.at = at;
-    drawn.time = snapshot.time;
-  }
   for (const LinkDrawing& drawing : drawn.drawings) {
-    const Pose body = drawing.limb < 0 ? at : at * drawn.gait.limb(drawing.limb);
+    const bool swings = drawn.limbs && drawing.limb >= 0;
+    const Pose body = swings ? at * drawn.limbs->at(static_cast<std::size_t>(drawing.limb)) : at;
     array.markers.push_back(drawing.marker);
     array.markers.back().pose = to_ros(body * drawing.offset);
   }

@@ -3,6 +3,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "ros/changes.h"
@@ -28,18 +29,20 @@ class Markers {
   void on_structure(const sim::Snapshot& snapshot);
   void draw_models(const sim::Structure& structure, const Changes& changes);
   void mark(std::uint32_t link);
+  void mark_limbs(const sim::Snapshot& snapshot);
   void put_link(const sim::Snapshot& snapshot, std::uint32_t link, Array& array);
   Array collect(const sim::Snapshot& snapshot, bool all);
 
   LazyPublisher publisher_;
-  std::shared_ptr<const sim::Structure> structure_;  // that all this is about
+  std::shared_ptr<const sim::Structure> structure_;  // the structure that is drawn
   std::int32_t next_id_ = 0;
-  std::vector<DrawnModel> models_;  // as Structure::models
-  std::vector<DrawnLink*> links_;   // as Structure::links
+  std::vector<DrawnModel> models_;                               // indexed like Structure::models
+  std::vector<DrawnLink*> links_;                                // indexed like Structure::links
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> bodies_;  // devices and links with limbs
   Overlays overlays_;
   Array gone_;                          // to be published as deleted
   std::vector<std::uint32_t> changed_;  // links, each once
-  std::vector<bool> marked_;            // as Structure::links
+  std::vector<bool> marked_;            // indexed like Structure::links
   std::uint64_t joined_ = 0;
   Pacer::Clock::time_point next_send_{};
 };

@@ -48,7 +48,7 @@ visualization_msgs::Marker text_marker(std::string text, double height,
   return marker;
 }
 
-/// The summary over a sensor or device, red during an alarm; empty where there is no reading yet.
+/// The summary over a sensor or device, red during an alarm; empty if there is no reading yet.
 visualization_msgs::Marker draw_caption(const Kind& kind, const Reading* reading, bool alarm) {
   return text_marker(reading != nullptr ? summary(kind, *reading) : "", kTextHeight,
                      alarm ? color(0.85F, 0.1F, 0.1F, 1.0F) : color(0.75F, 0.88F, 1.0F, 1.0F));

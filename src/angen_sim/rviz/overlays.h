@@ -35,18 +35,18 @@ class Overlays {
  private:
   enum class Of { kNothing, kLight, kSensor, kDevice };
   struct Overlay {
-    visualization_msgs::Marker marker;  // as appended last; without a namespace: not shown
+    visualization_msgs::Marker marker;  // last appended; without a namespace: not shown
     std::string storey;                 // " 0", or empty; see storey_suffix; " south 0" of a wall
     std::uint32_t index = UINT32_MAX;   // in Structure::lights, ::sensors or ::devices
     Of of = Of::kNothing;
     std::uint32_t link = UINT32_MAX;  // in Structure::links; none: it is still
     Pose offset;
-    Pose pose;                            // as appended last
+    Pose pose;                            // last appended
     bool drawn = false;                   // it was appended
-    double level = -1.0;                  // of a lamp, as appended last
-    std::vector<LitFace> faces;           // of its room
+    double level = -1.0;                  // a lamp's, last appended
+    std::vector<LitFace> faces;           // faces of its room
     std::shared_ptr<const Reading> last;  // compared last
-    Nanoseconds stamp = 0;                // of the reading computed for it then
+    Nanoseconds stamp = 0;                // stamp of the reading computed for it then
     std::vector<double> ranges;           // m, as appended last
     double tilt = 0.0;                    // rad, as well
     bool fired = false;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "devices/storeys.h"
 #include "ros/ros_kind.h"
 
 namespace angen::node {
@@ -50,7 +49,7 @@ std::string storey_suffix(const sim::Structure& structure, std::uint32_t model, 
   for (const sim::DeviceEntry& device : structure.devices) {
     if (device.model == model && !ros_kind(device).model.is_on_floor) return "";
   }
-  return " " + std::to_string(devices::floor_of(structure.storeys, z));
+  return " " + std::to_string(floor_at(structure.storeys, z));
 }
 
 std::string outer_side(const desc::Model& building, const desc::Link& link) {

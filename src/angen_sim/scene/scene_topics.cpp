@@ -23,8 +23,8 @@ void append_pose(const Pose& pose, std::vector<float>& out) {
 }  // namespace
 
 SceneTopics::SceneTopics(ros::NodeHandle& node)
-    : scene_(node, "/angen/scene", 4),
-      changes_(LazyPublisher::of<angen_msgs::SceneChanges>(node, "/angen/scene_changes", 40)) {}
+    : scene_(node, "angen/scene", 4),
+      changes_(LazyPublisher::of<angen_msgs::SceneChanges>(node, "angen/scene_changes", 40)) {}
 
 void SceneTopics::mark(std::uint32_t link) {
   if (marked_[link]) return;

@@ -30,7 +30,7 @@ class SceneTopics {
   LazyPublisher changes_;
   std::shared_ptr<const sim::Structure> structure_;  // published last
   std::vector<std::uint32_t> moved_;                 // links, each once
-  std::vector<bool> marked_;                         // as Structure::links
+  std::vector<bool> marked_;                         // indexed like Structure::links
   std::vector<double> levels_;                       // published last; NaN: not yet
   std::uint64_t joined_ = 0;
   bool listened_ = false;

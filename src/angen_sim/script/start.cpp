@@ -34,5 +34,5 @@ extern "C" void angen_start_python(std::string& problem) {
   }
   PyObject* module = PyImport_ImportModule("angen");
   if (module == nullptr) problem = problem_of_python();
-  PyEval_SaveThread();  // of the lock that the start took
+  PyEval_SaveThread();  // releases the lock that the start took
 }

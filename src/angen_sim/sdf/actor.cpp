@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kSkin = 307.0;      // K: of a bare face and hands
 constexpr double kClothed = 299.0;   // K: of clothes, in a room
-constexpr double kBareShare = 0.12;  // of a clothed person's surface: head and hands
+constexpr double kBareShare = 0.12;  // share of a clothed person's surface: head and hands
 
 Element leaf(const std::string& name, const std::string& text, const Source& source) {
   Element element;
@@ -38,7 +38,7 @@ std::vector<Waypoint> waypoints_of(const Element& script, const Pose& place, Ses
   for (const Element& trajectory : script.children) {
     if (trajectory.name != "trajectory") continue;
     const Reader path(trajectory, session);
-    path.attribute("type");  // of an animation, which people here do not have
+    path.attribute("type");  // an animation's, which people here do not have
     path.attribute("id");
     for (const Element& element : trajectory.children) {
       if (element.name != "waypoint") continue;
@@ -105,8 +105,8 @@ desc::Model describe_actor(const Element& given, Session& session) {
   model.name = name_of(actor);
   model.source = actor.source;
   model.pose = child_pose(actor);
+  model.is_actor = true;
   desc::Link& body = model.links.front();
-  body.upright = true;
 
   std::vector<Element> others;
   for (const Element& child : actor.children) {

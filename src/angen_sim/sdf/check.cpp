@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 
 #include "core/limits.h"
@@ -11,7 +10,7 @@
 #include "core/text.h"
 #include "document/values.h"
 #include "document/xml.h"
-#include "import/upgrade.h"
+#include "sdf/upgrade.h"
 
 namespace angen::load {
 
@@ -32,11 +31,15 @@ std::string listed(const std::set<std::string>& names) {
   return join_names({names.begin(), names.end()});
 }
 
-void check_children_names(const Element& parent) {
+// Joints have names of their own in URDF.
+void check_children_names(const Element& parent, const Session& session) {
   std::map<std::pair<std::string, std::string>, Source> seen;
   for (const Element& child : parent.children) {
-    const std::string space = names_shared_by(child);
+    std::string space = names_shared_by(child);
     if (space.empty()) continue;
+    const bool is_own =
+        session.dialect->names_joints_apart() || session.converted.count(child.source.file) != 0;
+    if (is_own && child.name == "joint") space = child.name;
     const std::string name = name_of(child);
     check_name(name, "<" + child.name + ">", child.source);
     const auto [there, fresh] = seen.insert({{space, name}, child.source});
@@ -57,12 +60,22 @@ void check_plugin(const Element& plugin) {
   if (!problem.empty()) throw Error(plugin.source, "<plugin>: " + problem);
 }
 
+void need_type(const Element& element, const std::string& right, Session& session) {
+  if (element.attribute("type") != nullptr) return;
+  session.warn_or_throw(Error(element.source, tag_of(element) + " has no type; write " + right));
+}
+
 void check_light(const Element& light) {
   const std::string* type = light.attribute("type");
   if (type != nullptr && kLights.count(*type) == 0) {
     throw Error(light.source,
                 "unknown light type '" + printable(*type) + "'; known are " + listed(kLights));
   }
+}
+
+void check_typed_light(const Element& light, Session& session) {
+  need_type(light, "type=\"point\"", session);
+  check_light(light);
 }
 
 void check_sensor(const Element& sensor) {
@@ -72,10 +85,10 @@ void check_sensor(const Element& sensor) {
   }
 }
 
-void check_link(const Element& link) {
-  check_children_names(link);
+void check_link(const Element& link, Session& session) {
+  check_children_names(link, session);
   for (const Element& child : link.children) {
-    if (child.name == "light") check_light(child);
+    if (child.name == "light") check_typed_light(child, session);
     if (child.name != "sensor") continue;
     check_sensor(child);
     for (const Element& part : child.children) {
@@ -121,7 +134,7 @@ bool zero_axis(const Element& axis) {
   return true;
 }
 
-// Of ODE's joints before anything sets them, which Gazebo then takes.
+// Values of ODE's joints before anything sets them, which Gazebo then takes.
 const char* default_axis(const std::string& name) { return name == "axis" ? "1 0 0" : "0 1 0"; }
 
 Error axis_is_missing(const Element& joint, const std::string& name) {
@@ -163,15 +176,6 @@ void check_axes(Element& joint, Session& session) {
   }
 }
 
-bool joins_itself(const Element& joint) {
-  const std::string child = joint.child_text("child");
-  return !child.empty() && child == joint.child_text("parent");
-}
-
-std::string to_itself(const Element& joint) {
-  return tag_of(joint) + " joins '" + printable(joint.child_text("child")) + "' to itself";
-}
-
 void check_joint(Element& joint, const std::set<std::string>& known, Session& session) {
   const std::string* type = joint.attribute("type");
   if (type == nullptr || kJoints.count(*type) == 0) {
@@ -182,46 +186,21 @@ void check_joint(Element& joint, const std::set<std::string>& known, Session& se
   }
   check_joint_end(joint, "parent", known);
   check_joint_end(joint, "child", known);
-  if (joins_itself(joint)) throw Error(joint.source, to_itself(joint) + "; name two links");
+  const std::string link = joint.child_text("child");
+  if (link == joint.child_text("parent")) {
+    throw Error(joint.source,
+                tag_of(joint) + " joins '" + printable(link) + "' to itself; name two links");
+  }
   check_axes(joint, session);
-}
-
-/// Why Gazebo would leave a joint out, or a type that we lack; nothing otherwise.
-std::optional<Error> left_out(const Element& joint, const std::set<std::string>& known) {
-  const std::string* type = joint.attribute("type");
-  if (type != nullptr && kJoints.count(*type) == 0) {
-    return Error(joint.source, "unknown joint type '" + printable(*type) + "'; known are " +
-                                   listed(kJoints) + "; " + tag_of(joint) + " is left out");
-  }
-  for (const char* end : {"parent", "child"}) {
-    const Element* element = joint.child(end);
-    if (element == nullptr || element->text.empty() || is_known_end(*element, known)) continue;
-    return Error(element->source, tag_of(joint) + " names an unknown link '" +
-                                      printable(element->text) + "'; it is left out");
-  }
-  if (joins_itself(joint)) return Error(joint.source, to_itself(joint) + "; it is left out");
-  return std::nullopt;
-}
-
-void leave_out_joints(Element& model, const std::set<std::string>& known, Session& session) {
-  auto& all = model.children;
-  const auto is_left_out = [&](const Element& joint) {
-    const auto error = joint.name == "joint" ? left_out(joint, known) : std::nullopt;
-    if (error) session.warn_or_throw(*error);
-    return error.has_value();
-  };
-  if (!session.tolerant) return;
-  all.erase(std::remove_if(all.begin(), all.end(), is_left_out), all.end());
 }
 
 void check_model_parts(Element& model, Session& session) {
   std::set<std::string> known;
   collect_frames(model, "", known);
-  leave_out_joints(model, known, session);
   if (!has_link(model)) throw Error(model.source, tag_of(model) + " has no <link>; give it one");
-  check_children_names(model);
+  check_children_names(model, session);
   for (Element& child : model.children) {
-    if (child.name == "link") check_link(child);
+    if (child.name == "link") check_link(child, session);
     if (child.name == "joint") check_joint(child, known, session);
     if (child.name == "plugin") check_plugin(child);
     if (child.name == "model") check_model_parts(child, session);
@@ -231,8 +210,9 @@ void check_model_parts(Element& model, Session& session) {
 // A saved world may have bodies that were thrown far away.
 void clamp_pose(Element& pose, Session& session) {
   constexpr double kMax = limits::kPosition.most;
-  Numbers found = numbers_in(pose.text);
-  if (!session.tolerant || !found.bad.empty() || found.values.size() != 6) return;
+  if (!session.dialect->corrects_values()) return;
+  const Numbers found = numbers_in(pose.text);
+  if (!found.bad.empty() || found.values.size() != 6) return;
   std::string text;
   bool far = false;
   for (std::size_t i = 0; i < found.values.size(); ++i) {
@@ -242,8 +222,8 @@ void clamp_pose(Element& pose, Session& session) {
     text += number_text(beyond ? std::copysign(kMax, value) : value) + " ";
   }
   if (!far) return;
-  session.warn_or_throw(Error(pose.source, "<pose> is beyond " + number_text(kMax) +
-                                               " m, the farthest position; it is taken as that"));
+  session.warn(pose.source, "<pose> is beyond " + number_text(kMax) +
+                                " m, the farthest position; it is taken as that");
   pose.text = text;
 }
 
@@ -261,9 +241,10 @@ void check_poses(Element& element, Session& session) {
 }
 
 void check_settings(Element& world, Session& session) {
-  check_children_names(world);
+  check_children_names(world, session);
   for (const Element& child : world.children) {
-    if (child.name == "light") check_light(child);
+    if (child.name == "light") check_typed_light(child, session);
+    if (child.name == "physics") need_type(child, "type=\"ode\"", session);
     if (child.name == "plugin") check_plugin(child);
   }
   check_poses(world, session);

@@ -23,8 +23,7 @@ void check_model(Element& model, Session& session);
 /// Names and poses of a single <sensor> or <light>.
 void check_part(Element& element, Session& session);
 
-/// Every <pose> below `element`, plug-ins left out. If tolerant, brings one that is beyond the
-/// limits back to them, with a warning.
+/// Every <pose> below `element`, plug-ins left out. May correct one that is beyond the limits.
 void check_poses(Element& element, Session& session);
 
 }  // namespace angen::load

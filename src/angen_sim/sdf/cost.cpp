@@ -28,7 +28,8 @@ constexpr double kMegabyte = 1024.0 * 1024.0;
 constexpr double kElement = 2e3;
 constexpr double kRay = 300.0;
 constexpr double kPixel = 24.0;
-constexpr double kHeightSample = 60.0;  // of a heightmap, with the data of rays and contacts
+constexpr double kHeightSample =
+    60.0;  // bytes a sample of a heightmap, with the data of rays and contacts
 constexpr double kMeshByte = 6.0;  // a triangle of a binary STL has 50 bytes, of other files more
 const std::map<std::string, double>& parts() {
   static const std::map<std::string, double> table = {

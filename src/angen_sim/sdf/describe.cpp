@@ -4,7 +4,7 @@
 
 #include "core/limits.h"
 #include "core/text.h"
-#include "document/tolerance.h"
+#include "document/dialect.h"
 #include "document/values.h"
 #include "document/xml.h"
 #include "sdf/check.h"
@@ -13,7 +13,6 @@
 #include "sdf/light.h"
 #include "sdf/material.h"
 #include "sdf/reader.h"
-#include "sdf/schema.h"
 #include "sdf/surface.h"
 
 namespace angen::load {
@@ -22,7 +21,7 @@ namespace {
 
 // The context in which a model's parts are described.
 struct Context {
-  Frames& frames;    // of the outermost model
+  Frames& frames;    // frames of the outermost model
   bool never_moves;  // it is static
   Session& session;
   bool held = false;  // it is static within one that moves
@@ -67,7 +66,7 @@ void add_collisions(const Element& element, const Pose& pose, Session& session, 
   add_shapes(reader, pose, collision, session, link.collisions);
 }
 
-// As gz-sim's Thermal system has it: <plugin filename="gz-sim-thermal-system"><temperature>.
+// Given like gz-sim's Thermal system: <plugin filename="gz-sim-thermal-system"><temperature>.
 std::optional<double> temperature_of(const Element& visual) {
   for (const Element& plugin : visual.children) {
     const std::string* file = plugin.attribute("filename");
@@ -294,20 +293,6 @@ desc::Model describe_model(const Element& model, Session& session) {
   merge_hinges(to, session);
   note_ignored(model, session);
   return to;
-}
-
-std::vector<desc::Model> describe_models(const std::vector<Element>& models, Session& session) {
-  std::vector<desc::Model> described;
-  if (models.empty()) return described;
-  Element world;
-  world.name = "world";
-  world.source = models.front().source;
-  world.attributes = {{"name", "default"}};
-  world.children = models;
-  for (Element& model : world.children) remove_children(model, "pose");
-  for (const Element& model : models) described.push_back(describe_model(model, session));
-  check_schema(world, session);
-  return described;
 }
 
 }  // namespace angen::load

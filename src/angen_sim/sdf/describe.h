@@ -8,11 +8,11 @@
 /// Checked trees to descriptions.
 namespace angen::load {
 
-/// Expanded, checked <model> elements with different names, in their order. The pose is left to the
-/// caller, and so are the texts for `save`. Nested models become links, joints and plug-ins named
-/// `child::name`.
-std::vector<desc::Model> describe_models(const std::vector<Element>& models, Session& session);
-/// One such model, without a check of its schema.
+/// The element of an <axis> that has the numbers of a URDF's <safety_controller>.
+constexpr char kSafety[] = "angen:safety_controller";
+
+/// An expanded, checked <model> element. The pose is left to the caller, and so are the texts for
+/// `save`. Nested models become links, joints and plug-ins named `child::name`.
 desc::Model describe_model(const Element& model, Session& session);
 
 /// The <inertial> of a link; the unit mass and moment where there is none. An impossible one throws
@@ -36,14 +36,14 @@ void merge_hinges(desc::Model& model, Session& session);
 /// An <actor> as a model that the person plug-in drives. Throws Error.
 desc::Model describe_actor(const Element& actor, Session& session);
 
-/// The <physics> that a <world> is stepped by, null where it has none.
+/// The <physics> that a <world> is stepped by, null if it has none.
 const Element* chosen_physics(const Element& world);
 
 /// Physics, gravity and scene out of a checked <world>.
 void read_settings(const Element& world, desc::World& to, Session& session);
 
 /// Applies the world's <state>: poses and joint positions. Throws Error for unknown names, unless
-/// the session is tolerant.
+/// the dialect permits them.
 void apply_state(const Element& state, desc::World& world, Session& session);
 
 }  // namespace angen::load

@@ -1,10 +1,11 @@
 #include "sdf/entry.h"
 
+#include <algorithm>
 #include <map>
+#include <optional>
 
-#include "document/tolerance.h"
+#include "document/dialect.h"
 #include "document/xml.h"
-#include "import/gazebo_model.h"
 #include "sdf/check.h"
 #include "sdf/cost.h"
 #include "sdf/describe.h"
@@ -12,8 +13,6 @@
 namespace angen::load {
 
 namespace {
-
-constexpr std::size_t kBatchElements = 2'000;
 
 bool holds_include(const Element& element) {
   if (element.name == "include") return true;
@@ -38,7 +37,40 @@ std::string key_of(const Element& model) {
   return key;
 }
 
-void check_entry(Entry& entry, Session& session) {
+// Whether it has a collision with a shape.
+bool is_solid(const Element& element) {
+  return std::any_of(element.children.begin(), element.children.end(), [](const Element& part) {
+    if (part.name == "link" || part.name == "model") return is_solid(part);
+    const Element* geometry = part.name == "collision" ? part.child("geometry") : nullptr;
+    return geometry != nullptr && geometry->child("empty") == nullptr;
+  });
+}
+
+// Nothing would stop the fall of a model whose shapes are all left out.
+void hold_without_shape(const Entry& entry, desc::Model& model, Session& session) {
+  if (session.set_aside.empty() || model.is_static || !entry.is_solid) return;
+  for (const desc::Link& link : model.links) {
+    for (const desc::Collision& collision : link.collisions) {
+      if (collision.shape.type != Shape::Type::kEmpty) return;
+    }
+  }
+  for (desc::Link& link : model.links) link.gravity = false;
+  session.warn(entry.original.source, tag_of(entry.expanded) +
+                                          " has no collision left, so that nothing would stop its "
+                                          "fall; it has no gravity here");
+}
+
+// Adds what its dialect and its plug-ins leave out.
+void complete(const Entry& entry, desc::Model& model) {
+  if (std::any_of(model.plugins.begin(), model.plugins.end(),
+                  [](const desc::Plugin& plugin) { return plugin.is_repeatable; })) {
+    gazebo_dialect(entry.expanded).prepare_plugins(model);
+  }
+  if (marked_strict(entry.original) == false) gazebo_dialect(entry.original).complete(model);
+}
+
+// False where it is left out.
+bool check_entry(Entry& entry, Session& session) {
   Element& element = entry.expanded;
   if (element.name != "model" && element.name != "actor") {
     throw Error(element.source,
@@ -46,35 +78,27 @@ void check_entry(Entry& entry, Session& session) {
   }
   check_model_size(count_elements(element), entry.original.source);
   check_memory(element, session);
-  if (element.name == "model") check_model(element, session);
+  if (element.name != "model") return true;
+  return session.read_without_errors({&element}, [&] { check_model(element, session); });
 }
 
-// All different models by their keys. libsdformat takes tens of milliseconds a document and a
-// megabyte a link, so they go to it in batches.
-std::map<std::string, desc::Model> read_once(std::vector<Entry>& entries, Session& session) {
-  std::map<std::string, desc::Model> read;
-  std::vector<std::string> keys;
-  std::vector<Element> batch;
-  std::size_t size = 0;
-  const auto flush = [&] {
-    std::vector<desc::Model> models = describe_models(batch, session);
-    for (std::size_t i = 0; i < models.size(); ++i) read[keys[i]] = std::move(models[i]);
-    keys.clear();
-    batch.clear();
-    size = 0;
-  };
-  for (Entry& entry : entries) {
-    check_entry(entry, session);
+using ReadModels = std::map<std::string, std::optional<desc::Model>>;
+
+// All different models by their keys, without plug-ins; none for one that is left out.
+ReadModels read_once(std::vector<Entry>& entries, Session& session) {
+  ReadModels read;
+  entries.erase(std::remove_if(entries.begin(), entries.end(),
+                               [&](Entry& entry) { return !check_entry(entry, session); }),
+                entries.end());
+  for (const Entry& entry : entries) {
     if (entry.expanded.name != "model") continue;
-    const std::string key = key_of(entry.expanded);
-    if (!read.emplace(key, desc::Model{}).second) continue;
-    keys.push_back(key);
-    batch.push_back(entry.expanded);
-    remove_children(batch.back(), "plugin");
-    size += count_elements(batch.back());
-    if (size > kBatchElements) flush();
+    const auto [at, fresh] = read.try_emplace(key_of(entry.expanded));
+    if (!fresh) continue;
+    Element model = entry.expanded;
+    remove_children(model, "plugin");
+    auto& made = at->second;
+    session.read_without_errors({&model}, [&] { made = describe_model(model, session); });
   }
-  flush();
   return read;
 }
 
@@ -90,16 +114,24 @@ Entry expand_entry(const Element& element, Session& session) {
     entry.expanded = expand_include(element, session);
   }
   if (element.name == "model") expand_model(entry.expanded, session);
+  entry.is_solid = is_solid(entry.expanded);
   return entry;
 }
 
 std::vector<desc::Model> describe_entries(std::vector<Entry>& entries, Session& session) {
-  const std::map<std::string, desc::Model> read = read_once(entries, session);
+  const ReadModels read = read_once(entries, session);
   std::vector<desc::Model> models;
-  for (const Entry& entry : entries) {
-    const Element& element = entry.expanded;
-    desc::Model model =
-        element.name == "actor" ? describe_actor(element, session) : read.at(key_of(element));
+  std::vector<Entry> kept;
+  for (Entry& entry : entries) {
+    Element& element = entry.expanded;
+    std::optional<desc::Model> found;
+    if (element.name == "actor") {
+      session.read_without_errors({&element}, [&] { found = describe_actor(element, session); });
+    } else {
+      found = read.at(key_of(element));
+    }
+    if (!found) continue;
+    desc::Model model = *std::move(found);
     for (const Element& child : element.children) {
       if (element.name == "model" && child.name == "plugin") {
         model.plugins.push_back(plugin_of(child));
@@ -107,13 +139,14 @@ std::vector<desc::Model> describe_entries(std::vector<Entry>& entries, Session& 
     }
     model.name = name_of(element);
     model.source = entry.original.source;
-    model.tolerant = marked_strict(entry.original) == false;
-    hold_measured_joints(model);
-    if (model.tolerant) add_bumper_defaults(model);
+    complete(entry, model);
+    hold_without_shape(entry, model, session);
     model.xml = print_xml(entry.original);
     if (holds_include(entry.original)) model.expanded_xml = print_xml(element);
     models.push_back(std::move(model));
+    kept.push_back(std::move(entry));
   }
+  entries = std::move(kept);
   return models;
 }
 

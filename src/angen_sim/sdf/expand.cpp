@@ -7,13 +7,11 @@
 
 #include "core/names.h"
 #include "core/text.h"
-#include "core/typography.h"
 #include "document/search.h"
 #include "document/values.h"
 #include "document/xml.h"
-#include "import/upgrade.h"
-#include "import/urdf.h"
 #include "sdf/home.h"
+#include "sdf/upgrade.h"
 
 namespace angen::load {
 
@@ -39,13 +37,15 @@ int version_of(const Element& sdf) {
 void count(const Element& document, Session& session) {
   session.elements += count_elements(document);
   if (session.elements > kMaxExpanded) {
-    throw Error(document.source, "more than " + std::to_string(kMaxExpanded) +
-                                     " elements with all that is included; make the world smaller");
+    throw LimitError(document.source,
+                     "more than " + std::to_string(kMaxExpanded) +
+                         " elements with all that is included; make the world smaller");
   }
   if (session.include_start && session.elements - *session.include_start > kMaxIncluded) {
-    throw Error(document.source, "more than " + std::to_string(kMaxIncluded) +
-                                     " elements in one <include> with all that it includes; split "
-                                     "it into several models");
+    throw LimitError(document.source,
+                     "more than " + std::to_string(kMaxIncluded) +
+                         " elements in one <include> with all that it includes; split "
+                         "it into several models");
   }
 }
 
@@ -96,6 +96,20 @@ void check_given_once(const Element& include) {
   }
 }
 
+// The <plugin> that one of an <include> replaces; others of their library are their twins.
+void remove_replaced(const Element& plugin, Element& from) {
+  const std::string* file = plugin.attribute("filename");
+  if (file == nullptr || !made_for_gazebo(*file)) return;
+  auto& all = from.children;
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [&](const Element& other) {
+                             const std::string* its = other.attribute("filename");
+                             return other.name == "plugin" && its != nullptr && *its == *file &&
+                                    name_of(other) == name_of(plugin);
+                           }),
+            all.end());
+}
+
 void apply_include(const Element& include, Element& to, Session& session) {
   check_given_once(include);
   std::vector<Element> added;
@@ -112,6 +126,7 @@ void apply_include(const Element& include, Element& to, Session& session) {
       remove_children(to, "static");
       to.children.insert(to.children.begin(), child);
     } else if (child.name == "plugin") {
+      remove_replaced(child, to);
       added.push_back(child);
     } else if (is_of_home(child.name)) {
       if (replaced.insert(child.name).second) remove_children(to, child.name);
@@ -147,34 +162,12 @@ bool is_merge(const Element& include) {
   return merge != nullptr && *merge != "false" && *merge != "0";
 }
 
-bool replace_typographic_characters(Element& element, Session& session) {
-  bool changed = false;
-  const auto replace = [&](std::string& text, const std::string& what) {
-    const std::optional<std::string> plain = plain_numbers(text);
-    if (!plain) return;
-    const std::string name = find_typographic(text)->name;
-    session.warn(element.source, what + " contains the typographic character " + name +
-                                     "; it is read as '" + *plain + "'; write that");
-    text = *plain;
-    changed = true;
-  };
-  for (auto& [key, value] : element.attributes) {
-    if (key != "name") replace(value, "<" + element.name + " " + key + ">");
-  }
-  if (element.name != "name") replace(element.text, "<" + element.name + ">");
-  for (Element& child : element.children) {
-    changed = replace_typographic_characters(child, session) || changed;
-  }
-  return changed;
-}
-
-Element read_document(const std::string& text, const std::string& file, Session& session) {
-  Element root = parse_xml(text, file);
-  const bool changed = replace_typographic_characters(root, session);
+Element read_document(Element root, Session& session) {
   if (root.name == "gazebo" && root.attribute("version") != nullptr) root.name = "sdf";  // to 1.2
-  if (root.name == "robot") session.converted.insert(file);
-  if (root.name == "robot")
-    root = convert_urdf(changed ? print_xml(root) : without_late_declaration(text), root);
+  if (root.name == "robot") {
+    session.converted.insert(root.source.file);
+    root = gazebo_dialect(root).convert_urdf(std::move(root), session);
+  }
   if (root.name != "sdf") {
     throw Error(root.source, "the file begins with <" + root.name +
                                  ">; it must begin with <sdf> or "
@@ -206,7 +199,7 @@ Element expand_include(const Element& include, Session& session) {
   }
   const Open open(session, real);
   const CountInclude counted(session);
-  Element sdf = read_document(session.sources.read(file), file, session);
+  Element sdf = read_document(parse_xml(read_file(file), file), session);
   Element& root = included_root(sdf);
   if (root.name == "model") expand_model(root, session);
   apply_include(include, root, session);
@@ -218,16 +211,13 @@ void expand_model(Element& model, Session& session) {
   for (Element& child : model.children) {
     if (child.name == "include") {
       Element included;
-      try {
+      const bool found = session.read_without_errors({&child}, [&] {
         included = expand_include(child, session);
-      } catch (const Error& error) {
-        warn_or_throw_missing(child, error, session);
-        continue;
-      }
-      if (included.name != "model") {
+        if (included.name == "model") return;
         throw Error(child.source, "an <include> in a <model> must name a <model>; this is <" +
                                       included.name + ">");
-      }
+      });
+      if (!found) continue;
       if (is_merge(child)) {
         merge_parts(included, expanded);
       } else {

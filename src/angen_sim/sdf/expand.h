@@ -9,17 +9,13 @@
 /// Documents as trees of SDF 1.9 with their includes written out, each element knowing its file.
 namespace angen::load {
 
-/// The <sdf> element of a text, upgraded to SDF 1.9 (URDF converted). Messages name `file`;
-/// if it exists, relative addresses start there.
-Element read_document(const std::string& text, const std::string& file, Session& session);
+/// The <sdf> element of a document, upgraded to SDF 1.9 (URDF converted). Relative addresses start
+/// at its file, if that exists.
+Element read_document(Element root, Session& session);
 
 /// The <model>, <actor> or <light> that an <include> names, with the include's name,
 /// pose, static and plug-ins, and with the includes inside it written out.
 Element expand_include(const Element& include, Session& session);
-
-/// Replaces typographic characters (a minus sign of a PDF) in texts and attributes that are numbers
-/// otherwise, with a warning each; true where there were any.
-bool replace_typographic_characters(Element& element, Session& session);
 
 /// True if an <include> in a <model> adds the parts of the model, not a nested model.
 bool is_merge(const Element& include);

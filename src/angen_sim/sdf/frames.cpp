@@ -10,6 +10,9 @@ namespace angen::load {
 
 namespace {
 
+// After the name of a joint that is called as a link; no name ends so.
+constexpr char kOfJoint[] = " ";
+
 std::string model_of(const std::string& scope) {
   return scope.empty() ? "" : scope.substr(0, scope.size() - 2);  // without "::"
 }
@@ -18,6 +21,11 @@ std::string relative_to(const Element& element) {
   const Element* pose = element.child("pose");
   const std::string* frame = pose == nullptr ? nullptr : pose->attribute("relative_to");
   return frame == nullptr ? "" : *frame;
+}
+
+// The place to name where a pose is relative to something wrong.
+const Source& place_of_pose(const Element& element) {
+  return relative_to(element).empty() ? element.source : element.child("pose")->source;
 }
 
 bool is_frame(const Element& element) {
@@ -63,7 +71,16 @@ void Frames::add(const std::string& name, const Element& element, const std::str
   node.base = base;
   node.attached = attached;
   node.given = child_pose(element);
-  nodes_[name] = std::move(node);
+  const auto twin = nodes_.find(name);
+  const bool is_joint = element.name == "joint";
+  if (twin != nodes_.end() && twin->second.element->name == "joint" && !is_joint) {
+    nodes_[name + kOfJoint] = std::move(twin->second);
+  }
+  nodes_[twin != nodes_.end() && is_joint ? name + kOfJoint : name] = std::move(node);
+}
+
+const Pose& Frames::joint_pose(const std::string& name) {
+  return pose(nodes_.count(name + kOfJoint) != 0 ? name + kOfJoint : name);
 }
 
 void Frames::add_parts(const Element& model, const std::string& scope) {
@@ -108,8 +125,9 @@ std::string Frames::key(const std::string& name, const std::string& scope,
     }
   }
   std::sort(known.begin(), known.end());
-  throw Error(what.source, tag_of(what) + " refers to an unknown frame '" + printable(name) +
-                               "'; known are " + join_names(known));
+  throw Error(name == relative_to(what) ? place_of_pose(what) : what.source,
+              tag_of(what) + " refers to an unknown frame '" + printable(name) + "'; known are " +
+                  join_names(known));
 }
 
 const Pose& Frames::pose(const std::string& name) {
@@ -117,9 +135,9 @@ const Pose& Frames::pose(const std::string& name) {
   Node* node = &nodes_.at(key(name, "", *nodes_.at("").element));
   while (!node->known) {
     if (node->visited) {
-      throw Error(node->element->source, tag_of(*node->element) +
-                                             " has a pose that is relative to itself, by way of '" +
-                                             printable(node->base) + "'");
+      throw Error(place_of_pose(*node->element),
+                  tag_of(*node->element) + " has a pose that is relative to itself, by way of '" +
+                      printable(node->base) + "'");
     }
     node->visited = true;
     way.push_back(node);

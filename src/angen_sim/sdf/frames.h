@@ -18,8 +18,10 @@ class Frames {
   explicit Frames(const Element& root);
 
   /// The pose of the link, joint, frame or model `name` ("a::b" in a nested model) in the root's.
-  /// Throws Error where it, or a frame below it, does not exist or is relative to itself.
+  /// Throws Error if it, or a frame below it, does not exist or is relative to itself.
   const Pose& pose(const std::string& name);
+  /// The pose of a joint, which may be called as a link is.
+  const Pose& joint_pose(const std::string& name);
 
   /// The pose of a part of a link (or of the root, with link "") in that link. `scope` is the
   /// prefix of the model that the link is in, such as "a::".

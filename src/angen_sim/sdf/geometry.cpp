@@ -48,10 +48,9 @@ PlacedShape mesh(const Reader& element, const Pose& pose, Session& session) {
   try {
     shape.mesh_file = need_uri(uri.text, "mesh", uri.source, session);
   } catch (const Error& error) {
-    warn_or_throw_missing(element.element(), error, session);  // it has no shape
+    session.warn_or_throw(error);  // it has no shape
     return placed;
   }
-  session.sources.will_be_read(shape.mesh_file);
   source.path = shape.mesh_file;
   source.scale = shape.mesh_scale;
   if (part && source.submesh.empty()) {
@@ -59,13 +58,11 @@ PlacedShape mesh(const Reader& element, const Pose& pose, Session& session) {
   }
   if (const std::string materials = materials_of(source.path); !materials.empty()) {
     source.materials = find_beside(materials, "materials", source.path, uri.source, session);
-    if (!source.materials.empty()) session.sources.will_be_read(source.materials);
   }
   ReadMesh file;
   try {
     file = read_mesh(source, uri.source);
   } catch (const Error& error) {
-    if (session.guessed) throw;
     session.warn_or_throw(error);
     shape.mesh_file.clear();
     return placed;
@@ -86,7 +83,6 @@ Shape heightmap(const Reader& element, Pose& pose, Session& session) {
   const Vec3 size = element.vector("size", {}, Range::positive(limits::kLength));
   const Vec3 at = element.vector("pos", Vec3::Zero(), Range::any(limits::kPosition));
   const std::string file = need_uri(uri.text, "heightmap", uri.source, session);
-  session.sources.will_be_read(file);
   shape.heights = read_heightmap(file, size, uri.source);
   pose.position += pose.rotation * at;
   return shape;
@@ -140,16 +136,17 @@ void check_size(const Shape& shape, const Element& element) {
               "<" + element.name + "> is " + number_text(largest) + " m large; " + problem);
 }
 
-/// Null where the <geometry> has none and the document is tolerant.
+/// Null if the <geometry> has none and the dialect permits it.
 const Element* shape_in(const Reader& part, Session& session) {
   const Element* geometry = part.child("geometry");
   const Element& element = part.element();
   if (geometry == nullptr) {
     throw Error(element.source, tag_of(element) + " has no <geometry>; give it one, such as <box>");
   }
-  const bool single = geometry->children.empty() || geometry->children[0].name != "polyline";
-  if (single && geometry->children.size() > 1) {
-    throw Error(geometry->children[1].source, "a second shape in one <geometry>; keep one");
+  for (const Element& shape : geometry->children) {
+    const Element& first = geometry->children[0];
+    if (&shape == &first || (shape.name == "polyline" && first.name == "polyline")) continue;
+    throw Error(shape.source, "a second shape in one <geometry>; keep one");
   }
   if (!geometry->children.empty()) return &geometry->children[0];
   session.warn_or_throw(
@@ -179,7 +176,7 @@ std::vector<PlacedShape> shapes_of(const Reader& part, const Pose& pose, Session
     try {
       check_size(each.shape, element);
     } catch (const Error& error) {
-      if (!each.shape.mesh || session.guessed) throw;
+      if (!each.shape.mesh) throw;
       session.warn_or_throw(error);
       each = {{}, each.pose};
     }

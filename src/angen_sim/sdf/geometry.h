@@ -10,8 +10,8 @@ namespace angen::load {
 struct PlacedShape {
   Shape shape;
   Pose pose;
-  std::shared_ptr<const MeshLook> look{};  // of a mesh
-  std::string file{};                      // that it was read from
+  std::shared_ptr<const MeshLook> look{};  // a mesh's
+  std::string file{};                      // the file that it was read from
 };
 
 /// The shapes in the <geometry> of a <collision> or <visual> at `pose`: boxes of an <image>, else

@@ -90,7 +90,6 @@ std::vector<PlacedShape> image_boxes(const Reader& reader, const Pose& pose, Ses
   const Element& element = reader.element();
   const Element& uri = reader.need("uri");
   const std::string file = need_uri(uri.text, "image", uri.source, session);
-  session.sources.will_be_read(file);
   const GrayImage image = read_png(file, "image", 1, uri.source);
   const double threshold = reader.number("threshold", kThreshold, Range::not_negative());
   if (!(threshold >= 0.0 && threshold <= kWhite)) {

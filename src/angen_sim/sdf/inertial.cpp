@@ -48,7 +48,7 @@ desc::Inertial read_inertial(const Reader& link, bool never_moves, Session& sess
   const std::string wrong = inertia_problem(inertial.mass, inertial.moment);
   if (wrong.empty()) return inertial;
   const std::string message = tag_of(link.element()) + ": " + wrong;
-  if (!never_moves && session.tolerant && is_possible(possible(inertial))) {
+  if (!never_moves && session.dialect->corrects_values() && is_possible(possible(inertial))) {
     session.warn(at, message + " (the nearest that a body can have is used)");
     return possible(inertial);
   }

@@ -7,7 +7,6 @@
 #include "core/text.h"
 #include "document/values.h"
 #include "document/xml.h"
-#include "import/urdf.h"
 #include "sdf/describe.h"
 #include "sdf/frames.h"
 
@@ -97,7 +96,7 @@ desc::JointAxis axis_of(const Reader& element, const Element& joint, const std::
   const std::string* frame =
       given == nullptr ? nullptr : Reader(*given, session).attribute("expressed_in");
   const Quat& turn = frame == nullptr || frame->empty()
-                         ? frames.pose(scope + name_of(joint)).rotation
+                         ? frames.joint_pose(scope + name_of(joint)).rotation
                          : frames.rotation(*frame, scope, element.element());
   axis.xyz = (turn * xyz).normalized();
   read_limit(element.block("limit"), joint, free, axis);
@@ -165,7 +164,7 @@ desc::Joint joint_of(const Element& element, const std::string& scope, Frames& f
   joint.type = type_of(*reader.attribute("type"));
   joint.parent = frames.link_of(reader.text("parent"), scope, element);
   joint.child = frames.link_of(reader.text("child"), scope, element);
-  joint.anchor = frames.pose(joint.name).position;
+  joint.anchor = frames.joint_pose(joint.name).position;
   if (joint.type == desc::Joint::Type::kFixed || joint.type == desc::Joint::Type::kBall) {
     return joint;
   }

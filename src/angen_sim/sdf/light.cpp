@@ -94,8 +94,7 @@ void read_distribution(const Reader& element, desc::Light& light, Session& sessi
   if (ies == nullptr) return;
   const Element& uri = Reader(*ies, session).need("uri");
   const std::string file = need_uri(uri.text, "IES file", uri.source, session);
-  light.photometry =
-      std::make_shared<const Photometry>(photometry_of(session.sources.read(file), file));
+  light.photometry = std::make_shared<const Photometry>(photometry_of(read_file(file), file));
 }
 
 }  // namespace

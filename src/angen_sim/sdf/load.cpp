@@ -5,14 +5,14 @@
 #include "core/alike.h"
 #include "core/limits.h"
 #include "core/names.h"
+#include "document/dialect.h"
 #include "document/search.h"
-#include "document/tolerance.h"
 #include "document/values.h"
 #include "document/xml.h"
-#include "import/upgrade.h"
 #include "sdf/check.h"
 #include "sdf/describe.h"
 #include "sdf/entry.h"
+#include "sdf/upgrade.h"
 
 namespace angen::load {
 
@@ -20,11 +20,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kText = "(text)";  // named in place of a file
-constexpr int kLoneVersion = 106;        // of an element without <sdf> around it
+constexpr const char* kText = "(text)";  // named instead of a file
+constexpr int kLoneVersion = 106;        // version of an element without <sdf> around it
 
 bool is_text(const std::string& what) {
-  const std::size_t first = what.find_first_not_of(" \t\r\n\f\v");
+  constexpr const char* kBlanks = " \t\r\n\f\v\xEF\xBB\xBF";  // and a byte order mark
+  const std::size_t first = what.find_first_not_of(kBlanks);
   return first != std::string::npos && what[first] == '<';
 }
 
@@ -32,24 +33,27 @@ bool is_model(const Element& element) {
   return element.name == "model" || element.name == "include" || element.name == "actor";
 }
 
-// The one element in an <sdf> that `accepts` is true for.
-template <class F>
-const Element* lone_child(const Element& sdf, F accepts) {
+// The one model in an <sdf>; null if it has other elements.
+const Element* lone_model(const Element& sdf) {
   const Element* found = nullptr;
   for (const Element& child : sdf.children) {
-    if (!accepts(child)) return nullptr;
+    if (!is_model(child)) return nullptr;
     if (found != nullptr) throw Error(child.source, "a second " + tag_of(child) + "; give one");
     found = &child;
   }
   return found;
 }
 
-Element model_from_text(const std::string& text, Session& session) {
-  check_text_size(text);
-  Element root = parse_xml(text, kText);
+// The element of a text that may say its dialect.
+const Element& marked_in(const Element& root) {
+  const Element* child = root.name == "sdf" ? lone_model(root) : nullptr;
+  return child == nullptr ? root : *child;
+}
+
+Element model_from_text(Element root, Session& session) {
   if (root.name == "sdf" || root.name == "robot") {
-    const Element sdf = read_document(text, kText, session);
-    const Element* child = lone_child(sdf, is_model);
+    const Element sdf = read_document(std::move(root), session);
+    const Element* child = lone_model(sdf);
     if (child == nullptr) {
       throw Error(sdf.source, "expected <sdf> with one <model>, <include> or <actor>");
     }
@@ -60,7 +64,6 @@ Element model_from_text(const std::string& text, Session& session) {
                                  "> is not a model; give <sdf>, <model>, <include>, "
                                  "<actor> or <robot>");
   }
-  replace_typographic_characters(root, session);
   upgrade(root, kLoneVersion, session);
   make_uris_absolute(root, session);
   return root;
@@ -81,24 +84,12 @@ Element model_from_file(const std::string& what) {
   return include;
 }
 
-// A model whose one link holds the sensor.
-Element holder_of(const Element& sensor) {
-  Element link;
-  link.name = "link";
-  link.source = sensor.source;
-  link.attributes = {{"name", "link"}};
-  link.children = {sensor};
-  Element model = link;
-  model.name = "model";
-  model.attributes = {{"name", "model"}};
-  model.children = {link};
-  return model;
-}
-
-bool is_tolerant(const Element& element, const SearchPaths& paths, bool by_default) {
-  if (const std::optional<bool> strict = marked_strict(element)) return !*strict;
-  if (paths.strictness == Strictness::kAuto) return by_default;
-  return paths.strictness == Strictness::kTolerant;
+const Dialect& dialect_of(const Element& element, const SearchPaths& paths, bool gazebo) {
+  if (paths.default_dialect != DefaultDialect::kAuto) {
+    gazebo = paths.default_dialect == DefaultDialect::kGazebo;
+  }
+  if (const std::optional<bool> strict = marked_strict(element)) gazebo = !*strict;
+  return gazebo ? gazebo_dialect(element) : own_dialect();
 }
 
 void give_name(Element& element, const std::string& name) {
@@ -113,14 +104,16 @@ void give_name(Element& element, const std::string& name) {
 }  // namespace
 
 desc::Model model(const std::string& what, const std::string& name, const Pose& pose,
-                  const SearchPaths& paths, bool tolerant) {
+                  const SearchPaths& paths, bool gazebo) {
   if (!name.empty()) check_name(name, "the model", {});
   if (const std::string problem = pose_problem(pose); !problem.empty()) throw Error(problem);
   Session session{paths};
-  session.tolerant = paths.strictness != Strictness::kStrict;  // until the document is read
-  Element element = is_text(what) ? model_from_text(what, session) : model_from_file(what);
-  session.decide(is_tolerant(element, paths, tolerant));
-  if (session.tolerant) set_attribute(element, kStrict, "false");
+  if (is_text(what)) check_text_size(what);
+  Element element = is_text(what) ? parse_xml(what, kText) : model_from_file(what);
+  session.dialect = &dialect_of(marked_in(element), paths, gazebo);
+  if (is_text(what)) element = model_from_text(std::move(element), session);
+  session.dialect = &dialect_of(element, paths, gazebo);  // a URDF says it when it is converted
+  if (session.dialect != &own_dialect()) set_attribute(element, kStrict, "false");
   give_name(element, name);
   set_child(element, "pose", pose_text(pose));
   std::vector<Entry> entries = {expand_entry(element, session)};
@@ -129,51 +122,13 @@ desc::Model model(const std::string& what, const std::string& name, const Pose& 
   if (element.name == "include" && name.empty()) {
     give_name(entry.original, name_of(entry.expanded));
   }
-  desc::Model model = std::move(describe_entries(entries, session).front());
-  if (entry.expanded.name == "model") model.pose = pose;
+  std::vector<desc::Model> models = describe_entries(entries, session);
+  if (models.empty()) throw Error(session.set_aside.back());
+  desc::Model model = std::move(models.front());
+  if (entries.front().expanded.name == "model") model.pose = pose;
   model.warnings = merge_alike(session.warnings);
   model.ignored = session.ignored;
   return model;
-}
-
-bool is_sensor(const std::string& what) {
-  if (!is_text(what) || what.size() > kMaxTextBytes) return false;
-  try {
-    const Element root = parse_xml(what, kText);
-    const auto accepts = [](const Element& e) { return e.name == "sensor"; };
-    return accepts(root) || (root.name == "sdf" && lone_child(root, accepts) != nullptr);
-  } catch (const Error&) {
-    return false;  // reading it as a model reports the error
-  }
-}
-
-desc::Sensor sensor(const std::string& what, const std::string& name, const Pose& pose) {
-  if (!name.empty()) check_name(name, "the sensor", {});
-  if (const std::string problem = pose_problem(pose); !problem.empty()) throw Error(problem);
-  check_text_size(what);
-  Element root = parse_xml(what, kText);
-  if (root.name == "sdf") {
-    const Element* child = lone_child(root, [](const Element& e) { return e.name == "sensor"; });
-    if (child == nullptr) throw Error(root.source, "expected <sensor>; <sdf> has none");
-    root = Element(*child);
-  }
-  if (root.name != "sensor") {
-    throw Error(root.source, "expected <sensor>; this is <" + root.name + ">");
-  }
-  const SearchPaths nowhere;
-  Session session{nowhere};
-  replace_typographic_characters(root, session);
-  upgrade(root, kLoneVersion, session);
-  root.attributes.erase(std::remove_if(root.attributes.begin(), root.attributes.end(),
-                                       [](const auto& a) { return a.first == "version"; }),
-                        root.attributes.end());
-  give_name(root, name);
-  check_name(name_of(root), "<sensor>", root.source);
-  check_part(root, session);
-  set_child(root, "pose", pose_text(pose));
-  // Errors that libsdformat would find in a saved world are found here.
-  describe_models({holder_of(root)}, session);
-  return sensor_of(root, pose, session);
 }
 
 }  // namespace angen::load

@@ -16,9 +16,7 @@ namespace angen::load {
 double memory_limit();
 void set_memory_limit(double megabytes);
 
-/// A whole world file; worlds/models beside it is searched too. The result of an earlier
-/// load of the same files comes from the user's cache, unless ANGEN_NO_CACHE is set. `allow_any` as
-/// in SearchPaths.
+/// A whole world file; worlds/models beside it is searched too. `allow_any` as in SearchPaths.
 desc::World world(const std::string& path, bool allow_any = false);
 
 /// A world from text; messages name `name` as its file.
@@ -31,7 +29,7 @@ std::string world_text(const std::string& path, bool allow_any = false);
 
 /// A file that a mesh, a heightmap or an image of a text is read from.
 struct UsedFile {
-  std::string uri;   // as the text has it
+  std::string uri;   // the URI in the text
   std::string path;  // where it is found, "" where it is not
 };
 std::vector<UsedFile> files_of(const std::string& xml, const SearchPaths& paths);
@@ -43,9 +41,9 @@ std::string world_around(const desc::Model& model);
 /// One model from a text (<sdf>, <model>, <include>, <actor>, or URDF <robot>), from a path, or
 /// from a model:// uri; `name` replaces its own unless empty, `pose` is its pose in the
 /// world (an actor's waypoints are relative to it). A lone element is read as SDF 1.6 or later.
-/// `tolerant`: so is the model, unless `strictness` or its own angen:strict says otherwise.
+/// `gazebo`: its dialect is Gazebo's, unless `paths` or its own angen:strict says otherwise.
 desc::Model model(const std::string& what, const std::string& name, const Pose& pose,
-                  const SearchPaths& paths, bool tolerant = false);
+                  const SearchPaths& paths, bool gazebo = false);
 
 /// True when `what` is a lone <sensor> element (or an <sdf> around one) for sensor().
 bool is_sensor(const std::string& what);
@@ -55,7 +53,7 @@ desc::Sensor sensor(const std::string& what, const std::string& name, const Pose
 
 /// True when `what` is a lone <light> element (or an <sdf> around one) for light().
 bool is_light(const std::string& what);
-/// The <light> of a text that only includes one, as one for `sun`; else "".
+/// The <light> of a text made for Gazebo that only includes one, as one for `sun`; else "".
 std::string included_light(const std::string& what, const SearchPaths& paths);
 
 /// A <light> element as a light of the world's own, with `pose` before its own; `name` replaces its
@@ -71,9 +69,9 @@ struct AttachedSensor {
 /// A light as it is now.
 struct LightState {
   const desc::Light* light = nullptr;
-  std::string link{};  // of a model, that it is in
+  std::string link{};  // link of a model that it is in
   Element lamp{};      // parameters of its own lamp as children, where they are to be written
-  std::string sdf{};   // that it was spawned from; "" for one that the world's text has
+  std::string sdf{};   // the text that it was spawned from; "" for one in the world's text
 };
 
 /// The changes of a model since it was described.
@@ -82,9 +80,9 @@ struct ModelState {
   Pose pose;                                                                 // in the world
   std::vector<std::pair<std::string, std::vector<double>>> joint_positions;  // rad or m, by name
   std::vector<AttachedSensor> attached{};
-  std::vector<Element> plugins{};     // of devices, with the parameters that they have now
+  std::vector<Element> plugins{};     // plug-ins of devices, with their present parameters
   std::vector<LightState> lights{};   // whose lamps have other parameters than in the text
-  const desc::Model* read = nullptr;  // as its text has it, where that differs
+  const desc::Model* read = nullptr;  // what its text says, if that differs
 };
 
 /// The settings of a world that may have changed.

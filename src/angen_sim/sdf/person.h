@@ -4,7 +4,7 @@ namespace angen::load {
 
 /// The body of an <actor>, and the plug-in that walks it. describe_actor() adds the actor's own
 /// mass, temperatures and waypoints. The moments are those of a solid cylinder of a person's size.
-/// Limbs swing, by their names (sim/gait.h).
+/// The plug-in moves the limbs by the names of their visuals.
 constexpr char kPerson[] = R"(
 <model name="person">
   <link name="body">

@@ -14,7 +14,7 @@ namespace angen::load {
 
 namespace {
 
-constexpr std::size_t kMaxCorners = 1000;  // of all outlines
+constexpr std::size_t kMaxCorners = 1000;  // corners of all outlines
 
 Polygon outline_of(const Element& polyline) {
   Polygon outline;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/text.h"
-#include "document/tolerance.h"
+#include "document/dialect.h"
 #include "document/values.h"
 #include "sdf/vocabulary.h"
 
@@ -35,11 +35,11 @@ void check_number(const Element& element, double value, const Range& range) {
 // A shape without thickness is as thin as Gazebo makes it, as a plate of 0.3 0.2 0 m.
 void set_minimum_thickness(const Element& element, std::vector<double>& values, Session& session) {
   constexpr double kThin = 1e-4;  // m
-  if (!session.tolerant || std::find(values.begin(), values.end(), 0.0) == values.end()) return;
+  if (std::find(values.begin(), values.end(), 0.0) == values.end()) return;
+  if (!session.dialect->corrects_values()) return;
   std::replace(values.begin(), values.end(), 0.0, kThin);
-  session.warn_or_throw(
-      Error(element.source,
-            "<" + element.name + "> is 0; it must be greater than 0; it is taken as 0.1 mm"));
+  session.warn(element.source,
+               "<" + element.name + "> is 0; it must be greater than 0; it is taken as 0.1 mm");
 }
 
 double usable(const Element& element, double value, const Range& range, Session& session) {
@@ -80,7 +80,7 @@ const Element& Reader::need(const std::string& key) const {
   if (const Element* found = child(key)) return *found;
   for (const Element& other : element_->children) {
     if (meant_element(other.name, element_->name) == key) {
-      throw Error(other.source, misspelling(other.name, element_->name));
+      throw Error(other.source, unknown_element(other.name, element_->name));
     }
   }
   throw Error(element_->source, "<" + element_->name + "> has no <" + key + ">; give it one");
@@ -183,11 +183,15 @@ void walk(const Element& element, Mark mark, Session& session) {
     const bool known = found != session.read.end();
     const Mark its = known ? found->second : child.name == "pose" ? Mark::kRead : Mark::kUnused;
     if (its == Mark::kUnused) {
-      const std::string meant = known ? "" : misspelling(child.name, element.name);
-      if (!meant.empty()) {
-        session.warn_or_throw(Error(child.source, meant));
+      const std::string unknown = known ? "" : unknown_element(child.name, element.name);
+      if (!unknown.empty() && meant_element(child.name, element.name).empty()) {
+        session.warn(child.source, unknown);
+      } else if (!unknown.empty()) {
+        session.warn_or_throw(Error(child.source, unknown));
       } else if (known || mark != Mark::kOpen) {
         session.ignore(child.source, "<" + child.name + "> in <" + element.name + ">");
+      } else if (child.name != "plugin") {
+        walk(child, mark, session);
       }
     } else if (its != Mark::kWarned && child.name != "plugin") {  // its kind lists its own
       walk(child, its, session);
@@ -195,20 +199,11 @@ void walk(const Element& element, Mark mark, Session& session) {
   }
 }
 
-// Another element may be made at the same address.
-void forget(const Element& element, Session& session) {
-  session.read.erase(&element);
-  for (const auto& [name, value] : element.attributes) {
-    session.read_attributes.erase({&element, name});
-  }
-  for (const Element& child : element.children) forget(child, session);
-}
-
 }  // namespace
 
 void note_ignored(const Element& element, Session& session) {
   walk(element, Mark::kRead, session);
-  forget(element, session);
+  session.forget(element);
 }
 
 }  // namespace angen::load

@@ -22,7 +22,7 @@ struct Range {
   Limit limit = limits::kOther;
   /// Beyond these the solver sees no difference, so the bound is used, with a warning. 0 stays 0.
   std::optional<std::pair<double, double>> usable{};
-  bool thickness = false;  // where tolerant, 0 is taken as 0.1 mm
+  bool thickness = false;  // 0 may be corrected to 0.1 mm
 
   static constexpr Range any(const Limit& limit) { return {Sign::kAny, limit}; }
   static constexpr Range positive(const Limit& limit = limits::kOther) {
@@ -50,7 +50,7 @@ class Reader {
   explicit operator bool() const { return element_ != nullptr; }
   const Element& element() const { return *element_; }
 
-  /// The first child of that name, null where there is none.
+  /// The first child of that name, null if there is none.
   const Element* child(const std::string& key) const;
   Reader block(const std::string& key) const { return {child(key), *session_}; }
   /// A child that must be there.
@@ -59,7 +59,7 @@ class Reader {
 
   double number(const std::string& key, double fallback, const Range& range = {}) const;
   std::optional<double> number(const std::string& key, const Range& range = {}) const;
-  /// `count` numbers, none where there is no such child.
+  /// `count` numbers, none if there is no such child.
   std::vector<double> numbers(const std::string& key, std::size_t count, const Range& range) const;
   Vec3 vector(const std::string& key, const Vec3& fallback, const Range& range) const;
   /// A vector that is to be normalized; 0 0 0 is left to the caller.
@@ -81,7 +81,7 @@ class Reader {
 
   const Element* element_;
   Session* session_;
-  Session::Mark mark_ = Session::Mark::kRead;  // of its children
+  Session::Mark mark_ = Session::Mark::kRead;  // mark of its children
 };
 
 /// Notes in the session the unread parts of an element and of all read ones below: elements and

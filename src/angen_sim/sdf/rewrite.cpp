@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/text.h"
-#include "document/tolerance.h"
+#include "document/dialect.h"
 #include "document/values.h"
 #include "document/xml.h"
 #include "sdf/describe.h"

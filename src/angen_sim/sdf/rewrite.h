@@ -9,7 +9,7 @@ namespace angen::load {
 
 Element element_of(const std::string& name, const std::string& text = "");
 
-/// The <link> or <joint> of a written-out model, null where it has none; "child::link" is in the
+/// The <link> or <joint> of a written-out model, null if it has none; "child::link" is in the
 /// nested model `child`.
 Element* find_part(Element& model, const std::string& element, const std::string& name);
 

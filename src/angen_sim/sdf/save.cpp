@@ -24,23 +24,19 @@ void attach(Element& model, const AttachedSensor& attached) {
   link->children.push_back(std::move(sensor));
 }
 
-bool is_person(const desc::Model& model) {
-  return !model.links.empty() && model.links.front().upright;
-}
-
 bool is_same_plugin(const Element& a, const Element& b) {
   const std::string* one = a.attribute("filename");
   const std::string* other = b.attribute("filename");
   return a.name == "plugin" && one != nullptr && other != nullptr && *one == *other;
 }
 
-// In place of the model's own of that library, or after those that it includes: the last holds.
-void put_plugin(Element& model, Element plugin, bool person) {
+// Instead of the model's own of that library, or after those that it includes: the last holds.
+void put_plugin(Element& model, Element plugin, bool is_actor) {
   Element* own = nullptr;
   for (Element& part : model.children) {
     if (is_same_plugin(part, plugin)) own = &part;
   }
-  if (person) {
+  if (is_actor) {
     // An actor's <script> gives these again.
     for (const char* name : {"waypoint", "loop", "delay_start"}) {
       remove_children(plugin, name);
@@ -72,9 +68,9 @@ Element written(const ModelState& state) {
   for (const LightState& light : state.lights) {
     if (Element* link = find_part(element, "link", light.link)) write_lamp(light, *link);
   }
-  for (const Element& plugin : state.plugins) put_plugin(element, plugin, is_person(model));
+  for (const Element& plugin : state.plugins) put_plugin(element, plugin, model.is_actor);
   // An actor's own pose is where its trajectory's coordinates begin; <state> says where it is.
-  if (is_person(model)) return element;
+  if (model.is_actor) return element;
   set_child(element, "pose", pose_text(state.pose));
   return element;
 }

@@ -5,7 +5,6 @@
 #include "assets/mesh.h"
 #include "core/text.h"
 #include "document/search.h"
-#include "import/ogre.h"
 
 namespace angen::load {
 
@@ -13,7 +12,6 @@ namespace {
 
 std::shared_ptr<const Texture> texture_in(const std::string& path, const Source& at,
                                           Session& session) {
-  session.sources.will_be_read(path);
   try {
     std::shared_ptr<const Texture> texture = read_texture(path);
     if (session.counted_files.insert(path).second) {
@@ -76,13 +74,13 @@ bool paint_by_script(const Reader& reader, Session& session, desc::Material& mat
   const Element* name = reader.child("name");
   for (const Element& uri : script.children) {
     if (uri.name != "uri" || uri.text.empty() || name == nullptr) continue;
-    const std::optional<OgreMaterial> found = ogre_material(uri, name->text, session);
+    const auto file = find_uri(uri.text, uri.source.file, session);
+    if (!file) continue;  // Gazebo's own, as a rule
+    const auto found = gazebo_dialect(script).ogre_material(*file, uri, script, session);
     if (!found) continue;
     if (found->diffuse) material.diffuse = *found->diffuse;
     if (found->texture.empty()) return true;
-    const std::string path = ogre_texture(script, *found, session);
-    if (path.empty()) return true;
-    if (auto texture = texture_in(path, name->source, session)) {
+    if (auto texture = texture_in(found->texture, name->source, session)) {
       material.diffuse.head<3>() = texture->mean();
       material.textures = {std::move(texture)};
     }

@@ -1,15 +1,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <optional>
 
 #include "core/alike.h"
 #include "core/names.h"
+#include "document/dialect.h"
 #include "document/search.h"
-#include "document/tolerance.h"
 #include "document/values.h"
 #include "document/xml.h"
-#include "import/shorthand.h"
-#include "sdf/cache.h"
 #include "sdf/check.h"
 #include "sdf/describe.h"
 #include "sdf/entry.h"
@@ -17,7 +17,6 @@
 #include "sdf/light.h"
 #include "sdf/load.h"
 #include "sdf/reader.h"
-#include "sdf/schema.h"
 
 namespace angen::load {
 
@@ -42,78 +41,113 @@ Parts split(const Element& world, Session& session) {
       parts.states.push_back(child);
       continue;
     }
-    if (child.name == "population" || child.name == "road") {
-      for (Element& model : child.name == "road" ? std::vector<Element>{road_model(child)}
-                                                 : population_models(child)) {
-        parts.entries.push_back(expand_entry(model, session));
-      }
-      continue;
-    }
-    if (child.name != "model" && child.name != "actor" && child.name != "include") {
+    const bool is_several = child.name == "population" || child.name == "road";
+    if (!is_several && child.name != "model" && child.name != "actor" && child.name != "include") {
       parts.settings.children.push_back(child);
       continue;
     }
-    Entry entry;
-    try {
-      entry = expand_entry(child, session);
-    } catch (const Error& error) {
-      warn_or_throw_missing(child, error, session);
-      continue;
-    }
-    if (entry.expanded.name == "model" && !session.guessed && !has_link(entry.expanded)) {
-      session.warn_or_throw(
-          Error(child.source, tag_of(entry.expanded) + " has no <link>; give it one"));
-      continue;
-    }
-    if (entry.expanded.name == "light") {
-      parts.settings.children.push_back(entry.expanded);
-    } else {
-      parts.entries.push_back(std::move(entry));
+    Element part = child;
+    std::vector<Entry> entries;
+    session.read_without_errors({&part}, [&] {
+      entries.clear();
+      const std::vector<Element> models =
+          is_several ? gazebo_dialect(part).models_of(part) : std::vector<Element>{part};
+      for (const Element& each : models) {
+        entries.push_back(expand_entry(each, session));
+      }
+    });
+    for (Entry& entry : entries) {
+      if (entry.expanded.name == "light") {
+        parts.settings.children.push_back(std::move(entry.expanded));
+      } else {
+        parts.entries.push_back(std::move(entry));
+      }
     }
   }
   return parts;
 }
 
-bool is_tolerant(const Element& given, const Parts& parts, const SearchPaths& paths) {
-  if (const std::optional<bool> strict = marked_strict(given)) return !*strict;
-  if (paths.strictness != Strictness::kAuto) return paths.strictness == Strictness::kTolerant;
-  return !holds_own_plugin(parts.settings) &&
-         std::none_of(parts.entries.begin(), parts.entries.end(),
-                      [](const Entry& entry) { return holds_own_plugin(entry.expanded); });
+bool is_own(const Parts& parts) {
+  return holds_own_plugin(parts.settings) ||
+         std::any_of(parts.entries.begin(), parts.entries.end(),
+                     [](const Entry& entry) { return holds_own_plugin(entry.expanded); });
 }
 
-// The parts of a world, and whether it is tolerant, which its own texts then say.
-Parts split_and_decide(const Element& given, Session& session) {
-  const bool strict = session.paths.strictness == Strictness::kStrict;
-  session.tolerant = !marked_strict(given).value_or(strict);
-  const bool guesses = !marked_strict(given) && session.paths.strictness == Strictness::kAuto;
-  session.guessed = guesses || marked_guessed(given);
-  Parts parts = split(given, session);
-  session.decide(is_tolerant(given, parts, session.paths));
-  if (!session.tolerant) return parts;
-  set_attribute(parts.settings, kStrict, session.guessed ? kGuessed : "false");
-  return parts;
-}
-
-bool holds_tolerant_model(const Parts& parts) {
+bool holds_foreign_model(const Parts& parts) {
   return std::any_of(parts.entries.begin(), parts.entries.end(),
                      [](const Entry& entry) { return marked_strict(entry.original) == false; });
 }
 
-// If tolerant, keeps the first of two models of one name.
+const Element& only_world(const Element& sdf) {
+  const Element* found = nullptr;
+  for (const Element& child : sdf.children) {
+    if (child.name != "world") continue;
+    if (found != nullptr) throw Error(child.source, "a second <world> in one file; keep one");
+    found = &child;
+  }
+  if (found == nullptr) throw Error(sdf.source, "the file has no <world>; a world file needs one");
+  return *found;
+}
+
+/// The parts of a world, as documents of a dialect have them.
+struct Reading {
+  Reading(const Element& document, const SearchPaths& paths, const Dialect& dialect)
+      : session{paths, &dialect} {
+    const Open open(session, document.source.file);
+    const Element sdf = read_document(document, session);
+    parts = split(only_world(sdf), session);
+    if (&dialect != &own_dialect()) set_attribute(parts.settings, kStrict, "false");
+    for (const Element& child : sdf.children) {
+      if (child.name != "world") session.ignore(child.source, "<" + child.name + "> in <sdf>");
+    }
+  }
+
+  Session session;
+  Parts parts;
+};
+
+std::unique_ptr<Reading> read_parts(const std::string& xml, const std::string& name,
+                                    const SearchPaths& paths) {
+  const Element document = parse_xml(xml, name);
+  const Element* given = document.child("world");
+  const Element& world = given == nullptr ? document : *given;
+  const auto read_as = [&](const Dialect& dialect) {
+    return std::make_unique<Reading>(document, paths, dialect);
+  };
+  std::optional<bool> strict = marked_strict(world);
+  if (!strict && paths.default_dialect != DefaultDialect::kAuto) {
+    strict = paths.default_dialect == DefaultDialect::kOwn;
+  }
+  if (strict) return read_as(*strict ? own_dialect() : gazebo_dialect(world));
+  std::optional<Error> wrong;  // in a document of ours
+  try {
+    std::unique_ptr<Reading> own = read_as(own_dialect());
+    if (is_own(own->parts)) return own;
+  } catch (const Error& error) {
+    if (holds_own_plugin(world)) throw;
+    wrong = error;
+  }
+  std::unique_ptr<Reading> gazebo = read_as(gazebo_dialect(world));
+  if (wrong && is_own(gazebo->parts)) throw Error(*wrong);
+  return gazebo;
+}
+
+// Keeps the first of two models of one name, if the dialect permits them.
 void check_entry_names(std::vector<Entry>& entries, Session& session) {
   std::map<std::string, Source> seen;
   std::vector<Entry> kept;
   for (Entry& entry : entries) {
     const std::string name = name_of(entry.expanded);
-    check_name(name, "<" + entry.expanded.name + ">", entry.original.source);
+    const bool named = session.read_without_errors({&entry.original}, [&] {
+      check_name(name, "<" + entry.expanded.name + ">", entry.original.source);
+    });
+    if (!named) continue;
     const auto [there, fresh] = seen.insert({name, entry.original.source});
     if (!fresh) {
-      const Error twice(entry.original.source,
-                        "a model named '" + name + "' exists already, at line " +
-                            std::to_string(there->second.line) + "; give this one another <name>");
-      if (session.guessed) throw Error(twice);
-      session.warn_or_throw(twice);
+      session.warn_or_throw(Error(entry.original.source, "a model named '" + name +
+                                                             "' exists already, at line " +
+                                                             std::to_string(there->second.line) +
+                                                             "; give this one another <name>"));
       continue;
     }
     kept.push_back(std::move(entry));
@@ -123,6 +157,7 @@ void check_entry_names(std::vector<Entry>& entries, Session& session) {
 
 // Most models need only their names and poses.
 void place_all(const Parts& parts, desc::World& to, Session& session) {
+  to.lights.clear();
   Element world = parts.settings;
   for (const Entry& entry : parts.entries) {
     if (entry.expanded.attribute("placement_frame") != nullptr) {
@@ -148,41 +183,44 @@ void place_all(const Parts& parts, desc::World& to, Session& session) {
   }
 }
 
-const Element& only_world(const Element& sdf) {
-  const Element* found = nullptr;
-  for (const Element& child : sdf.children) {
-    if (child.name != "world") continue;
-    if (found != nullptr) throw Error(child.source, "a second <world> in one file; keep one");
-    found = &child;
+desc::World describe_world(Reading& reading) {
+  Session& session = reading.session;
+  Parts& parts = reading.parts;
+  const Source& at = parts.settings.source;
+  const std::string name = name_of(parts.settings);
+  if (name.empty()) {
+    session.warn_or_throw(Error(at, "<world> has no name; write name=\"home\""));
   }
-  if (found == nullptr) throw Error(sdf.source, "the file has no <world>; a world file needs one");
-  return *found;
-}
-
-desc::World describe_world(const Element& sdf, Session& session) {
-  const Element& given = only_world(sdf);
-  Parts parts = split_and_decide(given, session);
-  if (name_of(given).empty()) throw Error(given.source, "<world> has no name; write name=\"home\"");
-  const std::string problem = label_problem(name_of(given));
-  if (!problem.empty()) throw Error(given.source, "<world>: " + problem);
-  check_settings(parts.settings, session);
-  check_entry_names(parts.entries, session);
-
+  const std::string problem = label_problem(name);
+  if (!problem.empty()) throw Error(at, "<world>: " + problem);
   desc::World world;
-  world.tolerant = session.tolerant;
-  session.tolerant = session.tolerant || holds_tolerant_model(parts);
-  world.name = name_of(given);
+  world.name = name;
+  session.dialect->complete(world);
   world.xml = print_xml(parts.settings);
-  read_settings(parts.settings, world, session);
+  const desc::World empty = world;
+  desc::World settings = empty;
+  const auto read = [&] {
+    check_settings(parts.settings, session);
+    settings = empty;
+    read_settings(parts.settings, settings, session);
+  };
+  if (session.read_without_errors({&parts.settings}, read)) world = settings;
+  check_entry_names(parts.entries, session);
+  if (holds_foreign_model(parts)) session.dialect = &gazebo_dialect(parts.settings);
   world.models = describe_entries(parts.entries, session);
-  place_all(parts, world, session);
-  check_schema(parts.settings, session);
-  for (const Element& child : sdf.children) {
-    if (child.name != "world") session.ignore(child.source, "<" + child.name + "> in <sdf>");
+  std::vector<Element*> placed = {&parts.settings};
+  for (Entry& entry : parts.entries) placed.push_back(&entry.expanded);
+  const auto place = [&] {
+    settings = empty;
+    read_settings(parts.settings, settings, session);  // notes what is read, also of fewer elements
+    place_all(parts, world, session);
+  };
+  if (!session.read_without_errors(placed, place)) {
+    throw Error(at, "the models of this <world> cannot be placed");
   }
   note_ignored(parts.settings, session);
-  for (const Element& state : parts.states) {
-    apply_state(state, world, session);
+  for (Element& state : parts.states) {
+    session.read_without_errors({&state}, [&] { apply_state(state, world, session); });
     note_ignored(state, session);
   }
   world.warnings = merge_alike(session.warnings);
@@ -197,27 +235,17 @@ SearchPaths paths_beside(const std::string& path, bool allow_any) {
   return paths;
 }
 
-desc::World read_world(const std::string& xml, const std::string& name, Session& session) {
-  const Open open(session, name);
-  session.tolerant = session.paths.strictness != Strictness::kStrict;  // until it is read
-  return describe_world(read_document(xml, name, session), session);
-}
-
 }  // namespace
 
 desc::World world_from_text(const std::string& xml, const std::string& name,
                             const SearchPaths& paths) {
-  Session session{paths};
-  return read_world(xml, name, session);
+  return describe_world(*read_parts(xml, name, paths));
 }
 
 std::string world_text(const std::string& path, bool allow_any) {
   const SearchPaths paths = paths_beside(path, allow_any);
-  Session session{paths};
-  const Open open(session, path);
-  session.tolerant = paths.strictness != Strictness::kStrict;
-  const Element given = read_document(session.sources.read(path), path, session);
-  Parts parts = split_and_decide(only_world(given), session);
+  const std::unique_ptr<Reading> reading = read_parts(read_file(path), path, paths);
+  Parts& parts = reading->parts;
   Element world = std::move(parts.settings);
   for (Entry& entry : parts.entries) world.children.push_back(std::move(entry.expanded));
   for (Element& state : parts.states) world.children.push_back(std::move(state));
@@ -229,13 +257,7 @@ std::string world_text(const std::string& path, bool allow_any) {
 }
 
 desc::World world(const std::string& path, bool allow_any) {
-  const SearchPaths paths = paths_beside(path, allow_any);
-  const Cache cache(path, paths);
-  if (std::optional<desc::World> kept = cache.recall()) return *std::move(kept);
-  Session session{paths};
-  desc::World world = read_world(session.sources.read(path), path, session);
-  if (session.tolerated.empty()) cache.keep(world, session.sources);
-  return world;
+  return world_from_text(read_file(path), path, paths_beside(path, allow_any));
 }
 
 }  // namespace angen::load

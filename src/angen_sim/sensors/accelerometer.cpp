@@ -3,13 +3,15 @@
 #include <cmath>
 #include <optional>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 
 namespace angen::sensors {
 
 namespace {
 
-constexpr double kGentle = 0.3;                      // of gravity
+constexpr double kGentle = 0.3;                      // share of gravity
 constexpr double kGlides = 0.05;                     // m/s up or down: uniform motion is not rest
 constexpr Nanoseconds kLongestGlide = 10 * kSecond;  // the integral of a longer one says nothing
 

@@ -1,5 +1,7 @@
 #include "sensors/air.h"
 
+#include "plugin/view.h"
+
 namespace angen::sensors {
 
 void AirSensor::configure(Params& params, Wiring&) {

@@ -1,7 +1,8 @@
 // libbarometer.so
 #include <cmath>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
 
 namespace angen::sensors {
 

@@ -1,5 +1,5 @@
 // libgazebo_ros_block_laser.so
-#include "plugin/register.h"
+#include "plugin/registration.h"
 #include "sensors/cloud.h"
 
 namespace angen::sensors {

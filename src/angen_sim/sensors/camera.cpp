@@ -1,5 +1,6 @@
 // libgazebo_ros_camera.so libgazebo_ros_multicamera.so
-#include "plugin/register.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
 #include "sensors/camera_params.h"
 
 namespace angen::sensors {

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "plugin/view.h"
+
 namespace angen::sensors {
 
 namespace {
@@ -32,24 +34,26 @@ void Cloud::read_rays(Params& params) {
       "gaussianNoise", 0.0, "m", "standard deviation of a range, beside the rays'", kNotNegative);
   fan_.noise_stddev = std::hypot(fan_.noise_stddev, more);
   fan_.declare_noise("ranges", params);
+  read_near_blocks(params, fan_);
   directions_ = fan_.directions();
 }
 
 void Cloud::read(const View& view, Hits hits, Rng&, Reading& reading) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  std::vector<double> ranges, intensities;
-  ranges.reserve(hits.size());
-  intensities.reserve(hits.size());
+  Ranges ranges = fan_.scan(view, directions_, hits);
+  std::vector<double> intensities;
+  intensities.reserve(ranges.size());
   std::map<std::uint32_t, double> known;  // by shape
-  for (const rays::Hit& hit : hits) {
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const rays::Hit& hit = hits[i];
     double intensity = 0.0;
-    if (hit.hit()) {
+    if (std::isfinite(ranges[i])) {
       const auto [at, is_new] = known.emplace(hit.shape, 0.0);
       if (is_new) at->second = kWhite * view.reflectance(hit.shape).mean();
       intensity = at->second;
     }
-    const bool seen = hit.hit() && intensity >= least_intensity_;
-    ranges.push_back(seen ? hit.range : kNone);
+    const bool seen = std::isfinite(ranges[i]) && intensity >= least_intensity_;
+    if (!seen) ranges[i] = kNone;
     intensities.push_back(seen ? intensity : 0.0);
   }
   reading.set("ranges", std::move(ranges));

@@ -12,7 +12,7 @@ class Cloud : public Sensor {
  public:
   std::optional<RayGeometry> rays() const override { return fan_; }
   int ray_set(const View&) override { return 0; }
-  void aim(const View& view, RayBatch& rays) override { fan_.aim(view.pose(), directions_, rays); }
+  void aim(const View& view, RayBatch& rays) override { fan_.aim_scan(view, directions_, rays); }
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override;
 
  protected:

@@ -3,7 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 #include "sensors/watched.h"
 
 namespace angen::sensors {
@@ -126,7 +128,7 @@ class Contact : public Sensor {
   Nanoseconds debounce_ = 0;
   Nanoseconds window_ = 0;             // contacts that ended before are not reported
   bool lasting_ = true;                // all that it reported last touched then
-  std::string frame_ = "world";        // that points and forces are in
+  std::string frame_ = "world";        // frame of points and forces
   std::optional<LinkRef> frame_link_;  // none: it is the world
   Nanoseconds sample_period_ = kSecond / 100;
   std::optional<bool> pressed_;            // none before the first reading

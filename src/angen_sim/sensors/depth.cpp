@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "plugin/view.h"
+
 namespace angen::sensors {
 
 void Depth::configure(Params& params, Wiring&) {

@@ -1,7 +1,7 @@
 // libgazebo_ros_depth_camera.so
 #include <limits>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
 #include "sensors/depth.h"
 
 namespace angen::sensors {

@@ -2,15 +2,77 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "plugin/view.h"
 
 namespace angen::sensors {
 
-void Fan::aim(const Pose& pose, const std::vector<Vec3>& directions, RayBatch& rays) const {
+constexpr double kBehind = 1e-4;  // m behind a hit on its own model, from which a ray goes on
+
+void Fan::aim(const View& view, const std::vector<Vec3>& directions, RayBatch& rays) const {
+  const Pose pose = view.pose();
   const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
   rays.reserve(rays.size() + directions.size());
   for (const Vec3& direction : directions) {
     rays.push_back({pose.position, (rotation * direction).normalized(), min, max});
   }
+}
+
+void Fan::aim_scan(const View& view, const std::vector<Vec3>& directions, RayBatch& rays) const {
+  aim(view, directions, rays);
+  if (!near_blocks || min <= 0.0) return;
+  near_part().aim(view, directions, rays);
+}
+
+Fan Fan::near_part() const {
+  Fan part = *this;
+  part.min = 0.0;
+  part.max = min;
+  return part;
+}
+
+namespace {
+
+/// Sets to -infinity the range of each ray whose short one, in `open`, hits another model than the
+/// sensor's own. A short ray that hits its own model goes on behind the hit.
+void mark_too_near(const View& view, RayBatch open, std::vector<rays::Hit> hits, Ranges& ranges) {
+  std::vector<std::size_t> numbers(open.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  const std::vector<std::uint32_t> own = view.own_shapes();
+  while (!open.empty()) {
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      if (!hits[i].hit()) continue;
+      if (std::find(own.begin(), own.end(), hits[i].shape) == own.end()) {
+        ranges[numbers[i]] = -std::numeric_limits<double>::infinity();
+        continue;
+      }
+      open[left] = open[i];
+      open[left].min = hits[i].range + kBehind;
+      numbers[left++] = numbers[i];
+    }
+    open.resize(left);
+    hits.assign(left, {});
+    view.cast(open, hits, rays::kAll);
+  }
+}
+
+}  // namespace
+
+Ranges Fan::scan(const View& view, const std::vector<Vec3>& directions, Hits hits) const {
+  const auto last = hits.begin() + directions.size();
+  Ranges ranges;
+  ranges.reserve(directions.size());
+  for (auto hit = hits.begin(); hit != last; ++hit) ranges.push_back(hit->range);
+  if (std::any_of(last, hits.end(), [](const rays::Hit& hit) { return hit.hit(); })) {
+    RayBatch near;
+    near_part().aim(view, directions, near);
+    mark_too_near(view, std::move(near), {last, hits.end()}, ranges);
+  }
+  return ranges;
 }
 
 Ranges Fan::measure(Hits hits) const {
@@ -29,6 +91,12 @@ Ranges Fan::with_noise(Ranges ranges, Rng rng) const {
     ranges[i] = std::clamp(ranges[i] + noise_mean + error, min, max);
   }
   return ranges;
+}
+
+void read_near_blocks(Params& params, Fan& fan) {
+  fan.near_blocks = params.flag("near_blocks", true,
+                                "a thing nearer than <min> gives no range; false: rays begin at "
+                                "<min>, as in Gazebo");
 }
 
 Fan read_fan(Params& params, const Fan& fallback) {

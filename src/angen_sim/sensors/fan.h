@@ -4,8 +4,8 @@
 
 #include "core/random.h"
 #include "plugin/params.h"
+#include "plugin/plugin.h"
 #include "plugin/ray_geometry.h"
-#include "plugin/view.h"
 
 namespace angen::sensors {
 
@@ -17,8 +17,17 @@ struct Fan : RayGeometry {
   double noise_mean = 0.0;  // m, of a hit's range
   double noise_stddev = 0.0;
 
-  /// `directions` as rays of the sensor at `pose` (world).
-  void aim(const Pose& pose, const std::vector<Vec3>& directions, RayBatch& rays) const;
+  bool near_blocks = true;  // a thing nearer than `min` hides what is behind it
+
+  /// `directions` as rays of the sensor that has the view.
+  void aim(const View& view, const std::vector<Vec3>& directions, RayBatch& rays) const;
+
+  /// The same for scan(): after these rays come as many short ones, for what is too near.
+  void aim_scan(const View& view, const std::vector<Vec3>& directions, RayBatch& rays) const;
+
+  /// The hits of aim_scan() as ranges in m: infinite without a hit, and -infinite if something is
+  /// nearer than `min` that does not belong to the sensor's own model (REP 117).
+  Ranges scan(const View& view, const std::vector<Vec3>& directions, Hits hits) const;
 
   /// The scan that `hits` are, without noise.
   Ranges measure(Hits hits) const;
@@ -38,11 +47,17 @@ struct Fan : RayGeometry {
   /// of its random numbers is below this.
   double no_event_probability(double limit) const { return no_event_probability(limit, size()); }
 
-  /// That probability for a scan of `rays` rays.
+  /// The same probability for a scan of `rays` rays.
   double no_event_probability(double limit, std::size_t rays) const {
     return noise_stddev > 0.0 ? chance_within(rays, limit / noise_stddev) : 1.0;
   }
+
+ private:
+  Fan near_part() const;  // from the sensor to `min`
 };
+
+/// Reads <near_blocks>, for sensors that measure by scan().
+void read_near_blocks(Params& params, Fan& fan);
 
 /// Reads <scan>, <range> and <noise> of <ray>; `fallback` has the default values.
 Fan read_fan(Params& params, const Fan& fallback);

@@ -1,5 +1,5 @@
 // libhumidity_sensor.so
-#include "plugin/register.h"
+#include "plugin/registration.h"
 #include "sensors/air.h"
 
 namespace angen::sensors {

@@ -20,7 +20,7 @@ class IdChanges {
  private:
   const char* added_;
   const char* removed_;
-  std::vector<std::string> last_;  // as reported
+  std::vector<std::string> last_;  // last reported
   bool pending_ = false;
 };
 

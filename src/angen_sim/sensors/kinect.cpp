@@ -1,5 +1,5 @@
 // libgazebo_ros_openni_kinect.so
-#include "plugin/register.h"
+#include "plugin/registration.h"
 #include "sensors/depth.h"
 
 namespace angen::sensors {

@@ -1,9 +1,8 @@
 // libgazebo_ros_laser.so libgazebo_ros_gpu_laser.so
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
 #include "sensors/fan.h"
 
 namespace angen::sensors {
@@ -22,7 +21,7 @@ Fan default_fan() {
 
 }  // namespace
 
-/// A planar laser scanner. A ray without a hit is infinite, as REP 117 requires.
+/// A planar laser scanner. Ranges without a hit and too near are infinite, as REP 117 requires.
 class Lidar : public Sensor {
  public:
   void configure(Params& params, Wiring&) override {
@@ -32,22 +31,18 @@ class Lidar : public Sensor {
                          "a lidar has " + std::to_string(fan_.rows) + " rows of rays, must have 1");
     }
     directions_ = fan_.directions();
+    read_near_blocks(params, fan_);
     period_ = to_seconds(params.update_period());
     fan_.declare_noise("ranges", params);
   }
 
   std::optional<RayGeometry> rays() const override { return fan_; }
   int ray_set(const View&) override { return 0; }
-  void aim(const View& view, RayBatch& rays) override { fan_.aim(view.pose(), directions_, rays); }
+  void aim(const View& view, RayBatch& rays) override { fan_.aim_scan(view, directions_, rays); }
 
-  void read(const View&, Hits hits, Rng&, Reading& reading) override {
-    std::vector<double> ranges;
-    ranges.reserve(hits.size());
-    for (const rays::Hit& hit : hits) {
-      ranges.push_back(hit.hit() ? hit.range : std::numeric_limits<double>::infinity());
-    }
+  void read(const View& view, Hits hits, Rng&, Reading& reading) override {
     const int steps = std::max(1, fan_.columns - 1);
-    reading.set("ranges", std::move(ranges));
+    reading.set("ranges", fan_.scan(view, directions_, hits));
     reading.set("angle_min",
                 fan_.columns == 1 ? 0.5 * (fan_.min_yaw + fan_.max_yaw) : fan_.min_yaw);
     reading.set("angle_max",
@@ -64,16 +59,18 @@ class Lidar : public Sensor {
   double period_ = 0.0;  // s
 };
 
-ANGEN_REGISTER_SENSOR(Lidar, Kind("lidar", "A planar laser scanner.")
-                                 .rate(10.0)
-                                 .on_demand()
-                                 .numbers("ranges", "m", "of each ray, infinite without a hit")
-                                 .number("angle_min", "rad", "of the first ray")
-                                 .number("angle_max", "rad", "of the last ray")
-                                 .number("angle_increment", "rad", "between two rays")
-                                 .number("scan_time", "s", "between two scans")
-                                 .number("range_min", "m", "nearest")
-                                 .number("range_max", "m", "farthest")
-                                 .shown(1))
+ANGEN_REGISTER_SENSOR(
+    Lidar, Kind("lidar", "A planar laser scanner.")
+               .rate(10.0)
+               .on_demand()
+               .numbers("ranges", "m",
+                        "of each ray, infinite without a hit, -infinite if nearer than <min>")
+               .number("angle_min", "rad", "of the first ray")
+               .number("angle_max", "rad", "of the last ray")
+               .number("angle_increment", "rad", "between two rays")
+               .number("scan_time", "s", "between two scans")
+               .number("range_min", "m", "nearest")
+               .number("range_max", "m", "farthest")
+               .shown(1))
 
 }  // namespace angen::sensors

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
 #include "sensors/watched.h"
 
 namespace angen::sensors {

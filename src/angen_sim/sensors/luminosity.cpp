@@ -4,7 +4,8 @@
 #include <optional>
 #include <sstream>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
 
 namespace angen::sensors {
 
@@ -28,7 +29,7 @@ class Luminosity : public Sensor {
   bool steady() const override { return true; }
 
  private:
-  static constexpr double kRelativeChange = 0.15;  // of the last event's; CASAS' sensors do so
+  static constexpr double kRelativeChange = 0.15;  // share of the last event's value, as CASAS
   static constexpr double kLeastChange = 0.01;     // lx: darkness has no relative changes
 
   void note_change(double illuminance, Reading& reading) {

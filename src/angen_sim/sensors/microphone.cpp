@@ -3,8 +3,9 @@
 #include <cmath>
 #include <optional>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
 #include "plugin/rooms.h"
+#include "plugin/view.h"
 #include "sensors/sound_field.h"
 
 namespace angen::sensors {
@@ -166,13 +167,13 @@ class Microphone : public Sensor {
       const double shut = opening.height * std::max(0.0, opening.width - opening.gap);
       const bool inside =
           opening.first != RoomPlan::kOutside && opening.second != RoomPlan::kOutside;
-      const double wall = inside ? (open + shut) * wall_ : 0.0;  // which is not there
+      const double wall = inside ? (open + shut) * wall_ : 0.0;  // 0 if there is no wall
       field.pass(opening.first, opening.second, open + shut * leaf_ - wall);
     }
     return field;
   }
 
-  // As a power whose level over 1 pW is the sound pressure level.
+  // Expressed by a power whose level over 1 pW is the sound pressure level.
   static double heard(const View& view, const DeviceView& source, const Vec3& here,
                       const Hearing& hearing) {
     const auto* offset = source.state.get_if<std::vector<double>>("position");

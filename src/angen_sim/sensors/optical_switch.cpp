@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
 #include "sensors/fan.h"
 
 namespace angen::sensors {
@@ -23,7 +23,7 @@ struct Beam : LazyReading {
   Fan fan;
   double threshold = 0.0;  // m
   double length = 0.0;     // m, to the detector
-  Ranges clean;            // of the last sample, without noise
+  Ranges clean;            // ranges of the last sample, without noise
 
   bool closed_by(const Ranges& ranges) const {
     return *std::min_element(ranges.begin(), ranges.end()) < length - threshold;
@@ -72,9 +72,7 @@ class OpticalSwitch : public Sensor, public NoisySensor {
 
   std::optional<RayGeometry> rays() const override { return beam_.fan; }
   int ray_set(const View&) override { return 0; }
-  void aim(const View& view, RayBatch& rays) override {
-    beam_.fan.aim(view.pose(), directions_, rays);
-  }
+  void aim(const View& view, RayBatch& rays) override { beam_.fan.aim(view, directions_, rays); }
 
   void read(const View&, Hits hits, Rng& rng, Reading& reading) override {
     beam_.clean = beam_.fan.measure(hits);

@@ -8,8 +8,7 @@ namespace angen::sensors {
 
 /// Losses of the multi-wall model of COST 231 (final report, chapter 4), dB.
 struct PathLoss {
-  double light_wall =
-      3.4;  // up to about 10 cm, and all that is not a wall: doors, furniture, people
+  double light_wall = 3.4;  // up to about 10 cm; also doors, furniture, people
   double heavy_wall = 6.9;  // thicker
   double floor = 18.3;
   double floor_exponent = 0.46;  // further floors add less
@@ -25,7 +24,8 @@ struct Obstacles {
   int floors = 0;
 };
 
-/// `way` is the path's unit vector; crossings are in its order. Shapes that overlap are one.
+/// `way` is the path's unit vector; crossings are in its order. Shapes that overlap are one, as are
+/// those that touch face to face and make a wall of at most 0.5 m.
 Obstacles obstacles_on(const std::vector<rays::Crossing>& crossings, const Vec3& way);
 
 /// dB that the obstacles add to the loss in free space.

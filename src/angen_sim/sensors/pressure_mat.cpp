@@ -3,7 +3,8 @@
 #include <optional>
 #include <sstream>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
 #include "sensors/watched.h"
 
 namespace angen::sensors {

@@ -27,6 +27,7 @@ void Proximity::read_rays(Params& params) {
                                      "standard deviation, in place of the rays'", kNotNegative);
   if (noise > 0.0) fan_.noise_stddev = noise;
   fan_.declare_noise("range", params);
+  read_near_blocks(params, fan_);
   field_of_view_ = fan_.max_yaw - fan_.min_yaw;
 }
 
@@ -39,13 +40,13 @@ void Proximity::configure(Params& params, Wiring&) {
                     "field of view in its message; the cone is as wide as its rays", {0.0, 7.0});
 }
 
-void Proximity::read(const View&, Hits hits, Rng&, Reading& reading) {
-  const auto nearest = std::min_element(
-      hits.begin(), hits.end(), [](const auto& a, const auto& b) { return a.range < b.range; });
-  const bool is_near = nearest != hits.end() && nearest->hit();
-  reading.set("range", is_near ? nearest->range : std::numeric_limits<double>::infinity());
-  reading.set("near", is_near);
-  reading.set("ranges", fan_.measure(hits));
+void Proximity::read(const View& view, Hits hits, Rng&, Reading& reading) {
+  Ranges ranges = fan_.scan(view, directions_, hits);
+  const double nearest = *std::min_element(ranges.begin(), ranges.end());
+  reading.set("range", nearest);
+  reading.set("near", nearest < std::numeric_limits<double>::infinity());
+  for (double& range : ranges) range = std::clamp(range, 0.0, fan_.max);
+  reading.set("ranges", std::move(ranges));
   reading.set("field_of_view", field_of_view_);
   reading.set("min_range", fan_.min);
   reading.set("max_range", fan_.max);
@@ -54,7 +55,9 @@ void Proximity::read(const View&, Hits hits, Rng&, Reading& reading) {
 
 Kind proximity_kind(Kind kind) {
   return kind.ray_color("0.1 0.5 0.9 0.45")
-      .number("range", "m", "to the nearest thing, infinite where nothing is in reach")
+      .number("range", "m",
+              "to the nearest thing, infinite if nothing is in reach, -infinite if "
+              "something is nearer than <min>")
       .shown(3)
       .flag("near", "whether anything is in reach")
       .alarm("near", "nothing near")

@@ -3,7 +3,8 @@
 #include <map>
 #include <set>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
 #include "sensors/id_changes.h"
 #include "sensors/path_loss.h"
 
@@ -100,7 +101,7 @@ class RadioReceiver : public Sensor {
   double hysteresis_ = 0.0;   // dB
   Nanoseconds lost_after_ = 0;
   std::set<std::string> received_;                   // ids, at the last sample
-  std::map<std::string, Nanoseconds> silent_since_;  // of ids: their first sample without them
+  std::map<std::string, Nanoseconds> silent_since_;  // ids, and their first sample without them
   double gain_ = 0.0;                                // dBi
   PathLoss losses_;
   IdChanges changes_{"received", "lost"};

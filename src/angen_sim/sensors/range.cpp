@@ -1,5 +1,5 @@
 // libgazebo_ros_range.so
-#include "plugin/register.h"
+#include "plugin/registration.h"
 #include "sensors/proximity.h"
 
 namespace angen::sensors {

@@ -3,7 +3,9 @@
 #include <optional>
 #include <sstream>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 
 namespace angen::sensors {
 

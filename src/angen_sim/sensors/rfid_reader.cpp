@@ -2,7 +2,8 @@
 #include <cmath>
 #include <map>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
 #include "sensors/id_changes.h"
 
 namespace angen::sensors {
@@ -66,7 +67,7 @@ class RfidReader : public Sensor {
 
   double range_ = 0.0;  // m
   double least_cosine_ = 0.0;
-  std::vector<Candidate> candidates_;  // as the rays of this sample
+  std::vector<Candidate> candidates_;  // indexed like the rays of this sample
   IdChanges changes_{"read", "lost"};
 };
 

@@ -1,7 +1,8 @@
 // libsmart_plug.so
 #include <algorithm>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
 
 namespace angen::sensors {
 

@@ -1,7 +1,8 @@
 // libsoil_moisture.so
 #include <limits>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
+#include "plugin/view.h"
 
 namespace angen::sensors {
 

@@ -1,7 +1,7 @@
 // libhector_gazebo_ros_sonar.so
 #include <algorithm>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
 #include "sensors/proximity.h"
 
 namespace angen::sensors {
@@ -11,7 +11,7 @@ class Sonar : public Proximity {
  public:
   void configure(Params& params, Wiring&) override {
     read_rays(params);
-    // As its message has it: the narrower side of the cone.
+    // The message's field of view: the narrower side of the cone.
     field_of_view_ = std::min(field_of_view_, fan().max_pitch - fan().min_pitch);
     params.text("frameId", "", "frame_id of its messages");
     for (const char* path : {"offset", "drift", "driftFrequency"}) {

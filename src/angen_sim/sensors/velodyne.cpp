@@ -1,7 +1,7 @@
 // libgazebo_ros_velodyne_laser.so libgazebo_ros_velodyne_gpu_laser.so
 #include <algorithm>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
 #include "sensors/cloud.h"
 
 namespace angen::sensors {

@@ -1,5 +1,7 @@
 #include "sensors/watched.h"
 
+#include "plugin/wiring.h"
+
 namespace angen::sensors {
 
 std::vector<ContactRef> read_watched(Params& params, Wiring& wiring, const char* who) {

@@ -6,6 +6,7 @@
 #include "core/alike.h"
 #include "core/nearest.h"
 #include "core/text.h"
+#include "sim/customs.h"
 #include "sim/home.h"
 
 namespace angen::sim {
@@ -42,8 +43,7 @@ Building::Building(const desc::World& world, std::uint64_t seed, std::shared_ptr
       plugins_.push_back(plugin);
     } catch (const Error& error) {
       const Error placed(plugin.source, error.diagnostics().front().message);
-      if (!world_.tolerant) throw placed;
-      warnings_.push_back(placed.what() + std::string(" (ignored)"));
+      for (const std::string& text : set_aside(placed, world_.customs)) warnings_.push_back(text);
     }
   }
   std::vector<const desc::Model*> all;
@@ -224,7 +224,7 @@ void Building::start(SensorInstance& sensor, Nanoseconds now) const {
 void Building::build(desc::Model model, const std::vector<SensorInstance>* attached,
                      Nanoseconds now) {
   auto live = std::make_unique<LiveModel>();
-  model.tolerant = model.tolerant || world_.tolerant;
+  if (world_.customs.sets_aside) model.customs = world_.customs;
   live->storeys = storeys_;
   live->desc = live->read = std::make_shared<const desc::Model>(std::move(model));
   make_instances(*live, plugins_, *catalog_, warnings_);
@@ -253,10 +253,11 @@ void Building::add(desc::Model model, Nanoseconds now) {
   const std::size_t before = warnings_.size();
   const bool has_storeys = may_have_storeys(model);
   if (has_storeys) find_storeys({&model});
+  for (const Diagnostic& warning : model.warnings) warnings_.push_back(warning.text());
   try {
     build(std::move(model), nullptr, now);
   } catch (...) {
-    warnings_.resize(before);  // those of a model that is not there
+    warnings_.resize(before);  // drops warnings of a model that is not there
     if (has_storeys) find_storeys({});
     throw;
   }
@@ -344,7 +345,8 @@ void Building::reset(Nanoseconds now) {
   for (auto* names : {&by_name_, &devices_, &sensors_}) names->clear();
   with_device_.clear();
   for (const auto& live : old) {
-    for (SensorInstance& sensor : live->sensors) sensor.forget_regions();  // of the engines
+    for (SensorInstance& sensor : live->sensors)
+      sensor.forget_regions();  // they are regions of the engines
   }
   make_engines();
   for (const auto& live : old) {

@@ -72,7 +72,7 @@ class Building {
   /// The names of a kind's devices; of all devices as KIND/NAME where it is empty.
   std::vector<std::string> device_names(const std::string& kind) const;
 
-  /// Null where there is none.
+  /// Null if there is none.
   LiveModel* find(const std::string& model) const;
   std::vector<std::string> model_names() const;
 
@@ -81,7 +81,7 @@ class Building {
 
   /// The model was put elsewhere between ticks.
   void note_placed(LiveModel& live);
-  /// Those models, in the order in which they came into the world, taken out.
+  /// Takes these models out, in the order in which they came into the world.
   std::vector<LiveModel*> take_placed();
 
   /// Finds the models that are awake after tick number `tick`, each once. They count as changed up
@@ -97,8 +97,8 @@ class Building {
   void set_physics(const desc::Physics& physics, const Vec3& gravity);
   const Vec3& gravity() const { return gravity_; }  // m/s^2
 
-  /// As Structure::lights names it, its pose in the world. These throw Error for names that are
-  /// unknown, or taken.
+  /// The light of that name in Structure::lights, its pose in the world. Throws Error for names
+  /// that are unknown, or taken.
   desc::Light light(const std::string& name) const;
   void set_light(const std::string& name, desc::Light light);
   void add_light(const desc::Light& light, const std::string& sdf, Nanoseconds now);
@@ -114,7 +114,7 @@ class Building {
   std::shared_ptr<const Structure> structure();
   /// The first model whose number, or whose parts' numbers, structure() will change.
   std::size_t renumbered_from() const { return renumbered_from_; }
-  /// As the last structure() has it.
+  /// The home of the last structure().
   const Home& home() const { return structure_->home->get(); }
   /// The numbers in Structure at which that model's parts begin.
   Numbering numbering(std::size_t model) const;
@@ -138,7 +138,7 @@ class Building {
  private:
   struct WorldLight {
     std::unique_ptr<LiveModel> live;  // an instance for it, with its lamp
-    std::string sdf;                  // that it was spawned from, "" for one of the world's text
+    std::string sdf;  // the text that it was spawned from, "" for one of the world's text
 
     const desc::Light& light() const { return live->desc->links[0].lights[0]; }
   };
@@ -164,7 +164,7 @@ class Building {
   void remove_names(const LiveModel& live);
 
   struct FoundLight {
-    LiveModel* live = nullptr;   // of the world's own, or a model
+    LiveModel* live = nullptr;   // a light of the world's own, or a model
     std::size_t own = SIZE_MAX;  // in lights_
     std::uint32_t link = 0;
     std::size_t in_link = 0;
@@ -182,7 +182,7 @@ class Building {
   std::unordered_map<std::string, LiveModel*> by_name_;  // the models
   std::unordered_map<std::string, LiveModel*> devices_;  // whose model it is, by kind/name
   std::unordered_map<std::string, std::vector<LiveModel*>> with_device_;  // by the device's name
-  std::unordered_map<std::string, LiveModel*> sensors_;                   // as well
+  std::unordered_map<std::string, LiveModel*> sensors_;                   // sensors by name
   std::vector<WorldLight> lights_;
   Pushes pushes_;
   Faults faults_;
@@ -196,7 +196,7 @@ class Building {
   std::shared_ptr<const Structure> structure_;  // the last one
   std::size_t renumbered_from_ = 0;
   bool home_changed_ = true;     // since the last structure()
-  std::vector<Storey> storeys_;  // as storeys_of()
+  std::vector<Storey> storeys_;  // result of storeys_of()
   struct DevicesByField {
     std::vector<FoundDevice>
         fixed;  // by height: a storey's are found without going through a tower

@@ -121,7 +121,7 @@ Building::WorldLight Building::world_light(const desc::Light& light, const std::
   desc::Model model;
   model.name = light.name;
   model.is_static = true;
-  model.tolerant = world_.tolerant;
+  model.customs = world_.customs;
   model.source = light.source;
   model.links.emplace_back();
   model.links[0].lights = {light};

@@ -21,7 +21,7 @@ namespace angen::sim {
 struct Outcome {
   bool ok = true;
   std::string message;
-  std::uint64_t ticks = 0;  // that a Step has taken
+  std::uint64_t ticks = 0;  // ticks of a Step
 };
 
 /// To the device `name` of `kind`; kind "" = whichever kind has the name alone; name "all" = each.

@@ -10,6 +10,7 @@
 #include "core/nearest.h"
 #include "core/text.h"
 #include "sim/guard.h"
+#include "sim/view.h"
 
 namespace angen::sim {
 
@@ -41,7 +42,7 @@ Outcome unknown_device(const Building& building, const ToDevice& action) {
 
 /// Why the device does not take the parsed command, "" where `act` will execute it.
 std::string prepare(const Building::Target& target, const Command& command, Building& building,
-                    InstanceView::Clock clock, std::function<void()>& act) {
+                    Clock clock, std::function<void()>& act) {
   DeviceInstance& device = *target.device;
   if (!device.error.empty()) return "its plug-in has failed: " + device.error;
   Verdict verdict;
@@ -56,7 +57,7 @@ std::string prepare(const Building::Target& target, const Command& command, Buil
 
 }  // namespace
 
-Outcome to_device(const ToDevice& given, Building& building, InstanceView::Clock clock) {
+Outcome to_device(const ToDevice& given, Building& building, Clock clock) {
   ToDevice action = with_kind(given);
   if (action.kind == "fault") {
     building.faults().give(action.name, action.command.text, clock.time);
@@ -171,12 +172,12 @@ std::vector<Request> CommandQueue::take() {
   return requests;
 }
 
-CommandQueue::Effects CommandQueue::drain(Building& building, InstanceView::Clock clock,
+CommandQueue::Effects CommandQueue::drain(Building& building, Clock clock,
                                           std::vector<Event>& events) {
   Effects effects;
   stop_withdrawn_steps(clock.time);
   const std::size_t before = events.size();
-  InstanceView::Clock now = clock;
+  Clock now = clock;
   std::vector<Request> requests = take();
   if (!replay_reason_.empty()) requests = only_replayed(std::move(requests));
   for (Request& request : requests) {
@@ -281,7 +282,7 @@ void CommandQueue::answer() {
   answers_.clear();
 }
 
-Outcome CommandQueue::execute(const Action& action, Building& building, InstanceView::Clock clock,
+Outcome CommandQueue::execute(const Action& action, Building& building, Clock clock,
                               std::vector<Event>& events, Effects& effects) {
   Outcome outcome;
   const auto rejected = [&](const std::string& why) {

@@ -9,19 +9,19 @@
 #include <vector>
 
 #include "sim/building.h"
+#include "sim/clock.h"
 #include "sim/command.h"
-#include "sim/view.h"
 
 namespace angen::sim {
 
 /// Executes a command, in no queue.
-Outcome to_device(const ToDevice& given, Building& building, InstanceView::Clock clock);
+Outcome to_device(const ToDevice& given, Building& building, Clock clock);
 
 /// The one queue of all actions from outside, and the world's running state. It cuts the texts from
 /// outside that it repeats in events and answers.
 class CommandQueue {
  public:
-  static constexpr std::size_t kMaxQueuedBytes = 16U << 20U;  // of texts; more is rejected
+  static constexpr std::size_t kMaxQueuedBytes = 16U << 20U;  // bytes of texts; more is rejected
   static constexpr std::size_t kMaxNameBytes = 255;           // in an event
   static constexpr std::size_t kMaxDetailBytes = 2000;        // in an event or an answer
 
@@ -47,7 +47,7 @@ class CommandQueue {
     std::vector<std::shared_ptr<SavedState>> saves;  // to be filled in
   };
   /// Executes the actions that wait, in order. Called between ticks.
-  Effects drain(Building& building, InstanceView::Clock clock, std::vector<Event>& events);
+  Effects drain(Building& building, Clock clock, std::vector<Event>& events);
 
   bool paused() const { return paused_; }
   bool running() const { return !paused_ || !steps_.empty(); }
@@ -72,12 +72,12 @@ class CommandQueue {
   void stop_step(std::uint64_t which);
   void interrupt_steps(const std::string& what);
   void stop(Pending& step, const std::string& why);
-  Outcome execute(const Action& action, Building& building, InstanceView::Clock clock,
-                  std::vector<Event>& events, Effects& effects);
+  Outcome execute(const Action& action, Building& building, Clock clock, std::vector<Event>& events,
+                  Effects& effects);
 
   std::vector<Request> only_replayed(std::vector<Request> requests);
 
-  mutable std::mutex mutex_;  // of the next three
+  mutable std::mutex mutex_;  // guards the next three
   std::vector<Request> inbox_;
   std::size_t waiting_ = 0;   // bytes of texts in inbox_
   std::size_t rejected_ = 0;  // actions since the last drain
@@ -86,7 +86,7 @@ class CommandQueue {
   bool paused_ = false;
   ActionObserver observer_;
   std::string replay_reason_;        // why actions of others are rejected; empty: they are not
-  std::size_t replay_rejected_ = 0;  // those of them whose sender did not wait
+  std::size_t replay_rejected_ = 0;  // rejected ones whose sender did not wait
   std::vector<Action> replayed_;
 };
 

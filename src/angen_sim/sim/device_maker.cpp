@@ -6,6 +6,8 @@
 
 #include "core/names.h"
 #include "desc/own_lamp.h"
+#include "plugin/wiring.h"
+#include "sim/customs.h"
 #include "sim/wiring.h"
 #include "sim/with_source.h"
 
@@ -48,8 +50,7 @@ class DeviceMaker {
       try {
         if (!make_of(described, true)) throw serves_nothing(described);
       } catch (const Error& error) {
-        if (!model_.tolerant) throw;
-        for (const Diagnostic& each : error.diagnostics()) warn_ignored(each);
+        for (const std::string& text : set_aside(error, model_.customs)) warn(text);
       }
     }
     for (ModelInfo::Joint& joint : info_.joints) joint.taken = is_taken(joint.name);
@@ -63,19 +64,19 @@ class DeviceMaker {
     for (const desc::Link& link : model_.links) {
       for (const desc::Light& light : link.lights) {
         ++index;
-        if (lit_.count(index) != 0 || !(light.level || model_.tolerant)) continue;
+        if (lit_.count(index) != 0 || !(light.level || model_.customs.lights_are_lamps)) continue;
         try {
           DeviceInstance lamp = own_lamp(light, index, nullptr);
           check_alone(light.source, lamp);
           live_.devices.push_back(std::move(lamp));
         } catch (const Error& error) {
-          for (const Diagnostic& each : error.diagnostics()) warn_ignored(each);
+          for (const std::string& text : ignored(error)) warn(text);
         }
       }
     }
   }
 
-  /// As `before` is set, where it is given.
+  /// With the settings of `before`, if it is given.
   DeviceInstance own_lamp(const desc::Light& light, int index, const DeviceInstance* before) {
     const std::string name = live_.is_light ? light.name : model_.name + "_" + light.name;
     desc::Plugin described = desc::own_lamp(light, name, light.level.value_or(100.0));
@@ -116,6 +117,15 @@ class DeviceMaker {
     }
   }
 
+  void describe_bodies() {
+    if (bodies_.empty()) return;
+    desc::Model described = model_;
+    for (const auto& [link, anatomy] : bodies_) {
+      described.links[static_cast<std::size_t>(link)].anatomy = anatomy;
+    }
+    live_.desc = live_.read = std::make_shared<const desc::Model>(std::move(described));
+  }
+
  private:
   // Once where several leaves read one plug-in.
   void warn(const std::string& text) {
@@ -123,8 +133,10 @@ class DeviceMaker {
     warnings_.push_back(text);
   }
 
-  void warn_ignored(const Diagnostic& what) {
-    warn(Diagnostic{what.severity, what.source, what.message + " (ignored)"}.text());
+  Params params_of(const desc::Plugin& described) const {
+    Params params(described.element);
+    if (model_.customs.first_holds) params.take_first();
+    return params;
   }
 
   // A device has the joint, or one of the model's plug-ins names it, whether it is known or not.
@@ -159,8 +171,7 @@ class DeviceMaker {
 
   // A sensor that is a plug-in of the model.
   bool make_sensor_of(const desc::Plugin& described, const Plugin& plugin) {
-    Params params(described.element);
-    if (model_.tolerant) params.take_first();
+    Params params = params_of(described);
     const std::optional<std::string> link = plugin.link_of(params);
     if (!link) return false;
     desc::Sensor sensor;
@@ -195,8 +206,7 @@ class DeviceMaker {
   std::vector<Mount> mounts_of(const desc::Plugin& described, const Plugin& plugin,
                                bool own) const {
     return with_source(described.source, [&] {
-      Params params(described.element);
-      if (model_.tolerant) params.take_first();
+      Params params = params_of(described);
       std::vector<Mount> mounts = plugin.mounts(info_, params);
       const bool takes_joints =
           std::any_of(params.docs().begin(), params.docs().end(),
@@ -221,21 +231,17 @@ class DeviceMaker {
       instance.joint = mount.joint;
       instance.device = plugin->make_device_on(mount);
       instance.scratch.kind = instance.kind;
-      Params params(described.element);
-      if (model_.tolerant) params.take_first();
+      Params params = params_of(described);
       instance.name = read_device_name(params, mount.name);
       const std::string problem = name_problem(instance.name);
       if (!problem.empty()) throw params.error("device_name", problem);
       ModelWiring wiring(model_, live_.storeys, instance.name);
       instance.device->configure(params, wiring);
-      if (model_.tolerant) {
-        for (const Diagnostic& each : params.unread()) warn_ignored(each);
-      } else {
-        params.finish();
-      }
-      for (const Diagnostic& warning : params.warnings()) warn(warning.text());
+      for (const std::string& text : finish(params, model_.customs)) warn(text);
       instance.element = described.element;
       instance.device->save(instance.started_with);
+      instance.body = wiring.body().first;
+      if (instance.body >= 0) bodies_.push_back(wiring.body());
       driven_.insert(wiring.joints().begin(), wiring.joints().end());
       lit_.insert(wiring.lights().begin(), wiring.lights().end());
       return instance;
@@ -275,8 +281,9 @@ class DeviceMaker {
   Catalog& catalog_;
   std::vector<std::string>& warnings_;
   ModelInfo info_;
-  std::set<std::string> driven_;  // joints that a device has
-  std::set<int> lit_;             // lights that one has, by LightRef
+  std::set<std::string> driven_;                 // joints that a device has
+  std::set<int> lit_;                            // lights that one has, by LightRef
+  std::vector<std::pair<int, Anatomy>> bodies_;  // links whose anatomy one has declared
 };
 
 }  // namespace
@@ -287,6 +294,7 @@ void make_devices(LiveModel& live, const std::vector<desc::Plugin>& world_plugin
   maker.make_all(world_plugins);
   maker.warn_of_idle_joints();
   maker.make_own_lamps();
+  maker.describe_bodies();
 }
 
 void remake_own_lamp(LiveModel& live, DeviceInstance& lamp, bool keep_level, Catalog& catalog,

@@ -8,8 +8,8 @@
 namespace angen::sim {
 
 /// Makes the devices of a model by the plug-ins of model and world, and the sensors that a
-/// model's own plug-in is, and lamps of lights that none of them has, where the model is tolerant
-/// or the light has a level. Throws Error for one that is wrong, unless the model is tolerant.
+/// model's own plug-in is, and lamps of lights that none of them has, if the light has a level or
+/// the model's customs say so. Throws Error for one that is wrong, unless they set it aside.
 void make_devices(LiveModel& live, const std::vector<desc::Plugin>& world_plugins, Catalog& catalog,
                   std::vector<std::string>& warnings);
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "plugin/declared.h"
+#include "plugin/outputs.h"
 #include "sim/command_queue.h"
 #include "sim/guard.h"
+#include "sim/view.h"
 
 namespace angen::sim {
 
@@ -12,12 +14,8 @@ namespace {
 
 constexpr Nanoseconds kReportPeriod = kSecond / 50;
 
-bool is_person(const LiveModel& live) {
-  return !live.desc->links.empty() && live.desc->links.front().upright;
-}
-
 // A body that fell asleep in the last tick was awake in it.
-bool is_idle(const LiveModel& live, const DeviceInstance& device, InstanceView::Clock clock) {
+bool is_idle(const LiveModel& live, const DeviceInstance& device, Clock clock) {
   if (!device.error.empty()) return true;
   return clock.time < device.idle_until && live.awake_at < clock.time / clock.step - 1;
 }
@@ -71,7 +69,7 @@ void DeviceSystem::fail(DeviceInstance& device, const std::string& error, Nanose
   events.push_back({now, device.name, device.kind, "failed", error});
 }
 
-void DeviceSystem::update(Building& building, InstanceView::Clock clock, Nanoseconds last,
+void DeviceSystem::update(Building& building, Clock clock, Nanoseconds last,
                           std::vector<Event>& events) {
   if (outdated_) list(building);
   activate_due(clock.time);
@@ -88,7 +86,8 @@ void DeviceSystem::update(Building& building, InstanceView::Clock clock, Nanosec
     }
     active_[kept++] = i;
     meter_.rest.devices += meter_.watch.lap();
-    const InstanceView::Clock own{clock.time, is_person(live) ? last : clock.step};
+    const bool long_steps = device.device->takes_long_steps();
+    const Clock own{clock.time, long_steps ? last : clock.step};
     const InstanceView view(building, live, own);
     InstanceOutputs outputs(building.engines(), live, device, clock.time, events, commands_);
     const std::string thrown = thrown_by([&] {
@@ -112,12 +111,10 @@ void DeviceSystem::update(Building& building, InstanceView::Clock clock, Nanosec
   meter_.rest.devices += meter_.watch.lap();
 }
 
-void DeviceSystem::execute_commands(Building& building, InstanceView::Clock clock,
-                                    std::vector<Event>& events) {
+void DeviceSystem::execute_commands(Building& building, Clock clock, std::vector<Event>& events) {
   if (commands_.empty()) return;
-  for (const FromDevice& each : commands_) {
-    const Outcome outcome =
-        to_device({each.kind, each.name, Command{each.text, {}, "", 0.0}}, building, clock);
+  for (const ToDevice& each : commands_) {
+    const Outcome outcome = to_device(each, building, clock);
     if (!outcome.ok)
       events.push_back({clock.time, each.name, each.kind, "rejected", outcome.message});
   }
@@ -125,11 +122,11 @@ void DeviceSystem::execute_commands(Building& building, InstanceView::Clock cloc
   activate_all();
 }
 
-std::int64_t DeviceSystem::next_tick(Building& building, InstanceView::Clock clock, bool walks) {
+std::int64_t DeviceSystem::next_tick(Building& building, Clock clock, bool long_steps) {
   if (outdated_) list(building);
   Nanoseconds first = kForever - clock.step;
   for (const std::uint32_t i : active_) {
-    if (walks && is_person(*entries_[i].live)) continue;
+    if (long_steps && entries_[i].device->device->takes_long_steps()) continue;
     if (!is_idle(*entries_[i].live, *entries_[i].device, clock)) return clock.time / clock.step;
     first = std::min(first, entries_[i].device->idle_until);
   }
@@ -137,27 +134,42 @@ std::int64_t DeviceSystem::next_tick(Building& building, InstanceView::Clock clo
   std::int64_t tick = (first + clock.step - 1) / clock.step;
   if (!to_report_.empty()) {  // the next report is at the end of the tick before
     const Nanoseconds report = (clock.time / kReportPeriod + 1) * kReportPeriod;
-    tick = std::min(tick, (report + clock.step - 1) / clock.step - (walks ? 0 : 1));
+    tick = std::min(tick, (report + clock.step - 1) / clock.step - (long_steps ? 0 : 1));
   }
   return tick;
+}
+
+void DeviceSystem::place_limbs(Engines& engines, const LiveModel& live, DeviceInstance& device) {
+  if (device.body < 0) return;
+  const auto link = static_cast<std::size_t>(device.body);
+  const std::size_t count = live.desc->links[link].anatomy.limbs.size();
+  std::vector<Pose> limbs(count);
+  device.device->pose_limbs(limbs);
+  limbs.resize(count);
+  if (limbs.empty() || (device.limbs && *device.limbs == limbs)) return;
+  device.limbs = std::make_shared<const std::vector<Pose>>(std::move(limbs));
+  engines.place_limbs(live.parts.links[link], device.limbs);
 }
 
 void DeviceSystem::note_awake(const LiveModel& live) {
   for (std::uint32_t i = 0; i < live.devices.size(); ++i) activate(live.first_device + i);
 }
 
-void DeviceSystem::report(Building& building, InstanceView::Clock clock, Snapshot& next) {
+void DeviceSystem::report(Building& building, Clock clock, Snapshot& next) {
   const bool all = clock.time % kReportPeriod < clock.step;
   for (const std::uint32_t index : all ? to_report_ : had_event_) {
     DeviceInstance& device = *entries_[index].device;
+    const LiveModel& live = *entries_[index].live;
     if (device.error.empty()) {
       const std::string thrown = thrown_by([&] {
-        device.device->report(InstanceView(building, *entries_[index].live, clock), device.scratch);
+        device.device->report(InstanceView(building, live, clock), device.scratch);
         check_new_fields(device.plugin->kind(), device.scratch, device.checked_fields);
+        place_limbs(building.engines(), live, device);
       });
       if (!thrown.empty()) fail(device, thrown, clock.time, next.events);
     }
     if (!device.error.empty()) device.scratch.set(kErrorField, device.error);
+    next.limbs.set(index, device.limbs);
     device.cost += meter_.watch.lap();
     if (all) device.to_report = false;
     if (device.last && device.last->same_values(device.scratch)) continue;

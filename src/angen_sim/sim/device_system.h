@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "sim/building.h"
+#include "sim/clock.h"
+#include "sim/command.h"
 #include "sim/meter.h"
-#include "sim/view.h"
 
 namespace angen::sim {
 
@@ -16,20 +17,19 @@ class DeviceSystem {
   explicit DeviceSystem(Meter& meter) : meter_(meter) {}
 
   /// Updates every device that is not idle, in the order in which they came into the world.
-  /// `last`: how long the last tick was, for those of people.
-  void update(Building& building, InstanceView::Clock clock, Nanoseconds last,
-              std::vector<Event>& events);
+  /// `last`: how long the last tick was, for those that take long steps.
+  void update(Building& building, Clock clock, Nanoseconds last, std::vector<Event>& events);
 
   /// The devices of a model that is awake are not idle.
   void note_awake(const LiveModel& live);
 
   /// States that differ from the last ones go into `next`: those of devices that had an event at
   /// once, the others 50 times a second.
-  void report(Building& building, InstanceView::Clock clock, Snapshot& next);
+  void report(Building& building, Clock clock, Snapshot& next);
 
-  /// The tick that devices need next, while no body is awake; `walks`: while only people are, whose
-  /// own devices are left out.
-  std::int64_t next_tick(Building& building, InstanceView::Clock clock, bool walks = false);
+  /// The tick that devices need next, while no body is awake; `long_steps`: while only bodies are
+  /// whose devices take these, which are left out.
+  std::int64_t next_tick(Building& building, Clock clock, bool long_steps = false);
 
   bool lights_changed() const { return lights_changed_; }
 
@@ -55,23 +55,25 @@ class DeviceSystem {
 
   void list(Building& building);
   void activate(std::uint32_t index);
-  /// Those whose timer has run out; active ones are in the order of entries_.
+  /// Activates devices whose timer has run out; active_ is in the order of entries_.
   void activate_due(Nanoseconds now);
   void make_idle(std::uint32_t index);
-  void execute_commands(Building& building, InstanceView::Clock clock, std::vector<Event>& events);
+  void execute_commands(Building& building, Clock clock, std::vector<Event>& events);
+  /// Asks a device where the limbs of its body are.
+  static void place_limbs(Engines& engines, const LiveModel& live, DeviceInstance& device);
   /// The device has thrown `error`.
   static void fail(DeviceInstance& device, const std::string& error, Nanoseconds now,
                    std::vector<Event>& events);
 
   Meter& meter_;
   bool outdated_ = true;
-  std::vector<Entry> entries_;         // as Structure::devices
-  std::vector<std::uint32_t> active_;  // of entries_: those that are not surely idle
-  std::vector<char> is_active_;        // as entries_
-  std::priority_queue<Timer, std::vector<Timer>, std::greater<>> timers_;  // of the others
-  std::vector<std::uint32_t> to_report_;                                   // of entries_, ascending
-  std::vector<std::uint32_t> had_event_;  // those of them that had an event in this tick
-  std::vector<FromDevice> commands_;      // of devices to others, in this tick
+  std::vector<Entry> entries_;         // indexed like Structure::devices
+  std::vector<std::uint32_t> active_;  // indices of entries_ that are not surely idle
+  std::vector<char> is_active_;        // indexed like entries_
+  std::priority_queue<Timer, std::vector<Timer>, std::greater<>> timers_;  // timers of the others
+  std::vector<std::uint32_t> to_report_;  // indices of entries_, ascending
+  std::vector<std::uint32_t> had_event_;  // the ones that had an event in this tick
+  std::vector<ToDevice> commands_;        // commands of devices to others, in this tick
   bool lights_changed_ = false;
 };
 

@@ -57,8 +57,7 @@ std::uint64_t contacts_revision(const Engines& engines, const SensorInstance& se
   return sum;
 }
 
-const std::vector<std::uint32_t>& DueSensors::collect(Building& building,
-                                                      InstanceView::Clock clock) {
+const std::vector<std::uint32_t>& DueSensors::collect(Building& building, Clock clock) {
   if (outdated_) list(building, clock.time - clock.step);
   groups_ = scheduler_.collect(clock.time);
   due_.clear();
@@ -87,8 +86,7 @@ void DueSensors::list(Building& building, Nanoseconds now) {
   scheduler_.assign(schedules, now);
 }
 
-void DueSensors::activate(const Engines& engines, SensorScheduler::Group& group,
-                          InstanceView::Clock clock) {
+void DueSensors::activate(const Engines& engines, SensorScheduler::Group& group, Clock clock) {
   if (group.idle.empty()) return;
   activate_changed(engines, group);
   if (group.next_check <= clock.time) activate_for_events(group, clock);
@@ -104,8 +102,8 @@ void DueSensors::activate_changed(const Engines& engines, const SensorScheduler:
   });
 }
 
-/// Those whose noise may cause an event now.
-void DueSensors::activate_for_events(SensorScheduler::Group& group, InstanceView::Clock clock) {
+/// Activates sensors whose noise may cause an event now.
+void DueSensors::activate_for_events(SensorScheduler::Group& group, Clock clock) {
   group.next_check = kForever;
   for (const std::uint32_t index : group.idle) {
     if (checked_[index] <= clock.time) {
@@ -120,8 +118,7 @@ void DueSensors::activate_for_events(SensorScheduler::Group& group, InstanceView
   }
 }
 
-DueSensors::Visit DueSensors::visit(const Engines& engines, std::uint32_t index,
-                                    InstanceView::Clock clock) {
+DueSensors::Visit DueSensors::visit(const Engines& engines, std::uint32_t index, Clock clock) {
   SensorInstance& sensor = *entries_[index].sensor;
   if (!sensor.error.empty()) return Visit::kNothing;
   if (sensor.activity.state() == SensorActivity::State::kActive && sensor.on_demand()) {
@@ -136,7 +133,7 @@ DueSensors::Visit DueSensors::visit(const Engines& engines, std::uint32_t index,
 }
 
 /// Whether a sensor for which nothing has changed can do without a sample.
-bool DueSensors::needs_no_sample(SensorInstance& sensor, InstanceView::Clock clock) const {
+bool DueSensors::needs_no_sample(SensorInstance& sensor, Clock clock) const {
   const SensorActivity& activity = sensor.activity;
   if (activity.steady()) return true;
   if (activity.state() == SensorActivity::State::kActive || !sensor.published.reading) return false;
@@ -166,7 +163,7 @@ bool DueSensors::unchanged(const Engines& engines, const Entry& entry) {
 
 /// A sensor that only changes in its watch regions, or of its model, can activate is not visited
 /// until then.
-void DueSensors::make_idle(const Engines& engines, std::uint32_t index, InstanceView::Clock clock) {
+void DueSensors::make_idle(const Engines& engines, std::uint32_t index, Clock clock) {
   SensorInstance& sensor = *entries_[index].sensor;
   if (sensor.queried.others() || !sensor.activity.skips()) return;
   const auto known = [](const auto& scan) { return scan && scan->region.number() != kNobody; };
@@ -179,7 +176,7 @@ void DueSensors::make_idle(const Engines& engines, std::uint32_t index, Instance
   group.next_check = std::min(group.next_check, checked_[index]);
 }
 
-void DueSensors::publish_idle(const Engines& engines, InstanceView::Clock clock, Snapshot& next) {
+void DueSensors::publish_idle(const Engines& engines, Clock clock, Snapshot& next) {
   for (const std::uint32_t number : groups_) {
     SensorScheduler::Group& group = scheduler_.group(number);
     if (group.publishes(clock.time)) {

@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "sim/building.h"
+#include "sim/clock.h"
 #include "sim/meter.h"
 #include "sim/requested_sensors.h"
 #include "sim/sensor_scheduler.h"
-#include "sim/view.h"
 
 namespace angen::sim {
 
-/// Which sensors sample at their due times, and which ticks none of them needs. An idle sensor does
-/// not sample until something in its watch region has changed.
+/// Finds which sensors sample at their due times, and which ticks none of them needs. An idle one
+/// does not sample until something in its watch region has changed.
 class DueSensors {
  public:
   struct Entry {
@@ -33,39 +33,38 @@ class DueSensors {
   void invalidate() { outdated_ = true; }
   const Entry& operator[](std::uint32_t index) const { return entries_[index]; }
 
-  /// Those due in the tick that ends now that are not idle, ascending.
-  const std::vector<std::uint32_t>& collect(Building& building, InstanceView::Clock clock);
-  Visit visit(const Engines& engines, std::uint32_t index, InstanceView::Clock clock);
+  /// Sensors due in the tick that ends now and not idle, ascending.
+  const std::vector<std::uint32_t>& collect(Building& building, Clock clock);
+  Visit visit(const Engines& engines, std::uint32_t index, Clock clock);
   /// After a visit for which it needs no sample.
-  void make_idle(const Engines& engines, std::uint32_t index, InstanceView::Clock clock);
+  void make_idle(const Engines& engines, std::uint32_t index, Clock clock);
   /// Idle ones that are due publish their last readings again; ends what collect() began.
-  void publish_idle(const Engines& engines, InstanceView::Clock clock, Snapshot& next);
+  void publish_idle(const Engines& engines, Clock clock, Snapshot& next);
 
   /// The sensors of a model that has moved, or is awake, are visited at their next due times.
   void note_moved(const LiveModel& live);
 
   /// The tick that sensors need next, `tick` at the latest, while no body moves.
-  std::int64_t next_tick(Building& building, InstanceView::Clock clock, std::int64_t tick);
+  std::int64_t next_tick(Building& building, Clock clock, std::int64_t tick);
   /// Counts the publications of the ticks from that of `clock` up to `tick`, which
   /// next_tick() allowed to be skipped.
-  void skip_to(InstanceView::Clock clock, std::int64_t tick, Snapshot& next);
+  void skip_to(Clock clock, std::int64_t tick, Snapshot& next);
 
  private:
   void list(Building& building, Nanoseconds now);
-  void activate(const Engines& engines, SensorScheduler::Group& group, InstanceView::Clock clock);
+  void activate(const Engines& engines, SensorScheduler::Group& group, Clock clock);
   void activate_changed(const Engines& engines, const SensorScheduler::Group& group);
-  void activate_for_events(SensorScheduler::Group& group, InstanceView::Clock clock);
+  void activate_for_events(SensorScheduler::Group& group, Clock clock);
   /// Whether the sensor's lazy reading can replace a sample: no event is due, nor by its noise.
-  bool has_no_event(const SensorInstance& sensor, InstanceView::Clock clock) const {
+  bool has_no_event(const SensorInstance& sensor, Clock clock) const {
     const double probability = sensor.forecast.no_event_probability;
     if (clock.time >= sensor.forecast.next_event) return false;
     return probability >= 1.0 ||
            Rng(seed_, sensor.key, clock.time / clock.step).uniform() < probability;
   }
-  Nanoseconds next_possible_event(SensorInstance& sensor, InstanceView::Clock clock,
-                                  Nanoseconds until) const;
-  Nanoseconds next_check(SensorInstance& sensor, InstanceView::Clock clock) const;
-  bool needs_no_sample(SensorInstance& sensor, InstanceView::Clock clock) const;
+  Nanoseconds next_possible_event(SensorInstance& sensor, Clock clock, Nanoseconds until) const;
+  Nanoseconds next_check(SensorInstance& sensor, Clock clock) const;
+  bool needs_no_sample(SensorInstance& sensor, Clock clock) const;
   /// Whether all that the sensor sampled last is unchanged.
   static bool unchanged(const Engines& engines, const Entry& entry);
 
@@ -73,11 +72,11 @@ class DueSensors {
   const RequestedSensors& requested_;
   Meter& meter_;
   bool outdated_ = true;
-  std::vector<Entry> entries_;         // as Structure::sensors
-  SensorScheduler scheduler_;          // of these
-  std::vector<Nanoseconds> checked_;   // as entries_: an idle one's noise is known until then
+  std::vector<Entry> entries_;         // indexed like Structure::sensors
+  SensorScheduler scheduler_;          // schedules of these
+  std::vector<Nanoseconds> checked_;   // like entries_: an idle one's noise is known until then
   std::vector<std::uint32_t> owners_;  // whose a watch region is, by its number
-  std::vector<std::uint32_t> groups_;  // that are due
+  std::vector<std::uint32_t> groups_;  // groups that are due
   std::vector<std::uint32_t> due_;
 };
 

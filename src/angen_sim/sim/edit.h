@@ -76,7 +76,7 @@ struct SetJointProperties {
   std::vector<double> damping;
   std::vector<double> upper;
   std::vector<double> lower;
-  std::optional<double> motor_force;  // of the first axis: N m or N, 0 frees it
+  std::optional<double> motor_force;  // the first axis': N m or N, 0 frees it
   double motor_velocity = 0.0;
 };
 /// The step stays as it is.
@@ -95,7 +95,7 @@ struct SetLight {
 /// A light of the world's own.
 struct AddLight {
   desc::Light light;
-  std::string sdf;  // that it was read from
+  std::string sdf;  // the text that it was read from
 };
 struct DeleteLight {
   std::string light;

@@ -15,7 +15,7 @@ namespace angen::sim {
 
 namespace {
 
-constexpr float kNight = 0.1F;  // of SDF's ambient: the light of a dark world for cameras
+constexpr float kNight = 0.1F;  // least of SDF's ambient: the light of a dark world for cameras
 
 Eigen::Vector3f with_luminance_one(const Eigen::Vector3f& color) {
   const float luminance = Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F).dot(color);  // Rec. 709
@@ -38,9 +38,9 @@ std::vector<std::vector<std::uint32_t>> joints_by_child(const desc::Model& model
   return joints;
 }
 
-// Glass and the like, which lets more than half of the light through, is not seen. Limbs of people
-// are bodies of their own.
-render::Body visible(const desc::Link& link, const Pose& pose, bool moves, int limb = kNoLimb) {
+// Glass and the like, which lets more than half of the light through, is not seen. Limbs are bodies
+// of their own; limb -1 is the rest of the link.
+render::Body visible(const desc::Link& link, const Pose& pose, bool moves, int limb = -1) {
   render::Body body;
   body.pose = pose;
   body.moves = moves;
@@ -48,7 +48,7 @@ render::Body visible(const desc::Link& link, const Pose& pose, bool moves, int l
   for (const desc::Visual& visual : link.visuals) {
     const desc::Material& material = visual.material;
     if (material.diffuse.w() < 0.5F) continue;
-    if (link.upright && limb_of(visual.name) != limb) continue;
+    if (Anatomy::find(link.anatomy.limbs, visual.name) != limb) continue;
     body.surfaces.push_back({visual.shape, visual.pose, material.diffuse.head<3>(),
                              body.holds_lamp ? Eigen::Vector3f(0.0F, 0.0F, 0.0F)
                                              : Eigen::Vector3f(material.emissive.head<3>()),
@@ -69,7 +69,6 @@ Parts Engines::add(const desc::Model& model) {
   Parts parts;
   parts.body = physics.add(model);
   parts.is_static = model.is_static;
-  parts.walks = !model.links.empty() && model.links.front().upright;
   parts.links = physics.links(parts.body);
   parts.joints = physics.joints(parts.body);
   const auto anchored = links_joined_to_world(model);
@@ -89,13 +88,17 @@ Parts Engines::add(const desc::Model& model) {
       const rays::ShapeId shape = rays.add(collision.shape, pose * collision.pose, mobility,
                                            visual.material.diffuse.head<3>());
       if (visual.temperature) rays.warm(shape, *visual.temperature);
-      parts.shapes.push_back({shape, i, collision.pose, like < 0 ? -1 : first_visual + like});
+      const int posture = Anatomy::find(link.anatomy.postures, collision.name);
+      const std::string name = model.name + "::" + link.name + "::" + collision.name;
+      parts.shapes.push_back({shape, i, collision.pose, like < 0 ? -1 : first_visual + like,
+                              posture, physics.collision(name)});
+      rays.show(shape, posture <= 0);
       if (!held) loose.add_shape(parts.loose.back(), shape);
       show(parts, parts.shapes.back());
     }
     first_visual += static_cast<int>(link.visuals.size());
     parts.bodies.push_back(visuals.add(visible(link, pose, !model.is_static)));
-    if (link.upright && i == 0) add_limbs(link, parts.links[i], pose);
+    add_limbs(link, parts.links[i], pose);
     for (const desc::Light& light : link.lights) {
       Parts::Lamp lamp = add_light(light, pose * light.pose);
       lamp.link = i;
@@ -108,19 +111,25 @@ Parts Engines::add(const desc::Model& model) {
 }
 
 void Engines::add_limbs(const desc::Link& link, physics::LinkId id, const Pose& pose) {
-  Walker& walker = walkers_[id.index];
-  walker = {};
-  for (int limb = 0; limb < kLimbs; ++limb) {
-    walker.limbs.push_back(visuals.add(visible(link, pose, true, limb)));
+  const auto count = static_cast<int>(link.anatomy.limbs.size());
+  for (int limb = 0; limb < count; ++limb) {
+    limbs_[id.index].bodies.push_back(visuals.add(visible(link, pose, true, limb)));
+    limbs_[id.index].link = pose;
   }
 }
 
-void Engines::place_limbs() {
-  for (auto& [link, walker] : walkers_) {
-    if (std::exchange(walker.placed, true)) continue;
-    for (int limb = 0; limb < kLimbs; ++limb) {
-      visuals.move(walker.limbs[static_cast<std::size_t>(limb)],
-                   walker.pose * walker.gait.limb(limb));
+void Engines::place_limbs(physics::LinkId link, std::shared_ptr<const std::vector<Pose>> limbs) {
+  Limbs& placed = limbs_.at(link.index);
+  placed.poses = std::move(limbs);
+  placed.placed = false;
+}
+
+void Engines::follow_limbs() {
+  for (auto& [link, limbs] : limbs_) {
+    if (std::exchange(limbs.placed, true)) continue;
+    const Pose& pose = limbs.link;
+    for (std::size_t i = 0; i < limbs.bodies.size(); ++i) {
+      visuals.move(limbs.bodies[i], limbs.poses ? pose * limbs.poses->at(i) : pose);
     }
   }
 }
@@ -141,10 +150,11 @@ void Engines::remove(const Parts& parts) {
     rays.remove(shape.id);
   }
   for (const render::BodyId body : parts.bodies) visuals.remove(body);
-  if (parts.walks) {
-    const auto walker = walkers_.find(parts.links.front().index);
-    for (const render::BodyId limb : walker->second.limbs) visuals.remove(limb);
-    walkers_.erase(walker);
+  for (const physics::LinkId link : parts.links) {
+    const auto limbs = limbs_.find(link.index);
+    if (limbs == limbs_.end()) continue;
+    for (const render::BodyId limb : limbs->second.bodies) visuals.remove(limb);
+    limbs_.erase(limbs);
   }
   for (const Parts::Lamp& lamp : parts.lamps) light.remove(lamp.id);
   physics.remove(parts.body);
@@ -207,6 +217,20 @@ void Engines::set_standing(Resting::Body body, bool standing) {
   }
 }
 
+void Engines::take_posture(const Parts& parts, std::uint32_t link, int posture, const Pose& pose) {
+  physics.move(parts.links[link], pose * physics.pose(parts.links[link]).inverse());
+  note_change();
+  follow(parts, link);
+  for (std::uint32_t i = parts.first_shape[link]; i < parts.first_shape[link + 1]; ++i) {
+    const Parts::Shape& shape = parts.shapes[i];
+    if (shape.posture < 0) continue;
+    const bool counts = shape.posture == posture;
+    rays.show(shape.id, counts);
+    if (shape.collision.valid()) physics.set_touches(shape.collision, counts);
+    show(parts, shape);
+  }
+}
+
 void Engines::note_rest(Nanoseconds now) {
   loose.update(now, [&](Resting::Body body) { set_standing(body, true); });
 }
@@ -223,11 +247,12 @@ void Engines::follow(const Parts& parts, std::uint32_t link) {
   const Pose pose = physics.pose(parts.links[link]);
   const Resting::Body body = parts.loose[link];
   visuals.move(parts.bodies[link], pose);
-  if (parts.walks && link == 0) {
-    Walker& walker = walkers_[parts.links[link].index];
-    walker.gait.advance(pose, physics.link(parts.links[link]).linear_velocity.head<2>().norm());
-    walker.pose = pose;
-    walker.placed = false;
+  if (!limbs_.empty()) {
+    const auto limbs = limbs_.find(parts.links[link].index);
+    if (limbs != limbs_.end()) {
+      limbs->second.link = pose;
+      limbs->second.placed = false;
+    }
   }
   if (body != Resting::kNone) {
     if (loose.move(body, pose)) set_standing(body, false);

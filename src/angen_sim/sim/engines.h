@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -9,7 +10,6 @@
 #include "physics/world.h"
 #include "rays/scene.h"
 #include "render/scene.h"
-#include "sim/gait.h"
 #include "sim/mover_index.h"
 #include "sim/resting.h"
 #include "sim/state_changes.h"
@@ -24,24 +24,25 @@ struct Parts {
     std::uint32_t link = 0;
     Pose offset;       // in the link's frame
     int surface = -1;  // SurfaceRef of the visual that it is like, -1: none
+    int posture = -1;  // in Anatomy::postures; -1: of all
+    physics::CollisionId collision;
   };
   struct Lamp {
     light::LampId id;
     std::uint32_t link = 0;
     Pose offset;
     double nominal_flux = 0.0;  // lm at level 1 in the light engine
-    double level = 0.0;         // as the device set it, 0..1
+    double level = 0.0;         // what the device set, 0..1
   };
   physics::ModelId body;
   bool is_static = false;
-  bool walks = false;                                    // its first link is a person
-  std::vector<physics::LinkId> links;                    // as desc::Model::links
-  std::vector<physics::JointId> joints;                  // as desc::Model::joints
+  std::vector<physics::LinkId> links;                    // indexed like desc::Model::links
+  std::vector<physics::JointId> joints;                  // indexed like desc::Model::joints
   std::vector<Shape> shapes;                             // in the order of links
-  std::vector<std::uint32_t> first_shape;                // of each link, and how many there are
-  std::vector<std::vector<std::uint32_t>> child_joints;  // of each link: that it is the child of
-  std::vector<Resting::Body> loose;                      // of each link; kNone for one that is held
-  std::vector<render::BodyId> bodies;                    // as links: bodies that cameras see
+  std::vector<std::uint32_t> first_shape;                // each link's first, and the number of all
+  std::vector<std::vector<std::uint32_t>> child_joints;  // joints that each link is the child of
+  std::vector<Resting::Body> loose;                      // each link's; kNone for one that is held
+  std::vector<render::BodyId> bodies;                    // each link's body that cameras see
   std::vector<Lamp> lamps;                               // in the order of links and their lights
 };
 
@@ -63,10 +64,15 @@ class Engines {
   /// When something will have come to rest, at the earliest.
   Nanoseconds next_rest() const { return loose.next(); }
 
+  /// A link at rest at `pose`, with the shapes of one of its postures.
+  void take_posture(const Parts& parts, std::uint32_t link, int posture, const Pose& pose);
+
   /// Finds light between surfaces, a part in each tick.
   void advance_light(Nanoseconds now);
-  /// To be called before an image: where the limbs of people have swung.
-  void place_limbs();
+  /// Where the limbs of a link are in its frame from now on.
+  void place_limbs(physics::LinkId link, std::shared_ptr<const std::vector<Pose>> limbs);
+  /// To be called before an image: limbs follow their links.
+  void follow_limbs();
   bool light_busy() const { return light.busy() || (light.active() && light_lags()); }
 
   physics::World physics;
@@ -75,7 +81,7 @@ class Engines {
   render::Ambience ambience;
   double ambient_temperature;  // K
   light::Lighting light{rays};
-  MoverIndex movers;  // which movers are near which sensors' rays
+  MoverIndex movers;  // finds movers near sensors' rays
   SurfaceTemperatures surfaces{rays};
   Resting loose;
   StateChanges states;
@@ -87,11 +93,11 @@ class Engines {
   MoverIndex::Moment standing_changed() const { return standing_changed_; }
 
  private:
-  /// The limbs of a person, which cameras see swing.
-  struct Walker {
-    std::vector<render::BodyId> limbs;  // by their numbers
-    Gait gait;
-    Pose pose;
+  /// The limbs of a link, which cameras see move.
+  struct Limbs {
+    std::vector<render::BodyId> bodies;              // indexed like Anatomy::limbs
+    std::shared_ptr<const std::vector<Pose>> poses;  // in the link's frame; null: at its origin
+    Pose link;
     bool placed = true;
   };
 
@@ -101,7 +107,7 @@ class Engines {
   void set_standing(Resting::Body body, bool standing);
   bool light_lags() const { return standing_changed_ >= light_followed_; }
 
-  std::unordered_map<std::uint32_t, Walker> walkers_;  // by LinkId
+  std::unordered_map<std::uint32_t, Limbs> limbs_;  // by LinkId
   MoverIndex::Moment changed_ = 0;
   MoverIndex::Moment standing_changed_ = 0;
   MoverIndex::Moment light_followed_ = 0;  // advance_light() knows all changes before

@@ -26,7 +26,7 @@ struct Motion {
   Vec3 angular = Vec3::Zero();  // rad/s
 };
 
-/// These throw Error where there is none of that name. "" is no entity.
+/// Throw Error if there is none of that name. "" is no entity.
 Entity find_entity(const Building& building, const std::string& name);
 Entity find_link(const Building& building, const std::string& name);
 

@@ -23,19 +23,19 @@ struct Fault {
   };
 
   Kind kind = Kind::kDropout;
-  double share = 0.0;  // of its messages
+  double share = 0.0;  // share of its messages
   double a_day = 0.0;  // false alarms, or seconds that its clock gains
   Nanoseconds from = 0;
   Nanoseconds lasts = 0;
-  Nanoseconds least = 0;  // of a delay
+  Nanoseconds least = 0;  // least delay
   Nanoseconds most = 0;
-  Pose by;  // that it is moved, in its own frame
+  Pose by;  // displacement in its own frame
 
   const char* name() const;
 };
 
-/// Those of a text: "dropout share=0.02; delay by=6-120", times in s. Throws Error, which says what
-/// would be right.
+/// Faults of a text: "dropout share=0.02; delay by=6-120", times in s. Throws Error, which says
+/// what would be right.
 std::vector<Fault> parse_faults(const std::string& text);
 
 }  // namespace angen::sim

@@ -23,7 +23,7 @@ class Faults {
   /// There are other sensors. New ones have the faults that their SDF names.
   void follow(std::shared_ptr<const Structure> structure, Nanoseconds now);
   /// Gives faults to the sensors whose name, or KIND/NAME, matches a pattern as of file names;
-  /// "Off" takes all from them. Throws Error where none matches.
+  /// "Off" takes all from them. Throws Error if none matches.
   void give(const std::string& pattern, const std::string& text, Nanoseconds now);
   /// Back to those that SDF names.
   void reset();
@@ -37,7 +37,7 @@ class Faults {
     std::string name;
     Pose by;
   };
-  /// Those that are due, once each.
+  /// Moves that are due, once each.
   std::vector<Move> moves(Nanoseconds now);
 
   /// When something comes that no sensor sends.
@@ -47,9 +47,9 @@ class Faults {
   struct Active {
     Fault fault;
     Nanoseconds since = 0;
-    std::uint64_t key = 0;         // of its random numbers
+    std::uint64_t key = 0;         // key of its random numbers
     Nanoseconds alarm = kForever;  // the next false one
-    Nanoseconds alarm_end = 0;     // of the present one, 0: there is none
+    Nanoseconds alarm_end = 0;     // end of the present one, 0: there is none
     std::int64_t alarms = 0;
     bool done = false;   // it was moved
     bool begun = false;  // it was said
@@ -57,7 +57,7 @@ class Faults {
   struct Message {
     std::shared_ptr<const Reading> reading;
     Nanoseconds stamp = 0;
-    bool sent = false;  // the reading is published, in place of only being known
+    bool sent = false;  // the reading is published, instead of only being known
     std::vector<Event> events;
   };
   struct Channel {

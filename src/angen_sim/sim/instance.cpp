@@ -6,6 +6,8 @@
 
 #include "plugin/declared.h"
 #include "plugin/ray_color.h"
+#include "plugin/wiring.h"
+#include "sim/customs.h"
 #include "sim/device_maker.h"
 #include "sim/joined.h"
 #include "sim/wiring.h"
@@ -165,7 +167,7 @@ ModelInfo info_of(const desc::Model& model) {
 
 namespace {
 
-/// Of a library that has several sensors, the one whose kind is the name of the element; or null.
+/// The sensor of a library whose kind is the name of the element; or null.
 const Plugin* named_in(const std::vector<std::shared_ptr<const Plugin>>& library,
                        const Element& element) {
   const std::string* name = element.attribute("name");
@@ -197,7 +199,7 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
     for (const auto& plugin : library) {
       if (chosen != nullptr && plugin.get() != chosen) continue;
       read.emplace(described.plugin_element, &described.element, plugin->kind().rate());
-      if (live.desc->tolerant) read->take_first();
+      if (live.desc->customs.first_holds) read->take_first();
       instance.sensor = plugin->make_sensor(*read);
       instance.plugin = plugin;
       if (instance.sensor) break;
@@ -226,12 +228,8 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
     instance.sensor->configure(params, wiring);
     instance.plugin->link_of(params);
     if (only != nullptr) instance.pose = instance.pose * offset_in(params);
-    if (live.desc->tolerant) {
-      for (const Diagnostic& each : params.unread()) warnings.push_back(each.text() + " (ignored)");
-    } else {
-      params.finish();
-    }
-    for (const Diagnostic& warning : params.warnings()) warnings.push_back(warning.text());
+    for (std::string& text : finish(params, live.desc->customs))
+      warnings.push_back(std::move(text));
     if (const std::optional<RayGeometry> rays = instance.sensor->rays()) {
       instance.rays = std::make_shared<const RayGeometry>(*rays);
     }
@@ -269,9 +267,8 @@ void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plug
         live.sensors.push_back(
             make_sensor(live, i, {live.desc, &described}, name, catalog, warnings));
       } catch (const Error& error) {
-        if (!model.tolerant) throw;
-        for (const Diagnostic& each : error.diagnostics()) {
-          warnings.push_back(each.text() + " (ignored)");
+        for (std::string& text : set_aside(error, model.customs)) {
+          warnings.push_back(std::move(text));
         }
       }
     }

@@ -24,6 +24,7 @@ struct DeviceInstance : DeviceInfo {
   Reading scratch;                 // it reports into this, which is then compared
   std::size_t checked_fields = 0;  // how many of these
   std::shared_ptr<const Reading> last;
+  LimbPoses limbs;             // limbs with that state
   Nanoseconds updated = 0;     // when it last was
   Nanoseconds idle_until = 0;  // unless it is commanded or its model wakes
   bool to_report = true;       // it was updated since its last report
@@ -59,22 +60,22 @@ struct CachedScan {
 struct WatchedLight {
   const light::Probe* probe;
   MoverIndex::WatchRegion region;  // the probe's reach
-  Eigen::AlignedBox3d box;         // of it
+  Eigen::AlignedBox3d box;         // box of the region
   MoverIndex::Moment sampled;      // changes before it are in the sample
 };
 
-/// The region of rays that a sensor has named in place of all shapes.
+/// The region of rays that a sensor has named instead of all shapes.
 struct WatchedRays {
   MoverIndex::WatchRegion region;
   Eigen::AlignedBox3d box;  // the region's
   std::uint64_t revision;   // grows when something in it changes
 };
 
-/// Which parts of the world an instance queried besides rays, the time and its own pose.
+/// Parts of the world that an instance queried besides rays, the time and its own pose.
 struct Queried {
   bool contacts = false;
   bool light = false;
-  bool devices = false;  // which there are
+  bool devices = false;  // the set of devices
   bool other = false;
   StateChanges::Fields fields = 0;  // by which it queried devices
   bool heat = false;                // temperatures of surfaces
@@ -93,7 +94,7 @@ struct Queried {
 /// Forecast of a lazy sensor's noise.
 struct NoiseForecast {
   double no_event_probability = 0.0;  // see NoisySensor
-  Nanoseconds next_event = kForever;  // as well
+  Nanoseconds next_event = kForever;  // see NoisySensor
   Nanoseconds no_event_until = 0;     // no sample up to then may have an event
   Nanoseconds possible_event_at = 0;  // the next one that may; known when later than now
 };
@@ -102,32 +103,32 @@ struct SensorInstance : SensorInfo {
   // Each due time reads these, and the schedule beside them: with many sensors they are not
   // in the CPU's cache.
   std::vector<std::unique_ptr<CachedScan>> scans;  // by ray set
-  std::unique_ptr<WatchedLight> light;             // null where light may come from anywhere
-  std::unique_ptr<WatchedRays> near;               // null where all shapes matter
+  std::unique_ptr<WatchedLight> light;             // null if light may come from anywhere
+  std::unique_ptr<WatchedRays> near;               // null if all shapes matter
   MoverIndex::Moment seen = 0;                     // its last sample has all changes before
   SensorActivity activity;
   Queried queried{false, false, false, true, 0, false, false, false};  // for its reading
-  bool link_moves = true;  // false where its link is static
+  bool link_moves = true;  // false if its link is static
 
   std::unique_ptr<Sensor> sensor;
   NoisySensor* noisy = nullptr;                // `sensor`, where it applies its noise itself
-  std::vector<Noise> noise;                    // that is added to its readings
+  std::vector<Noise> noise;                    // noise that is added to its readings
   std::uint32_t link = 0;                      // in its model
   std::vector<std::string> collisions;         // full names, by ContactRef
   std::vector<physics::CollisionId> touching;  // the same
   std::set<std::string> serves;                // names of <sensor>s in whose place it measures
   Reading clean;                               // the latest, before `noise`; unused without
   Reading latest;
-  std::size_t checked_fields = 0;   // of its readings
+  std::size_t checked_fields = 0;   // fields of its readings
   PublishedReading published;       // the latest published, as snapshots have it
   Pose seen_from;                   // at its last sample, if its link moves
   std::uint64_t contacts_seen = 0;  // their revisions at its last sample
-  std::uint64_t light_seen = 0;     // as well
+  std::uint64_t light_seen = 0;     // light's revision at its last sample
   NoiseForecast forecast;
   Nanoseconds cost = 0;  // CPU time that the meter counts
   std::string error;     // text of its exception; it is not called again
 
-  /// Those that it watches; they are found again with its next sample.
+  /// Forgets the regions that it watches; they are found again with its next sample.
   void forget_regions();
   /// Whether readings of a steady sensor differ from sample to sample.
   bool varies() const;
@@ -138,11 +139,11 @@ struct SensorInstance : SensorInfo {
 /// A model in the world, with its devices and sensors.
 struct LiveModel {
   std::shared_ptr<const desc::Model> desc;
-  std::shared_ptr<const desc::Model> read;  // as its text has it; edits change only `desc`
+  std::shared_ptr<const desc::Model> read;  // what its text says; edits change only `desc`
   Parts parts;
   std::vector<DeviceInstance> devices;
   std::vector<SensorInstance> sensors;
-  std::vector<Storey> storeys;     // of the world when it came
+  std::vector<Storey> storeys;     // the world's when it came
   std::int64_t awake_at = 0;       // the last tick at whose end some of it was awake
   MoverIndex::Moment changed = 0;  // when it moved last; an awake one may move in the next tick
   std::uint32_t first_link = 0;    // index of its first link in Structure::links

@@ -12,8 +12,8 @@ namespace angen::sim {
 struct Cost {
   Nanoseconds simulated = 0;  // by these ticks
   std::shared_ptr<const Structure> structure;
-  std::vector<Nanoseconds> each_device;  // as Structure::devices
-  std::vector<Nanoseconds> each_sensor;  // as Structure::sensors
+  std::vector<Nanoseconds> each_device;  // indexed like Structure::devices
+  std::vector<Nanoseconds> each_sensor;  // indexed like Structure::sensors
   Nanoseconds commands = 0;              // executing commands
   Nanoseconds devices = 0;               // all of them, and finding those that have to act
   Nanoseconds physics = 0;               // and updating the other engines

@@ -202,7 +202,7 @@ void MoverIndex::unlink(Mover& mover) {
 /// Moves the cell to the head of the list.
 void MoverIndex::mark_changed(std::uint32_t number) {
   Cell& cell = cells_[number];
-  if (cell.changed == now_) return;  // as by another shape of the same body
+  if (cell.changed == now_) return;  // another shape of the same body did it
   cell.changed = now_;
   if (latest_ == number) return;
   if (cell.after != UINT32_MAX) cells_[cell.after].before = cell.before;

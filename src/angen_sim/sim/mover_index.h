@@ -11,10 +11,10 @@
 
 namespace angen::sim {
 
-/// Which moving shapes are near each watched region (a box in which a sensor's rays run), and which
-/// regions changed since when. A mover is indexed by a box somewhat larger than its own and indexed
-/// again only when it has left that box, so the cost of a tick depends on the movers in it, not on
-/// the number of regions.
+/// Knows which moving shapes are near each watched region (a box in which a sensor's rays run), and
+/// which regions changed since when. A mover is indexed by a box somewhat larger than its own and
+/// indexed again only when it has left that box, so the cost of a tick depends on the movers in it,
+/// not on the number of regions.
 class MoverIndex {
  public:
   using Box = Eigen::AlignedBox3d;
@@ -23,7 +23,7 @@ class MoverIndex {
   struct SplitMovers {
     std::vector<rays::ShapeId> still;
     std::vector<rays::ShapeId> moving;
-    Moment longest = 0;  // of `moving`: when the one that has rested longest came to rest
+    Moment longest = 0;  // when the one of `moving` that has rested longest came to rest
   };
 
   /// A registered region; the destructor removes it, and must run before that of MoverIndex.
@@ -54,7 +54,7 @@ class MoverIndex {
     std::uint32_t index_;
   };
 
-  /// As WatchRegion::changed_since, of the region with that number.
+  /// WatchRegion::changed_since() of the region with that number.
   bool changed_since(std::uint32_t region, Moment since) const;
   std::size_t region_count() const { return regions_.size(); }  // numbers are below it
   /// Calls visit(number) for each region that changed at `since` or later, and for others near
@@ -71,7 +71,7 @@ class MoverIndex {
     }
   }
 
-  /// A moving shape came or moved; its box (m) is infinite for a plane, empty where it cannot be
+  /// A moving shape came or moved; its box (m) is infinite for a plane, empty if it cannot be
   /// hit.
   void put(rays::ShapeId mover, const Box& box);
   void remove(rays::ShapeId mover);
@@ -118,7 +118,7 @@ class MoverIndex {
   void close(std::uint32_t region);
   void add_to_cells(std::uint32_t region);
   void remove_from_cells(std::uint32_t region);
-  /// The cells that a box overlaps; false where they are too many.
+  /// The cells that a box overlaps; false if they are too many.
   bool find_cells(const Box& box, CellList& cells);
   void link(Mover& mover);
   void unlink(Mover& mover);
@@ -126,12 +126,12 @@ class MoverIndex {
   void each_region_in(const Box& box, F&& visit);
 
   std::vector<Region> regions_;
-  std::vector<RegionState> region_states_;  // as regions_
+  std::vector<RegionState> region_states_;  // indexed like regions_
   std::vector<CellList> cell_lists_{CellList{}};
   std::map<CellList, std::uint32_t> cell_list_numbers_;
   std::vector<std::uint32_t> free_;
   std::vector<Mover> movers_;  // by index of the shape; one without an id is none
-  std::vector<Moment> moved_;  // as movers_, which are too large for this search
+  std::vector<Moment> moved_;  // indexed like movers_, which are too large for this search
   std::unordered_map<std::uint64_t, std::uint32_t> cell_numbers_;  // by packed cell coordinates
   std::vector<Cell> cells_;
   std::uint32_t latest_ = UINT32_MAX;  // the head of their list

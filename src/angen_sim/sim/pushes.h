@@ -32,7 +32,7 @@ class Pushes {
   struct Push {
     const LiveModel* model;
     bool on_joint;
-    std::uint32_t index;  // of the link or joint
+    std::uint32_t index;  // index of the link or joint
     Vec3 force;
     Vec3 torque;
     double effort;

@@ -37,7 +37,7 @@ class Resting {
       visit(body);
     }
   }
-  /// When the next one will, if it does not move; kForever where all do. After update().
+  /// When the next one will, if it does not move; kForever if all do. After update().
   Nanoseconds next() const;
   const std::vector<rays::ShapeId>& shapes(Body body) const { return bodies_[body].shapes; }
 

@@ -13,7 +13,7 @@ constexpr Nanoseconds kForecast = 10 * kSecond;  // noise is known at most this 
 }  // namespace
 
 /// The first sample at or before `until` that may have an event; else kForever.
-Nanoseconds DueSensors::next_possible_event(SensorInstance& sensor, InstanceView::Clock clock,
+Nanoseconds DueSensors::next_possible_event(SensorInstance& sensor, Clock clock,
                                             Nanoseconds until) const {
   NoiseForecast& forecast = sensor.forecast;
   if (forecast.possible_event_at > clock.time) return forecast.possible_event_at;
@@ -35,7 +35,7 @@ Nanoseconds DueSensors::next_possible_event(SensorInstance& sensor, InstanceView
 }
 
 /// The sample up to which the noise of a lazy sensor need not be checked again.
-Nanoseconds DueSensors::next_check(SensorInstance& sensor, InstanceView::Clock clock) const {
+Nanoseconds DueSensors::next_check(SensorInstance& sensor, Clock clock) const {
   const Nanoseconds until = (clock.time / kForecast + 1) * kForecast;
   if (sensor.forecast.no_event_probability >= 1.0) {
     return sensor.forecast.next_event == kForever
@@ -45,8 +45,7 @@ Nanoseconds DueSensors::next_check(SensorInstance& sensor, InstanceView::Clock c
   return std::min(next_possible_event(sensor, clock, until), until);
 }
 
-std::int64_t DueSensors::next_tick(Building& building, InstanceView::Clock clock,
-                                   std::int64_t tick) {
+std::int64_t DueSensors::next_tick(Building& building, Clock clock, std::int64_t tick) {
   if (outdated_) list(building, clock.time);
   if (building.engines().light_busy()) return clock.time / clock.step;
   const auto stop_before = [&](Nanoseconds sample) {
@@ -73,7 +72,7 @@ std::int64_t DueSensors::next_tick(Building& building, InstanceView::Clock clock
   return tick;
 }
 
-void DueSensors::skip_to(InstanceView::Clock clock, std::int64_t tick, Snapshot& next) {
+void DueSensors::skip_to(Clock clock, std::int64_t tick, Snapshot& next) {
   const Nanoseconds to = tick * clock.step;
   std::uint64_t readings = next.counts.readings;
   for (const Entry& entry : entries_) {

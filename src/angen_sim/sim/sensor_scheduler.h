@@ -10,14 +10,14 @@
 
 namespace angen::sim {
 
-/// Which sensors sample when, by their index. Sensors with the same schedule are a group. Idle ones
-/// are not visited when their group is due, until they are activated.
+/// Knows which sensors, by index, sample when. Sensors with the same schedule are a group. Idle
+/// ones are not visited when their group is due, until they are activated.
 class SensorScheduler {
  public:
   struct Group {
-    Schedule schedule;                  // of all its sensors
+    Schedule schedule;                  // schedule of all its sensors
     std::vector<std::uint32_t> active;  // ascending
-    std::vector<std::uint32_t> idle;    // as well
+    std::vector<std::uint32_t> idle;    // idle sensors, ascending
     Nanoseconds next_check = kForever;  // until then no idle one's noise may cause an event
     MoverIndex::Moment checked = 0;     // idle ones were activated for all changes before
 
@@ -59,7 +59,7 @@ class SensorScheduler {
 
   std::vector<Group> groups_;
   std::vector<std::uint32_t> group_of_;  // by sensor
-  std::vector<char> idle_;               // as well
+  std::vector<char> idle_;               // indexed by sensor
   std::priority_queue<Due, std::vector<Due>, std::greater<>> queue_;
   std::vector<std::uint32_t> due_;
 };

@@ -6,15 +6,16 @@
 
 #include "plugin/declared.h"
 #include "sim/guard.h"
+#include "sim/view.h"
 
 namespace angen::sim {
 
 namespace {
 
-constexpr int kMaxRaySets = 256;  // of one sensor that are cached
+constexpr int kMaxRaySets = 256;  // cached ray sets of one sensor
 const std::uint64_t kOwnDraws = hash_bytes("own draws");
 
-bool publishes(const SensorInstance& sensor, InstanceView::Clock clock) {
+bool publishes(const SensorInstance& sensor, Clock clock) {
   return !sensor.published.reading ||
          sensor.schedule.last_publication(clock.time) > clock.time - clock.step;
 }
@@ -39,8 +40,7 @@ bool as_published(const SensorInstance& sensor) {
 
 }  // namespace
 
-void SensorSystem::sample(Building& building, InstanceView::Clock clock, std::int64_t tick,
-                          Snapshot& next) {
+void SensorSystem::sample(Building& building, Clock clock, std::int64_t tick, Snapshot& next) {
   Engines& engines = building.engines();
   engines.advance_light(clock.time);
   samples_.clear();
@@ -60,8 +60,7 @@ void SensorSystem::sample(Building& building, InstanceView::Clock clock, std::in
   meter_.rest.sensors += meter_.watch.lap();
 }
 
-void SensorSystem::visit(Building& building, std::uint32_t index, InstanceView::Clock clock,
-                         Snapshot& next) {
+void SensorSystem::visit(Building& building, std::uint32_t index, Clock clock, Snapshot& next) {
   switch (due_.visit(building.engines(), index, clock)) {
     case DueSensors::Visit::kNothing:
       return;
@@ -75,8 +74,7 @@ void SensorSystem::visit(Building& building, std::uint32_t index, InstanceView::
 }
 
 /// Publishes for a sensor that needs no sample.
-void SensorSystem::publish_unsampled(std::uint32_t index, InstanceView::Clock clock,
-                                     Snapshot& next) {
+void SensorSystem::publish_unsampled(std::uint32_t index, Clock clock, Snapshot& next) {
   SensorInstance& sensor = *due_[index].sensor;
   if (sensor.activity.steady()) {
     if (publishes(sensor, clock)) publish(index, clock.time, next);
@@ -90,7 +88,7 @@ void SensorSystem::publish_unsampled(std::uint32_t index, InstanceView::Clock cl
   if (publishes(sensor, clock)) repeat(index, next);
 }
 
-void SensorSystem::begin_sample(Building& building, std::uint32_t index, InstanceView::Clock clock,
+void SensorSystem::begin_sample(Building& building, std::uint32_t index, Clock clock,
                                 Snapshot& next) {
   if (due_[index].sensor->activity.lazy()) resume(index, clock, next);
   const std::size_t others = rays_.size();
@@ -100,7 +98,7 @@ void SensorSystem::begin_sample(Building& building, std::uint32_t index, Instanc
   fail(index, thrown, clock.time, next);
 }
 
-void SensorSystem::aim(Building& building, std::uint32_t index, InstanceView::Clock clock) {
+void SensorSystem::aim(Building& building, std::uint32_t index, Clock clock) {
   Engines& engines = building.engines();
   SensorInstance& sensor = *due_[index].sensor;
   const InstanceView view(building, *due_[index].live, clock, &sensor);
@@ -148,8 +146,8 @@ Hits SensorSystem::hits_of(Engines& engines, const Sample& sample, bool& same) {
   return {cached_hits_.data(), cached_hits_.size()};
 }
 
-void SensorSystem::read(Building& building, const Sample& sample, InstanceView::Clock clock,
-                        std::int64_t tick, Snapshot& next) {
+void SensorSystem::read(Building& building, const Sample& sample, Clock clock, std::int64_t tick,
+                        Snapshot& next) {
   SensorInstance& sensor = *due_[sample.index].sensor;
   Engines& engines = building.engines();
   bool same = false;
@@ -175,8 +173,8 @@ void SensorSystem::read(Building& building, const Sample& sample, InstanceView::
 }
 
 /// The sensor's reading, with its noise.
-Queried SensorSystem::measure(Building& building, const Sample& sample, Hits hits,
-                              InstanceView::Clock clock, std::int64_t tick) const {
+Queried SensorSystem::measure(Building& building, const Sample& sample, Hits hits, Clock clock,
+                              std::int64_t tick) const {
   SensorInstance& sensor = *due_[sample.index].sensor;
   const bool has_noise = !sensor.noise.empty();
   Reading& reading = has_noise ? sensor.clean : sensor.latest;
@@ -224,7 +222,7 @@ void SensorSystem::repeat(std::uint32_t index, Snapshot& next) {
 }
 
 /// Ends the time in which the sensor's lazy reading replaced its samples.
-void SensorSystem::resume(std::uint32_t index, InstanceView::Clock clock, Snapshot& next) {
+void SensorSystem::resume(std::uint32_t index, Clock clock, Snapshot& next) {
   SensorInstance& sensor = *due_[index].sensor;
   sensor.activity.resume();
   const Nanoseconds last = sensor.schedule.last_sample(clock.time - clock.step);

@@ -16,7 +16,7 @@ class SensorSystem {
       : seed_(seed), meter_(meter), due_(seed, requested, meter) {}
 
   /// The samples of a tick.
-  void sample(Building& building, InstanceView::Clock clock, std::int64_t tick, Snapshot& next);
+  void sample(Building& building, Clock clock, std::int64_t tick, Snapshot& next);
   DueSensors& due() { return due_; }
 
  private:
@@ -28,21 +28,20 @@ class SensorSystem {
     std::size_t ray_count;
   };
 
-  void visit(Building& building, std::uint32_t index, InstanceView::Clock clock, Snapshot& next);
-  void publish_unsampled(std::uint32_t index, InstanceView::Clock clock, Snapshot& next);
-  void begin_sample(Building& building, std::uint32_t index, InstanceView::Clock clock,
-                    Snapshot& next);
-  void aim(Building& building, std::uint32_t index, InstanceView::Clock clock);
+  void visit(Building& building, std::uint32_t index, Clock clock, Snapshot& next);
+  void publish_unsampled(std::uint32_t index, Clock clock, Snapshot& next);
+  void begin_sample(Building& building, std::uint32_t index, Clock clock, Snapshot& next);
+  void aim(Building& building, std::uint32_t index, Clock clock);
   void cast(Engines& engines);
   Hits hits_of(Engines& engines, const Sample& sample, bool& same);
-  void read(Building& building, const Sample& sample, InstanceView::Clock clock, std::int64_t tick,
+  void read(Building& building, const Sample& sample, Clock clock, std::int64_t tick,
             Snapshot& next);
-  Queried measure(Building& building, const Sample& sample, Hits hits, InstanceView::Clock clock,
+  Queried measure(Building& building, const Sample& sample, Hits hits, Clock clock,
                   std::int64_t tick) const;
   void note_sampled(const Engines& engines, const Sample& sample, const Queried& queried);
   void publish(std::uint32_t index, Nanoseconds now, Snapshot& next);
   static void repeat(std::uint32_t index, Snapshot& next);
-  void resume(std::uint32_t index, InstanceView::Clock clock, Snapshot& next);
+  void resume(std::uint32_t index, Clock clock, Snapshot& next);
   void fail(std::uint32_t index, const std::string& error, Nanoseconds now, Snapshot& next);
 
   std::uint64_t seed_;

@@ -29,7 +29,7 @@ struct Simulation::Impl {
     publish();
   }
 
-  InstanceView::Clock clock() const { return {next.time, next.step}; }
+  Clock clock() const { return {next.time, next.step}; }
 
   void drain() {
     const CommandQueue::Effects effects = commands.drain(building, clock(), next.events);
@@ -64,7 +64,7 @@ struct Simulation::Impl {
     }
   }
 
-  // As of now: its numbers are those of the present structure.
+  // The present state: its numbers are those of the present structure.
   SavedState saved() {
     return {std::make_shared<const Snapshot>(next), building.saved_plugins(next.time, next.step),
             building.changed_models(), building.saved_lights()};
@@ -96,8 +96,8 @@ struct Simulation::Impl {
     return time > kForever - next.step ? kForever : (time + next.step - 1) / next.step;
   }
 
-  /// The end of the next tick. A longer one ends where anything but a person's device or a sensor
-  /// needs one.
+  /// The end of the next tick. A longer one ends when a sensor needs one, or a device that takes no
+  /// long steps.
   std::int64_t next_end(Nanoseconds until, bool long_steps) {
     const std::int64_t here = next.tick;
     const Engines& engines = building.engines();
@@ -232,6 +232,7 @@ struct Simulation::Impl {
     next.link_poses.truncate(kept.link);
     next.joint_positions.truncate(kept.joint);
     next.devices.truncate(kept.device);
+    next.limbs.truncate(kept.device);
     next.sensors.truncate(kept.sensor);
     next.moved_links.clear();
     for (std::size_t i = from; i < building.models().size(); ++i) append(*building.models()[i]);
@@ -254,7 +255,10 @@ struct Simulation::Impl {
   }
 
   void append_devices(const LiveModel& live) {
-    for (const DeviceInstance& device : live.devices) next.devices.push_back(device.last);
+    for (const DeviceInstance& device : live.devices) {
+      next.devices.push_back(device.last);
+      next.limbs.push_back(device.limbs);
+    }
   }
 
   void write_link(const LiveModel& live, std::uint32_t link) {
@@ -349,6 +353,14 @@ Observed Simulation::observe(const Observation& what) const {
   Observed observed = sim::observe(impl_->building, what);
   observed.time = impl_->next.time;
   return observed;
+}
+
+std::vector<rays::Hit> Simulation::cast(const std::vector<rays::Ray>& rays) const {
+  std::vector<rays::Hit> hits(rays.size());
+  rays::Scene& scene = impl_->building.engines().rays;
+  scene.commit();
+  scene.cast(rays, hits);
+  return hits;
 }
 
 bool Simulation::running() const { return impl_->commands.running(); }

@@ -18,7 +18,7 @@ namespace angen::sim {
 /// A world that runs. One thread calls tick(); any thread may post().
 class Simulation {
  public:
-  /// Builds the world; throws Error where that is impossible (an unknown plug-in, a wrong
+  /// Builds the world; throws Error if that is impossible (an unknown plug-in, a wrong
   /// parameter).
   Simulation(desc::World world, std::uint64_t seed, std::shared_ptr<Catalog> catalog);
   ~Simulation();
@@ -33,7 +33,7 @@ class Simulation {
   /// Returns the snapshot it made.
   std::shared_ptr<const Snapshot> tick();
 
-  /// As tick(), but first skips the ticks without a change: no body is awake, no command
+  /// Like tick(), but first skips the ticks without a change: no body is awake, no command
   /// waits, and devices and sensors would only publish their last readings again, or the
   /// same but for noise. The snapshot is bit for bit that after as many calls of tick().
   /// Its tick ends at `until` at the latest, unless that has passed.
@@ -65,8 +65,12 @@ class Simulation {
   /// The motion of a link now, by its number in Structure::links of the latest snapshot. The thread
   /// that ticks; others post an Observe.
   Motion motion(std::uint32_t link) const;
-  /// As an Observe; throws Error for names that do not exist. The thread that ticks.
+  /// Like an Observe; throws Error for names that do not exist. Only the thread that ticks may call
+  /// it.
   Observed observe(const Observation& what) const;
+
+  /// The nearest hits on the shapes as they are now: one for each ray. The thread that ticks.
+  std::vector<rays::Hit> cast(const std::vector<rays::Ray>& rays) const;
 
   /// Whether ticks are to measure their cost, from the next one on. No result depends on it.
   /// The thread that ticks.

@@ -41,13 +41,14 @@ struct DeviceInfo {
   std::string kind;
   std::string name;
   std::shared_ptr<const Plugin> plugin;  // describes the kind, and keeps its library loaded
-  std::string library;                   // that the plug-in is in, as its SDF names it
-  std::string joint{};                   // of its model that it moves, where it has one of several
+  std::string library;                   // the plug-in's library, as its SDF names it
+  std::string joint{};  // the joint of its model that it moves, if it has one of several
+  int body = -1;        // the number of the link of its model whose anatomy it declares; -1: none
 };
 
 struct DeviceEntry : DeviceInfo {
   std::uint32_t model = 0;           // UINT32_MAX: of a light of the world's own
-  std::uint32_t light = UINT32_MAX;  // that light, in Structure::lights
+  std::uint32_t light = UINT32_MAX;  // the light, in Structure::lights
 };
 
 /// Properties of a sensor that stay the same as long as it exists.
@@ -55,15 +56,15 @@ struct SensorInfo {
   std::string kind;
   std::string name;
   Pose pose;              // in the link's frame
-  std::string topic;      // as its SDF says, or empty
-  std::string frame;      // as its SDF says, or empty
-  std::uint64_t key = 0;  // of its random numbers
+  std::string topic;      // from its SDF, or empty
+  std::string frame;      // from its SDF, or empty
+  std::uint64_t key = 0;  // key of its random numbers
   bool attached = false;  // by a command, to a link that existed
   std::shared_ptr<const desc::Sensor> desc;
   std::shared_ptr<const RayGeometry> rays;  // null: it has no grid of rays
   std::shared_ptr<const Plugin> plugin;     // describes the kind, and keeps its library loaded
-  Schedule schedule;                        // of all its due times
-  std::vector<Fault> faults;                // that its SDF names
+  Schedule schedule;                        // schedule of all its due times
+  std::vector<Fault> faults;                // faults that its SDF names
 
   /// Samples only while requested, see Simulation::request.
   bool on_demand() const { return plugin->kind().is_on_demand; }
@@ -91,11 +92,12 @@ struct Structure {
   SharedArray<DeviceEntry> devices;
   SharedArray<SensorEntry> sensors;
   SharedArray<LightEntry> lights;
-  std::vector<std::shared_ptr<const Plugin>> device_plugins;  // of each kind there is or may be
-  desc::Physics physics;                                      // as it is set now
-  Vec3 gravity = Vec3::Zero();                                // m/s^2
-  std::vector<Storey> storeys;                                // as storeys_of()
-  std::shared_ptr<const DerivedHome> home;                    // of these models
+  std::vector<std::shared_ptr<const Plugin>>
+      device_plugins;                       // plug-ins of each kind that there is or may be
+  desc::Physics physics;                    // present settings
+  Vec3 gravity = Vec3::Zero();              // m/s^2
+  std::vector<Storey> storeys;              // result of storeys_of()
+  std::shared_ptr<const DerivedHome> home;  // home of these models
 };
 
 struct Counts {
@@ -104,11 +106,14 @@ struct Counts {
   std::uint64_t failed_steps = 0;  // redone by the other solver
 };
 
+/// Where limbs are in the frame of their link, as Anatomy::limbs; null: as the model has them.
+using LimbPoses = std::shared_ptr<const std::vector<Pose>>;
+
 /// The reading that a sensor published last, and the lazy reading that replaces its samples since.
 struct PublishedReading {
   std::shared_ptr<const Reading> reading;   // null before the first
-  std::shared_ptr<const LazyReading> lazy;  // null where it is the reading itself
-  Nanoseconds stamp = -1;                   // of one with faults; else by its schedule
+  std::shared_ptr<const LazyReading> lazy;  // null if it is the reading itself
+  Nanoseconds stamp = -1;                   // a faulty sensor's; else by its schedule
 };
 
 /// The world after a tick. Shared and immutable; parts that did not change are shared with the
@@ -122,14 +127,15 @@ struct Snapshot {
   std::shared_ptr<const Structure> structure;
   SharedArray<Pose> link_poses;         // world, as Structure::links
   SharedArray<double> joint_positions;  // rad or m, as Structure::joints, first axis
-  SharedArray<std::shared_ptr<const Reading>> devices;      // as Structure::devices
-  SharedArray<PublishedReading> sensors;                    // as Structure::sensors; see reading()
+  SharedArray<std::shared_ptr<const Reading>> devices;  // indexed like Structure::devices
+  SharedArray<LimbPoses> limbs;           // limbs of their bodies, indexed like devices
+  SharedArray<PublishedReading> sensors;  // indexed like Structure::sensors; see reading()
   std::shared_ptr<const std::vector<double>> light_levels;  // 0..1, as Structure::lights
   std::vector<std::uint32_t> moved_links;   // indices of links whose pose changed in this tick
   std::vector<std::uint32_t> new_readings;  // indices of sensors that published in this tick: a
                                             // reading of now, or again the last, if nothing changed
   std::vector<std::uint32_t> new_states;    // indices of devices whose state changed in this tick
-  std::vector<Event> events;                // of this tick
+  std::vector<Event> events;                // events of this tick
   Counts counts;
 
   /// When a sensor that has a reading last published it: its own stamp, or the due time that found

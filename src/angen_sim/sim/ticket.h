@@ -10,7 +10,7 @@ class Ticket {
   /// True: the action will have no effect. False: it has begun; of a Step no more ticks are taken.
   bool withdraw() { return (state_.fetch_or(kWithdrawn) & kBegun) == 0; }
   bool withdrawn() const { return (state_ & kWithdrawn) != 0; }
-  /// The queue's: false where the action was withdrawn.
+  /// The queue's: false if the action was withdrawn.
   bool begin() { return (state_.fetch_or(kBegun) & kWithdrawn) == 0; }
 
  private:

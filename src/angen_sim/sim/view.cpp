@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "plugin/view.h"
 #include "rays/shaft.h"
 
 namespace angen::sim {
@@ -50,7 +51,8 @@ std::vector<ContactPair> InstanceView::contacts(ContactRef collision) const {
 std::vector<ContactPair> InstanceView::contacts_within(ContactRef collision,
                                                        Nanoseconds period) const {
   queried_.contacts = true;
-  const std::int64_t first = (clock_.time - period) / clock_.step;  // that ended after then
+  const std::int64_t first =
+      (clock_.time - period) / clock_.step;  // the first tick that ended after then
   return engines_.physics.contacts_since(sensor_->touching.at(at(collision)), first);
 }
 
@@ -194,13 +196,13 @@ std::vector<std::uint8_t> InstanceView::colors(const render::PinholeCamera& lens
   // Pictures use only light that is known already: subscriptions of a camera must not
   // change the readings of other sensors.
   if (engines_.light.active()) ambience.reflected = engines_.light.reflected();
-  engines_.place_limbs();
+  engines_.follow_limbs();
   return engines_.visuals.colors(lens, pose, engines_.light.lit(), ambience);
 }
 
 std::vector<float> InstanceView::depths(const render::PinholeCamera& lens, const Pose& pose) const {
   queried_.other = true;
-  engines_.place_limbs();
+  engines_.follow_limbs();
   return engines_.visuals.depths(lens, pose);
 }
 
@@ -226,6 +228,10 @@ void InstanceOutputs::drive(LinkRef link, const Vec3& velocity, double yaw_rate,
 
 void InstanceOutputs::push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) {
   engines_.physics.push(live_.parts.links.at(at(link)), force, torque, point);
+}
+
+void InstanceOutputs::posture(LinkRef link, int posture, const Pose& pose) {
+  engines_.take_posture(live_.parts, static_cast<std::uint32_t>(at(link)), posture, pose);
 }
 
 void InstanceOutputs::light(LightRef light, double level, double luminous_flux) {

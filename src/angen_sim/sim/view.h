@@ -3,19 +3,17 @@
 #include <string>
 #include <vector>
 
+#include "plugin/outputs.h"
 #include "plugin/view.h"
 #include "sim/building.h"
+#include "sim/clock.h"
+#include "sim/command.h"
 
 namespace angen::sim {
 
 /// The world as one device or sensor queries it at one moment.
 class InstanceView : public View {
  public:
-  struct Clock {
-    Nanoseconds time = 0;
-    Nanoseconds step = 0;
-  };
-
   InstanceView(Building& building, const LiveModel& live, Clock clock,
                SensorInstance* sensor = nullptr)
       : building_(building),
@@ -79,18 +77,11 @@ class InstanceView : public View {
   mutable Queried queried_;
 };
 
-/// A command of one device to another.
-struct FromDevice {
-  std::string kind;
-  std::string name;
-  std::string text;
-};
-
 /// The effects of one device on the world.
 class InstanceOutputs : public Outputs {
  public:
   InstanceOutputs(Engines& engines, LiveModel& live, const DeviceInstance& device, Nanoseconds time,
-                  std::vector<Event>& events, std::vector<FromDevice>& commands)
+                  std::vector<Event>& events, std::vector<ToDevice>& commands)
       : engines_(engines),
         live_(live),
         device_(device),
@@ -103,11 +94,12 @@ class InstanceOutputs : public Outputs {
   void latch(JointRef joint, double break_force) override;
   void unlatch(JointRef joint) override;
   void drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) override;
+  void posture(LinkRef link, int posture, const Pose& at) override;
   void push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) override;
   void light(LightRef light, double level, double luminous_flux) override;
   void temperature(SurfaceRef surface, double now, double limit, double time_constant) override;
   void command(const std::string& kind, const std::string& name, const std::string& text) override {
-    commands_.push_back({kind, name, text});
+    commands_.push_back({kind, name, Command{text, {}, "", 0.0}});
   }
   void event(const std::string& event, const std::string& detail) override;
 
@@ -120,7 +112,7 @@ class InstanceOutputs : public Outputs {
   const DeviceInstance& device_;
   Nanoseconds time_;
   std::vector<Event>& events_;
-  std::vector<FromDevice>& commands_;
+  std::vector<ToDevice>& commands_;
   bool lights_changed_ = false;
   bool had_event_ = false;
 };

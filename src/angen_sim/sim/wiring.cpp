@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "plugin/wiring.h"
 #include "sim/joined.h"
 #include "sim/like_visual.h"
 
@@ -170,6 +171,10 @@ std::optional<SensorPart> ModelWiring::sensor(const std::string& sensor) {
     return SensorPart{{static_cast<int>(i)}, found.pose, found.element};
   }
   return std::nullopt;
+}
+
+void ModelWiring::anatomy(LinkRef link, Anatomy anatomy) {
+  body_ = {link.index, std::move(anatomy)};
 }
 
 std::vector<SurfaceRef> ModelWiring::surfaces(const std::string& visual) {

@@ -3,11 +3,13 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "desc/world.h"
 #include "home/survey.h"
-#include "plugin/view.h"
+#include "plugin/plugin.h"
+#include "plugin/wiring.h"
 
 namespace angen::sim {
 
@@ -37,12 +39,15 @@ class ModelWiring : public Wiring {
   ContactRef collision(LinkRef link, const std::string& collision) override;
   std::optional<SensorPart> sensor(const std::string& sensor) override;
   std::vector<SurfaceRef> surfaces(const std::string& visual) override;
+  void anatomy(LinkRef link, Anatomy anatomy) override;
 
-  const std::set<std::string>& joints() const { return joints_; }  // those requested
+  const std::set<std::string>& joints() const { return joints_; }  // requested joints
   const std::set<int>& lights() const { return lights_; }          // by LightRef
   /// Full names of the requested collisions, by ContactRef.
   const std::vector<std::string>& collisions() const { return collisions_; }
-  const std::set<std::string>& sensors() const { return sensors_; }  // those requested
+  const std::set<std::string>& sensors() const { return sensors_; }  // requested sensors
+  /// The link whose anatomy was declared, and that; -1: none was.
+  const std::pair<int, Anatomy>& body() const { return body_; }
 
  private:
   const desc::Model& model_;
@@ -53,6 +58,7 @@ class ModelWiring : public Wiring {
   std::set<int> lights_;
   std::vector<std::string> collisions_;
   std::set<std::string> sensors_;
+  std::pair<int, Anatomy> body_{-1, {}};
 };
 
 }  // namespace angen::sim

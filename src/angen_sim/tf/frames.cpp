@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "ros/topics.h"
 #include "ros/wire.h"
 
 namespace angen::node {
@@ -17,17 +18,17 @@ const Quat kOptical = from_rpy(-M_PI_2, 0.0, -M_PI_2);
 std::optional<std::string> foreign_frame(const RosKind& kind, const sim::SensorEntry& sensor,
                                          const desc::Model& model) {
   if (kind.frame) return kind.frame(sensor);
-  if (sensor.frame.empty() || !model.tolerant) return std::nullopt;
+  if (sensor.frame.empty() || !model.customs.keeps_frames) return std::nullopt;
   return sensor.frame;
 }
 
-// As tf has it: a frame that begins with / has no prefix, and no frame begins with / in the end.
+// A frame that begins with / has no prefix, and no frame begins with / in the end, as in tf.
 std::string resolved(const std::string& prefix, const std::string& frame) {
   if (!frame.empty() && frame[0] == '/') return frame.substr(1);
   return prefix.empty() || frame.empty() ? frame : prefix + "/" + frame;
 }
 
-// The namespace that the first plug-in of a robot names; none where it has no plug-in.
+// The namespace that the first plug-in of a robot names; none if it has no plug-in.
 std::optional<std::string> space_of(const desc::Model& model) {
   std::vector<const Element*> plugins;
   for (const desc::Plugin& plugin : model.plugins) plugins.push_back(&plugin.element);
@@ -35,7 +36,10 @@ std::optional<std::string> space_of(const desc::Model& model) {
     for (const desc::Sensor& sensor : link.sensors) plugins.push_back(&sensor.plugin_element);
   }
   if (plugins.empty()) return std::nullopt;
-  return value_of(plugins, "robotNamespace", "");
+  for (const Element* plugin : plugins) {
+    if (const Element* space = namespace_of(*plugin)) return space->text;
+  }
+  return "";
 }
 
 // A model with several drives has the frames of the last.
@@ -76,7 +80,7 @@ void FrameMaker::drop(const std::shared_ptr<const ModelFrames>& model) {
 // Our own robots have their name for a prefix, or none.
 std::string FrameMaker::prefix_of(const desc::Model& model) const {
   const std::optional<std::string> space = space_of(model);
-  return model.tolerant && space && prefix_in_ ? resolved("", prefix_in_(*space)) : "";
+  return model.customs.keeps_frames && space && prefix_in_ ? resolved("", prefix_in_(*space)) : "";
 }
 
 std::size_t FrameMaker::keep_models(const sim::Structure& structure,
@@ -107,7 +111,7 @@ std::size_t FrameMaker::keep_models(const sim::Structure& structure,
 }
 
 void FrameMaker::add_links(const sim::Snapshot& snapshot, std::size_t kept, FrameTree& tree) const {
-  std::uint32_t first = 0;  // of the model, in Structure::links
+  std::uint32_t first = 0;  // the model's first, in Structure::links
   std::size_t fixed = 0, moving = 0;
   const auto place = [&](const ModelFrames& model) {
     for (const ModelFrames::Standing& standing : model.standing) {
@@ -154,13 +158,12 @@ void FrameMaker::add_odometry(const sim::Structure& structure, const std::vector
   for (std::size_t i = 0; i < mounted_.size(); ++i) {
     if (!mounted_[i].is_odometry) continue;
     const sim::SensorEntry& sensor = structure.sensors[i];
-    const std::vector<const Element*> plugin = {&sensor.desc->plugin_element};
-    const std::string frame =
-        resolved(prefixes_[sensor.model], value_of(plugin, "odometryFrame", "odom"));
-    const bool by_wheels = value_of(plugin, "odometrySource", "world") == "encoder";
+    const RosKind& kind = ros_kind(sensor);
+    const std::string frame = resolved(prefixes_[sensor.model], kind.frame(sensor));
     if (!added.insert(frame).second) continue;
+    const bool at_model = kind.odometry(sensor).starts_at_model;
     tree.odometry.push_back(
-        {kWorldFrame, frame, by_wheels ? structure.models[sensor.model]->pose : Pose{}});
+        {kWorldFrame, frame, at_model ? structure.models[sensor.model]->pose : Pose{}});
   }
   for (const Robot& robot : robots) {
     if (owner_in(robots, robot.model) != &robot) continue;
@@ -205,15 +208,13 @@ void FrameMaker::add_sensor(const sim::Structure& structure, std::uint32_t numbe
   const sim::SensorEntry& sensor = structure.sensors[number];
   const sim::LinkEntry& link = structure.links[sensor.link];
   const RosKind& kind = ros_kind(sensor);
-  Mounted mounted{static_cast<std::uint32_t>(tree.mounts.size()), false, kind.is_odometry};
+  const bool is_odometry = kind.odometry != nullptr;
+  Mounted mounted{static_cast<std::uint32_t>(tree.mounts.size()), false, is_odometry};
   std::string base;
   if (const auto foreign = foreign_frame(kind, sensor, *structure.models[sensor.model])) {
     const std::string& prefix = prefixes_[sensor.model];
     tree.sensors.push_back(resolved(prefix, *foreign));
-    if (kind.is_odometry) {
-      base = resolved(prefix,
-                      value_of({&sensor.desc->plugin_element}, "robotBaseFrame", "base_footprint"));
-    }
+    if (is_odometry) base = resolved(prefix, kind.odometry(sensor).base);
   } else {
     const std::string frame = own_frame(sensor, kind, owner, frame_of(link), mounted.takes_frame);
     if (frame != frame_of(link)) {  // an SDF that names its link's frame means it
@@ -222,8 +223,9 @@ void FrameMaker::add_sensor(const sim::Structure& structure, std::uint32_t numbe
     }
     tree.sensors.push_back(frame);
   }
-  if (kind.is_truth) {  // as the file names it, without a prefix
-    base = value_of({&sensor.desc->plugin_element}, "bodyName", frame_of(link));
+  if (kind.truth) {  // the name in the file, without a prefix
+    base = kind.truth(sensor);
+    if (base.empty()) base = frame_of(link);
   }
   tree.bases.push_back(std::move(base));
   mounted_.push_back(mounted);

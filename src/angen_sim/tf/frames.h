@@ -19,9 +19,9 @@
 namespace angen::node {
 
 struct FrameTree {
-  sim::SharedArray<FixedFrame> fixed;  // of links
+  sim::SharedArray<FixedFrame> fixed;  // frames of links
   std::vector<FixedFrame> odometry;
-  sim::SharedArray<FixedFrame> mounts;  // of sensors, on their links
+  sim::SharedArray<FixedFrame> mounts;  // frames of sensors, on their links
   sim::SharedArray<MovingFrame> moving;
   sim::SharedArray<std::string> sensors;  // frame of each sensor, as Structure::sensors
   sim::SharedArray<std::string> bases;    // the frame whose odometry or truth it is, or empty
@@ -76,10 +76,10 @@ class FrameMaker {
   bool odometry_in_world_;
   PrefixIn prefix_in_;
   std::shared_ptr<const FrameTree> tree_;                   // the last one
-  std::vector<std::shared_ptr<const ModelFrames>> models_;  // as Structure::models
-  std::vector<std::string> prefixes_;                       // of each, when it came
+  std::vector<std::shared_ptr<const ModelFrames>> models_;  // indexed like Structure::models
+  std::vector<std::string> prefixes_;                       // each model's, when it came
   std::unordered_map<std::string, int> link_frames_;        // how many links have one
-  std::vector<Mounted> mounted_;                            // as Structure::sensors
+  std::vector<Mounted> mounted_;                            // indexed like Structure::sensors
   std::unordered_set<std::string> sensor_frames_;           // besides those of links
   bool other_names_ = false;  // a sensor's frame has another name than it would have alone
 };

@@ -12,7 +12,7 @@ namespace angen::node {
 struct FixedFrame {
   std::string parent;
   std::string child;
-  Pose pose;  // of the child in the parent
+  Pose pose;  // the child in the parent
 
   bool operator==(const FixedFrame& o) const {
     return child == o.child && parent == o.parent && pose == o.pose;
@@ -35,7 +35,7 @@ struct ModelFrames {
     std::uint32_t link = 0;
   };
 
-  std::string base_frame;  // of a robot, else empty
+  std::string base_frame;  // a robot's, else empty
   std::uint32_t base = 0;  // its link
   std::vector<std::string> links;
   std::vector<FixedFrame> fixed;

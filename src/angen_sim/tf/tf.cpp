@@ -15,7 +15,8 @@ namespace angen::node {
 namespace {
 
 constexpr Nanoseconds kTransformPeriod = kSecond / 50;
-constexpr std::chrono::seconds kWholePeriod(1);  // of fixed frames; wall time, so also in a pause
+constexpr std::chrono::seconds kWholePeriod(
+    1);  // period of fixed frames; wall time, so also in a pause
 
 void add(tf2_msgs::TFMessage& message, Nanoseconds time, const std::string& parent,
          const std::string& child, const Pose& pose) {
@@ -75,8 +76,8 @@ bool same_frames(const std::vector<Robot>& a, const std::vector<Robot>& b) {
 }  // namespace
 
 Transforms::Transforms(ros::NodeHandle& node)
-    : fixed_(node, "/tf_static", 10),
-      moving_(LazyPublisher::of<tf2_msgs::TFMessage>(node, "/tf", 100)) {}
+    : fixed_(node, "tf_static", 10),
+      moving_(LazyPublisher::of<tf2_msgs::TFMessage>(node, "tf", 100)) {}
 
 void Transforms::on_structure(const sim::Snapshot& snapshot,
                               std::shared_ptr<const FrameTree> frames,

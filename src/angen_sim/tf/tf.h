@@ -35,7 +35,7 @@ class Transforms {
   tf2_msgs::TFMessage collect(const sim::Snapshot& snapshot, bool all, bool again);
 
   LatchedLazyPublisher<tf2_msgs::TFMessage> fixed_;
-  Pacer::Clock::time_point whole_sent_{};  // of fixed_
+  Pacer::Clock::time_point whole_sent_{};  // when fixed_ was sent
   bool whole_waits_ = false;
   LazyPublisher moving_;
   std::shared_ptr<const FrameTree> frames_;

@@ -88,7 +88,7 @@ class RosControl : public JointControl {
   void on_stop(const std_msgs::Bool::ConstPtr& stop) { stop_requested_ = stop->data != 0; }
 
   Nanoseconds period_;
-  Nanoseconds time_ = 0;  // of the last update
+  Nanoseconds time_ = 0;  // time of the last update
   RobotHardware hardware_;
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;

@@ -155,7 +155,8 @@ desc::Model person(const Vec3& at) {
   model.name = "person";
   model.pose.position = at;
   desc::Link body = box_link("body", Vec3::Zero(), {0.5, 0.5, 1.75}, 70.0);
-  body.upright = true;
+  body.anatomy.upright = true;
+  body.anatomy.side_stiffness = 25e3;
   body.inertial.pose.position.z() = body.collisions[0].pose.position.z() = 0.875;
   Shape& shape = body.collisions[0].shape;
   shape.type = Shape::Type::kCapsule;

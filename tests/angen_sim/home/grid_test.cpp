@@ -8,21 +8,21 @@ namespace angen {
 namespace {
 
 // '#' is a wall, ' ' is free; the first line has the highest y.
-LabelGrid grid_of(const std::vector<std::string>& lines) {
-  LabelGrid grid;
+Grid grid_of(const std::vector<std::string>& lines) {
+  Grid grid;
   grid.side = 1.0;
   grid.columns = static_cast<int>(lines[0].size());
   grid.rows = static_cast<int>(lines.size());
   for (int row = 0; row < grid.rows; ++row) {
     for (const char c : lines[static_cast<std::size_t>(grid.rows - 1 - row)]) {
-      grid.labels.push_back(c == '#' ? LabelGrid::kWall : LabelGrid::kFree);
+      grid.cells.push_back(c == '#' ? Grid::kWall : Grid::kFree);
     }
   }
   return grid;
 }
 
 TEST(Grid, PartsAreConnectedByEdges) {
-  LabelGrid grid = grid_of({"  # ", " ## ", "#   "});
+  Grid grid = grid_of({"  # ", " ## ", "#   "});
   const std::vector<std::size_t> sizes = number_parts(grid);
   ASSERT_EQ(sizes.size(), 2U);
   EXPECT_EQ(sizes[0], 5U);  // from the lowest row up
@@ -32,7 +32,7 @@ TEST(Grid, PartsAreConnectedByEdges) {
 }
 
 TEST(Grid, DistancesToWallsAreOfTheStraightWay) {
-  const LabelGrid grid = grid_of({"         ", "         ", "         ", "         ", "#        "});
+  const Grid grid = grid_of({"         ", "         ", "         ", "         ", "#        "});
   const std::vector<double> away = wall_distances(grid, 100.0);
   for (int x = 0; x < grid.columns; ++x) {
     for (int y = 0; y < grid.rows; ++y) {
@@ -43,7 +43,7 @@ TEST(Grid, DistancesToWallsAreOfTheStraightWay) {
 }
 
 TEST(Grid, OutlinesHaveCornersOnlyWhereTheyTurn) {
-  LabelGrid grid = grid_of({"#######", "#   ###", "#     #", "# # # #", "#     #", "#######"});
+  Grid grid = grid_of({"#######", "#   ###", "#     #", "# # # #", "#     #", "#######"});
   number_parts(grid);
   const std::vector<Polygon> outlines = outlines_of(grid, 0, 0.1);
   ASSERT_EQ(outlines.size(), 3U);  // and two pillars
@@ -54,10 +54,10 @@ TEST(Grid, OutlinesHaveCornersOnlyWhereTheyTurn) {
 }
 
 TEST(Grid, OutlinesOfSlantedWallsAreStraight) {
-  LabelGrid grid;
+  Grid grid;
   grid.side = 0.05;
   grid.columns = grid.rows = 100;
-  grid.labels.assign(10'000, LabelGrid::kWall);
+  grid.cells.assign(10'000, Grid::kWall);
   for (int row = 0; row < 100; ++row) {
     for (int column = 0; column + row < 100; ++column) grid.at(column, row) = 0;
   }
@@ -68,11 +68,11 @@ TEST(Grid, OutlinesOfSlantedWallsAreStraight) {
 }
 
 TEST(Grid, LabelsGrowToTheNearestFreeSquares) {
-  LabelGrid grid = grid_of({"     #  "});
+  Grid grid = grid_of({"     #  "});
   grid.at(0, 0) = 0;
   grid.at(4, 0) = 1;
   grow_labels(grid);
-  EXPECT_EQ(grid.labels, (std::vector<std::int32_t>{0, 0, 0, 1, 1, -1, -2, -2}));
+  EXPECT_EQ(grid.cells, (std::vector<std::int32_t>{0, 0, 0, 1, 1, -1, -2, -2}));
 }
 
 }  // namespace

@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include "core/random.h"
 #include "robot.h"
 
 namespace angen::physics::testing {
@@ -22,7 +26,7 @@ Vec3 on_slope(double slope, double towards) {
 desc::Model blocked_wheel(double mu) {
   desc::Link link;
   link.name = "link";
-  link.upright = true;
+  link.anatomy.upright = true;
   link.pose = {{0, 0, 0.1}, from_rpy(-M_PI / 2, 0, 0)};
   link.inertial = box_inertial(2.0, {0.2, 0.2, 0.05});
   link.collisions.push_back(collision(round_shape(Shape::Type::kCylinder, 0.1, 0.05), mu));
@@ -179,6 +183,159 @@ TEST(Friction, OfAPersonWhoStandsIsTheSameInEachDirection) {
   }
   printf("pushed with 3 %% less than its force a person gives way by %.1e m\n", farthest);
   EXPECT_LT(farthest, 1e-4);
+}
+
+struct Runners {
+  double uphill;    // coefficients of friction
+  double downhill;  // across the slope
+  double height;    // of the center of mass, in distances of the runners
+};
+
+/// A frame on two runners across the slope, which falls towards x.
+desc::Model frame_model(const Runners& runners) {
+  const double apart = 0.5;
+  desc::Link link;
+  link.name = "link";
+  link.inertial =
+      box_inertial(10.0, {0.4, 0.4, 0.4}, {{0, 0, runners.height * apart}, Quat::Identity()});
+  for (const bool uphill : {true, false}) {
+    link.collisions.push_back(
+        collision(box_shape({0.01, 0.4, 0.02}), uphill ? runners.uphill : runners.downhill,
+                  {{(uphill ? -0.5 : 0.5) * apart, 0, 0.01}, Quat::Identity()}));
+    link.collisions.back().name = uphill ? "uphill" : "downhill";
+  }
+  return model_of("frame", {link});
+}
+
+struct Point {
+  double pressed = 0.0;   // N
+  double friction = 0.0;  // N
+};
+
+/// The contact points of collisions with `part` in their name.
+std::vector<Point> points_of(const World& world, const std::string& part) {
+  std::vector<Point> points;
+  for (const ContactPair& pair : world.contacts()) {
+    if (pair.second.find(part) == std::string::npos) continue;
+    for (const ContactPoint& point : pair.points) {
+      const double pressed = point.normal.dot(point.force);
+      points.push_back({std::abs(pressed), (point.force - pressed * point.normal).norm()});
+    }
+  }
+  return points;
+}
+
+/// The greatest share of Coulomb's bound among points that carry more than 1 mN.
+double greatest_share(const World& world, const std::string& part, double mu) {
+  double most = 0.0;
+  for (const Point& point : points_of(world, part)) {
+    if (point.friction > 1e-3) most = std::max(most, point.friction / (mu * point.pressed));
+  }
+  return most;
+}
+
+class Frame : public ::testing::TestWithParam<Runners> {};
+
+// The friction T shifts h T / L of the load downhill: T = mu N with N = W cos a / 2 -+ h T / L.
+TEST_P(Frame, SlidesFromTheSlopeOnThatStaticsGives) {
+  const Runners& r = GetParam();
+  const double limit =
+      std::atan((r.uphill + r.downhill) / 2.0 / (1.0 + r.height * (r.uphill - r.downhill)));
+  for (const double beyond : {-5.0, -0.5, 0.5, 4.0, 10.0}) {
+    TestWorld world({}, on_slope(limit + beyond * M_PI / 180.0, 0.0));
+    world.add(floor_model(10.0));
+    const LinkId link = world.only_link(world.add(frame_model(r)));
+    world.run(0.3);
+    const Vec3 at = world.link(link).pose.position;
+    double share = 0.0;
+    for (int i = 0; i < 400; ++i) {
+      world.run(kStep);
+      if (r.uphill > 0.0) share = std::max(share, greatest_share(world, "uphill", r.uphill));
+      if (r.downhill > 0.0) share = std::max(share, greatest_share(world, "downhill", r.downhill));
+    }
+    const double way = (world.link(link).pose.position - at).norm();
+    EXPECT_EQ(way > 1e-3, beyond > 0.0) << beyond << " degrees beyond: " << way << " m";
+    EXPECT_LT(share, 1.02) << beyond << " degrees beyond";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Friction, Frame,
+                         ::testing::Values(Runners{0.8, 0.0, 1.0}, Runners{0.0, 0.5, 1.0},
+                                           Runners{0.8, 0.0, 0.5}, Runners{0.0, 0.8, 0.5},
+                                           Runners{0.3, 0.6, 0.7}, Runners{1.2, 0.0, 1.5}));
+
+// On balls of the radius r: W / 2 cos a = T (sin a - r / l), with T = mu W at the limit.
+TEST(Friction, HoldsALadderAtASmoothWallFromTheAngleOfStaticsOn) {
+  const double length = 3.0;
+  const double radius = 0.01;
+  for (const double mu : {0.3, 0.5, 0.8}) {
+    double limit = 0.0;
+    while (0.5 * std::cos(limit) > mu * (std::sin(limit) - radius / length)) limit += 1e-5;
+    for (const double beyond : {-0.5, 0.5}) {
+      const double angle = limit + beyond * M_PI / 180.0;
+      desc::Link link;
+      link.name = "link";
+      link.inertial = box_inertial(10.0, {length, 0.4, 0.02});
+      for (const double side : {-0.2, 0.2}) {
+        for (const double end : {-0.5, 0.5}) {
+          link.collisions.push_back(collision(round_shape(Shape::Type::kSphere, radius),
+                                              end > 0 ? 0.0 : mu,
+                                              {{end * length, side, 0}, Quat::Identity()}));
+          link.collisions.back().name = (end > 0 ? "top" : "foot") + std::to_string(side);
+        }
+      }
+      const Vec3 center(-0.5 * length * std::cos(angle) - radius, 0,
+                        0.5 * length * std::sin(angle) + radius);
+      TestWorld world;
+      world.add(floor_model(10.0));
+      world.add(static_box("wall", {0.2, 4.0, 8.0}, {0.1, 0, 0}, 10.0));
+      const LinkId ladder =
+          world.only_link(world.add(model_of("ladder", {link}, {center, from_rpy(0, -angle, 0)})));
+      world.run(0.5);
+      const double way = (world.link(ladder).pose.position - center).norm();
+      EXPECT_EQ(way<1e-3, beyond> 0.0) << mu << ", " << beyond << " degrees: " << way << " m";
+      EXPECT_LT(greatest_share(world, "foot", mu), 1.02);
+    }
+  }
+}
+
+// Boxes at rest, pushed, thrown and turned on slopes, from 20 ms after their start on.
+TEST(Friction, StaysWithinCoulombsLawAtTenThousandRandomPoints) {
+  Rng random(7, 1, 0);
+  const auto draw = [&](double low, double high) { return low + (high - low) * random.uniform(); };
+  int points = 0;
+  int slide = 0;
+  double worst = 0.0;
+  for (int k = 0; points < 10000; ++k) {
+    const double mu = draw(0.1, 1.2);
+    const Vec3 size(draw(0.2, 1.0), draw(0.2, 1.0), draw(0.05, 1.0));
+    const double mass = draw(1.0, 50.0);
+    TestWorld world({}, on_slope(draw(0.0, 0.5), draw(0.0, 6.28)));
+    world.add(floor_model(10.0));
+    const LinkId link =
+        world.only_link(world.add(box_model("box", mass, size, {0, 0, 0.5 * size.z()}, mu)));
+    world.run(0.02);
+    if (k % 3 != 0) {
+      world.set_velocity(link, {draw(-2, 2), draw(-2, 2), 0.0}, {0, 0, draw(-4, 4)});
+    }
+    const Vec3 push = 0.6 * mu * mass * kG * Vec3(draw(-1, 1), draw(-1, 1), 0.0);
+    const Vec3 lever = size.cwiseProduct(Vec3(draw(-0.5, 0.5), draw(-0.5, 0.5), draw(-0.5, 0.5)));
+    for (int i = 0; i < 200; ++i) {
+      world.push(link, push, Vec3::Zero(), world.link(link).pose * lever);
+      world.run(kStep);
+      if (i < 20 || i % 20 != 0) continue;
+      const bool slides = world.link(link).linear_velocity.norm() > 1e-3;
+      for (const Point& point : points_of(world, "box")) {
+        if (point.pressed < 1e-3) continue;
+        ++points;
+        slide += slides ? 1 : 0;
+        worst = std::max(worst, point.friction / (mu * point.pressed));
+      }
+    }
+  }
+  printf("%d points, %d of them slide, at most %.3f of Coulomb's bound\n", points, slide, worst);
+  EXPECT_GT(slide, points / 4);
+  EXPECT_LT(worst, 1.02);
 }
 
 }  // namespace

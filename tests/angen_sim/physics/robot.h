@@ -48,7 +48,8 @@ inline desc::Model lift_model(const std::string& name, double mass = 10.0) {
 inline desc::Model person_model(const std::string& name, const Vec3& at) {
   desc::Link body;
   body.name = "body";
-  body.upright = true;
+  body.anatomy.upright = true;
+  body.anatomy.side_stiffness = 25e3;
   body.inertial = box_inertial(70.0, {0.4, 0.3, 1.7}, {{0, 0, 0.85}, Quat::Identity()});
   body.collisions.push_back(collision(round_shape(Shape::Type::kCapsule, 0.25, 1.2), 0.0,
                                       {{0, 0, 0.85}, Quat::Identity()}));

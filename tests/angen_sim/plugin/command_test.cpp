@@ -43,13 +43,6 @@ TEST(Command, AnIntegerMayFollowItsVerbWithoutABlank) {
   }
 }
 
-TEST(Command, TypographyOfAPdfIsReadAsMeant) {
-  EXPECT_EQ(parsed(lamp(), "\u201Don\u201D").verb, "On");
-  EXPECT_EQ(parsed(lamp(), "Dim,\u00A040").number, 40.0);
-  EXPECT_EQ(parsed(drive(), "0.1 \u22120.2").values, (std::vector<double>{0.1, -0.2}));
-  EXPECT_EQ(parsed(Kind("toy", ""), "\u201Cdance\u201D").text, "\u201Cdance\u201D");
-}
-
 TEST(Command, RejectionsSayWhatWouldBeRight) {
   const std::string right = "a lamp takes On, Dim <0 to 100 percent>";
   for (const char* text : {"", "Off", "On 1", "Dim", "Dim x", "Dim nan", "Dim 101", "Dim -1",

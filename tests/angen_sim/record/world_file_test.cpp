@@ -199,18 +199,18 @@ TEST(WorldFile, IsOfTheMomentAfterAllThatIsCarriedOutWithIt) {
 }
 
 TEST(WorldFile, DeclaresThePrefixOfWhatItSays) {
-  const auto text_of = [](load::Strictness strictness) {
+  const auto text_of = [](load::DefaultDialect default_dialect) {
     load::SearchPaths paths;
-    paths.strictness = strictness;
+    paths.default_dialect = default_dialect;
     sim::Simulation simulation(
         load::world_from_text("<sdf version='1.6'><world name='w'/></sdf>", "w", paths), 1,
         std::make_shared<Catalog>());
     return saved(simulation);
   };
-  const std::string guessed = text_of(load::Strictness::kAuto);
+  const std::string guessed = text_of(load::DefaultDialect::kAuto);
   EXPECT_NE(guessed.find("angen:strict"), std::string::npos);
   EXPECT_NE(guessed.find("xmlns:angen="), std::string::npos);
-  EXPECT_EQ(text_of(load::Strictness::kStrict).find("xmlns"), std::string::npos);
+  EXPECT_EQ(text_of(load::DefaultDialect::kOwn).find("xmlns"), std::string::npos);
   EXPECT_TRUE(load::world_from_text(guessed, "again", {}).warnings.empty());
 }
 
@@ -218,7 +218,7 @@ TEST(WorldFile, DeclaresThePrefixOfWhatItSays) {
 TEST(WorldFile, KeepsLightsAsTheyAreNow) {
   const auto read = [](const std::string& text) {
     load::SearchPaths paths{{kModels}, {}};
-    paths.strictness = load::Strictness::kAuto;
+    paths.default_dialect = load::DefaultDialect::kAuto;
     return std::make_unique<sim::Simulation>(load::world_from_text(text, "lights", paths), 1,
                                              std::make_shared<Catalog>());
   };

@@ -7,7 +7,9 @@
 #include <ros/master.h>
 #include <std_msgs/String.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <thread>
 
 namespace angen::node {
 namespace {
@@ -32,6 +34,7 @@ class LazyPublishers : public testing::Test {
   template <class Make>
   static std::size_t used_after(Make&& make) {
     for (int i = 0; i < kTopics; ++i) make("/topic" + std::to_string(i % 10));
+    while (!Registrar::instance().idle()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return mallinfo2().uordblks;
   }
 };

@@ -63,10 +63,6 @@ const Broken kBroken[] = {
      "<sdf version='1.6'><world name='w'><model name='m'><link name='l'>\n<pose>0 0 x 0 0 0</pose>"
      "</link></model></world></sdf>",
      "w.world:2: ", "'x', which is not a number"},
-    {"soft_hyphen",
-     "<sdf version='1.6'><world name='w'><model name='m'><link name='l'>\n<pose>1.\u00AD5 0 0 0 0 0"
-     "</pose></link></model></world></sdf>",
-     "w.world:2: ", "with the character U+00AD, which is not a number"},
     {"short_pose",
      "<sdf version='1.6'><world name='w'><model name='m'><link name='l'>\n<pose>0 0 0 0</pose>"
      "</link></model></world></sdf>",
@@ -149,6 +145,16 @@ const Broken kBroken[] = {
      "<sdf version='1.6'><world name='w'><model name='m'><link name='l'>\n<sensor name='s'/></link>"
      "</model></world></sdf>",
      "w.world:2: ", "no type"},
+    {"light_without_type", "<sdf version='1.6'><world name='w'>\n<light name='l'/></world></sdf>",
+     "w.world:2: ", "<light name=\"l\"> has no type"},
+    {"physics_without_type", "<sdf version='1.6'><world name='w'>\n<physics/></world></sdf>",
+     "w.world:2: ", "<physics> has no type"},
+    {"misspelled_where_plugins_read",
+     "<sdf version='1.6'><world name='w'><model name='m'><link name='l'><sensor name='s' "
+     "type='imu'>"
+     "<imu><angular_velocity>\n<x><nois/></x></angular_velocity></imu></sensor></link></model>"
+     "</world></sdf>",
+     "w.world:2: ", "did you mean <noise>?"},
     {"unknown_light",
      "<sdf version='1.6'><world name='w'>\n<light name='l' type='laser'/></world></sdf>",
      "w.world:2: ", "unknown light type 'laser'"},

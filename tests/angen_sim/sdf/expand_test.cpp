@@ -7,9 +7,10 @@ TEST(Expand, WithTwoNamesIsRejected) {
   const Folder folder;
   folder.model("part", sdf("<model name='p'><link name='l'/></model>"));
   for (const std::string twice : {"name", "uri", "pose", "static"}) {
+    const std::string value = twice == "pose" ? "0 0 0 0 0 0" : "0";
     std::string text = "<include><uri>model://part</uri>";
-    if (twice != "uri") text += "<" + twice + ">1</" + twice + ">";
-    text += "\n<" + twice + ">0</" + twice + "></include>";
+    if (twice != "uri") text += "<" + twice + ">" + value + "</" + twice + ">";
+    text += "\n<" + twice + ">" + value + "</" + twice + "></include>";
     const std::string message = error_of(in_world(text), folder.paths());
     EXPECT_EQ(message.find("w.world:2: a second <" + twice + "> in one <include>"), 0U) << message;
   }

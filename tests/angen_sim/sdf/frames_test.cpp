@@ -86,7 +86,7 @@ TEST(Frames, OfPartsOfALink) {
 TEST(Frames, ThatDoNotExistOrAreRelativeToThemselvesAreErrors) {
   const std::string unknown =
       message_of_frame("<link name='a'>\n<pose relative_to='zz'>0 0 0 0 0 0</pose></link>", "a");
-  EXPECT_EQ(unknown, "m.sdf:1: <link name=\"a\"> refers to an unknown frame 'zz'; known are a");
+  EXPECT_EQ(unknown, "m.sdf:2: <link name=\"a\"> refers to an unknown frame 'zz'; known are a");
   const std::string cycle = message_of_frame(
       "<link name='a'><pose relative_to='b'>0 0 0 0 0 0</pose></link>\n"
       "<link name='b'><pose relative_to='a'>0 0 0 0 0 0</pose></link>",

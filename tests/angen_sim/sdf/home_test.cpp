@@ -192,18 +192,5 @@ TEST(Home, IsKeptBySave) {
   EXPECT_EQ(again.models.at(0).home.places.at(0).pose.position, Vec3(1.0, 0.0, 0.5));
 }
 
-TEST(Home, IsInTheCache) {
-  const Folder folder;
-  setenv("XDG_CACHE_HOME", (folder.path() + "/cache").c_str(), 1);
-  unsetenv("ANGEN_NO_CACHE");
-  const std::string file = folder.write(
-      "home.world", in_world("<angen:home><angen:latitude>12</angen:latitude></angen:home>" +
-                             room(std::string(kSquare) + "<angen:hole>1 1 2 1 2 2</angen:hole>")));
-  const desc::World first = world(file);
-  const desc::World second = world(file);
-  EXPECT_EQ(second.site.latitude, 12.0);
-  EXPECT_EQ(second.home.rooms.at(0).holes, first.home.rooms.at(0).holes);
-}
-
 }  // namespace
 }  // namespace angen::load

@@ -49,7 +49,7 @@ TEST(Worlds, TheBuildingHasItsParts) {
   int people = 0;
   for (const desc::Model& m : w.models) {
     for (const desc::Joint& j : m.joints) hinges += j.name == "hinge" ? 1 : 0;
-    people += m.links[0].upright ? 1 : 0;
+    people += m.is_actor ? 1 : 0;
   }
   EXPECT_EQ(hinges, 12);
   EXPECT_EQ(people, 1);

@@ -52,6 +52,17 @@ TEST(Ignored, IsListedWithFileAndLine) {
   EXPECT_EQ(found.size(), expected.size());
 }
 
+TEST(Ignored, AnElementThatSdfDoesNotHaveThereIsAWarning) {
+  const desc::World world = read(in_link(
+      "<visual name='v'>" +
+      std::string(
+          "<geometry><sphere><radius>2</radius></sphere></geometry>\n<surface/></visual>")));
+  ASSERT_EQ(world.warnings.size(), 1U);
+  EXPECT_EQ(world.warnings[0].text(),
+            "w.world:2: <surface> in <visual> is not known; leave it out");
+  EXPECT_TRUE(world.ignored.empty());
+}
+
 std::string lidar(const std::string& always_on, const std::string& resolution) {
   return in_link("<sensor name='s' type='ray'><always_on>" + always_on +
                  "</always_on><update_rate>5</update_rate><ray><scan><horizontal>"

@@ -44,7 +44,6 @@ void expect_same(const desc::Link& a, const desc::Link& b) {
   EXPECT_EQ(a.name, b.name);
   expect_near(a.pose, b.pose);
   EXPECT_DOUBLE_EQ(a.inertial.mass, b.inertial.mass);
-  EXPECT_EQ(a.upright, b.upright);
   ASSERT_EQ(a.collisions.size(), b.collisions.size());
   for (std::size_t i = 0; i < a.collisions.size(); ++i) {
     EXPECT_EQ(a.collisions[i].name, b.collisions[i].name);

@@ -268,7 +268,7 @@ TEST(Actor, BecomesAPersonWithWaypointsOfTheWorld) {
   expect_near(m.pose, Pose{{10.0, 1.0, 0.0}, from_rpy(0.0, 0.0, M_PI / 2)});
   ASSERT_EQ(m.links.size(), 1U);
   EXPECT_EQ(m.links[0].name, "body");
-  EXPECT_TRUE(m.links[0].upright);
+  EXPECT_TRUE(m.is_actor);
   EXPECT_DOUBLE_EQ(m.links[0].inertial.mass, 80.0);
   ASSERT_EQ(m.plugins.size(), 1U);
   EXPECT_EQ(m.plugins[0].filename, "libperson_controller.so");

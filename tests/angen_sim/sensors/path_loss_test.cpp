@@ -40,9 +40,13 @@ TEST(PathLoss, AnObliquePathThroughAWallCrossesThatWall) {
   EXPECT_EQ(obstacles_on({crossing(1.0, 1.0 + 0.2 / way.z(), {0, 0, -1})}, way).floors, 1);
 }
 
-TEST(PathLoss, ShapesThatOverlapAreOneAndFlushOnesAreTwo) {
+TEST(PathLoss, ShapesThatOverlapOrTouchAreOne) {
   EXPECT_EQ(along_x({crossing(1.0, 1.1), crossing(1.05, 1.12)}).light, 1);
-  EXPECT_EQ(along_x({crossing(1.0, 1.1), crossing(1.1, 1.2)}).light, 2);
+  EXPECT_EQ(along_x({crossing(1.0, 1.05), crossing(1.05, 1.1)}).light, 1) << "two boards";
+  EXPECT_EQ(along_x({crossing(1.0, 1.1), crossing(1.1, 1.2)}).heavy, 1) << "a wall of 0.2 m";
+  EXPECT_EQ(along_x({crossing(1.0, 1.1), crossing(1.11, 1.2)}).light, 2) << "a gap";
+  EXPECT_EQ(along_x({crossing(1.0, 1.1), crossing(1.1, 1.2, {0, 0, -1})}).light, 1) << "a shelf";
+  EXPECT_EQ(along_x({crossing(1.0, 1.2), crossing(1.2, 1.8)}).heavy, 1) << "a wardrobe at it";
   EXPECT_EQ(along_x({crossing(1.0, 1.1), crossing(1.02, 1.05), crossing(1.09, 1.3)}).heavy, 1);
 }
 

@@ -1,5 +1,7 @@
 #include "sim/device_maker.h"
 
+#include <set>
+
 #include "angen_sim/sim/household.h"
 
 namespace angen::sim {
@@ -15,9 +17,9 @@ const std::string kCar = R"(<model name='car'><static>true</static><pose>0 0 1 0
 
 class OwnLamps : public ::testing::Test {
  protected:
-  void load_world(const std::string& parts, load::Strictness strictness) {
+  void load_world(const std::string& parts, load::DefaultDialect default_dialect) {
     load::SearchPaths paths;
-    paths.strictness = strictness;
+    paths.default_dialect = default_dialect;
     world_ = std::make_unique<Simulation>(
         load::world_from_text("<sdf version='1.6'><world name='w'>" + parts + "</world></sdf>",
                               "test", paths),
@@ -58,7 +60,7 @@ class OwnLamps : public ::testing::Test {
 };
 
 TEST_F(OwnLamps, EachLightOfATolerantWorldIsOneByItsName) {
-  load_world(kSun + kBulb + kCar, load::Strictness::kTolerant);
+  load_world(kSun + kBulb + kCar, load::DefaultDialect::kGazebo);
   EXPECT_EQ(lamps(), (std::vector<std::string>{"car_left", "car_right", "sun", "bulb"}));
   EXPECT_EQ(state("bulb").get<double>("level"), 100.0);
   EXPECT_EQ(state("bulb").get<double>("luminous_flux"), 800.0);
@@ -85,19 +87,19 @@ TEST_F(OwnLamps, EachLightOfATolerantWorldIsOneByItsName) {
 
 TEST_F(OwnLamps, OneOfAStrictWorldIsALampWhereItHasALevel) {
   const std::string dim = "<light name='dim' type='point'><angen:level>30</angen:level></light>";
-  load_world(kSun + kCar + dim, load::Strictness::kStrict);
+  load_world(kSun + kCar + dim, load::DefaultDialect::kOwn);
   EXPECT_EQ(lamps(), std::vector<std::string>{"dim"});
   EXPECT_EQ(level(0), 1.0);
   EXPECT_EQ(level(1), 0.3);
 }
 
 TEST_F(OwnLamps, ALightThatADeviceHasIsNoSecondLamp) {
-  load_world(kLamp, load::Strictness::kTolerant);
+  load_world(kLamp, load::DefaultDialect::kGazebo);
   EXPECT_EQ(lamps(), std::vector<std::string>{"hall0"});
 }
 
 TEST_F(OwnLamps, ALightWhoseNameALampHasShinesAndIsNotSwitched) {
-  load_world(kLamp + "<light name='hall0' type='point'/>", load::Strictness::kTolerant);
+  load_world(kLamp + "<light name='hall0' type='point'/>", load::DefaultDialect::kGazebo);
   EXPECT_EQ(lamps(), std::vector<std::string>{"hall0"});
   EXPECT_NE(warnings_.find("light 'hall0' cannot be switched: there is a lamp of that name"),
             std::string::npos)
@@ -109,7 +111,7 @@ TEST_F(OwnLamps, ALightWhoseNameALampHasShinesAndIsNotSwitched) {
 }
 
 TEST_F(OwnLamps, ALampDoesNotComeWhereALightHasItsName) {
-  load_world("<light name='hall0' type='point'/>", load::Strictness::kTolerant);
+  load_world("<light name='hall0' type='point'/>", load::DefaultDialect::kGazebo);
   const Outcome outcome = post(Spawn{load::model(kLamp, "", {}, {})});
   EXPECT_FALSE(outcome.ok);
   EXPECT_NE(outcome.message.find("lamp 'hall0' exists already, as a light of the world"),
@@ -118,7 +120,7 @@ TEST_F(OwnLamps, ALampDoesNotComeWhereALightHasItsName) {
 }
 
 TEST_F(OwnLamps, OneThatIsSpawnedIsSwitchedUntilItIsDeleted) {
-  load_world("", load::Strictness::kStrict);
+  load_world("", load::DefaultDialect::kOwn);
   ASSERT_TRUE(post(Edit(AddLight{load::light(kBulb, "new", {}), kBulb})).ok);
   EXPECT_EQ(lamps(), std::vector<std::string>{"new"});
   EXPECT_EQ(world_->snapshot()->structure->devices[0].light, 0U);
@@ -133,7 +135,7 @@ TEST_F(OwnLamps, OneThatIsSpawnedIsSwitchedUntilItIsDeleted) {
 }
 
 TEST_F(OwnLamps, AnotherColorIsOfTheSameLevelAndBlackIsDark) {
-  load_world(kBulb, load::Strictness::kTolerant);
+  load_world(kBulb, load::DefaultDialect::kGazebo);
   ASSERT_TRUE(command("bulb", "Dim 40"));
   report();
   const auto paint = [&](float value) {
@@ -152,6 +154,24 @@ TEST_F(OwnLamps, AnotherColorIsOfTheSameLevelAndBlackIsDark) {
   paint(1.0F);
   EXPECT_EQ(level(0), 1.0);
   EXPECT_EQ(state("bulb").get<double>("luminous_flux"), 800.0);
+}
+
+TEST(DeviceMaker, DescribesTheBodyThatAPlugInDeclares) {
+  const Simulation simulation(
+      load::world_from_text("<sdf version='1.6'><world name='w'><actor name='ann'/></world></sdf>",
+                            "test", {}),
+      0, std::make_shared<Catalog>());
+  const Structure& structure = *simulation.snapshot()->structure;
+  const desc::Link& body = structure.models.front()->links.front();
+  EXPECT_EQ(structure.devices[0].body, 0);
+  EXPECT_TRUE(body.anatomy.upright);
+  EXPECT_GT(body.anatomy.side_stiffness, 0.0);
+  std::set<std::string> visuals;
+  for (const desc::Visual& visual : body.visuals) visuals.insert(visual.name);
+  EXPECT_EQ(body.anatomy.limbs.size(), 8U);
+  for (const Anatomy::Names& limb : body.anatomy.limbs) {
+    for (const std::string& visual : limb) EXPECT_EQ(visuals.count(visual), 1U) << visual;
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "plugin/view.h"
 #include "sdf/load.h"
 #include "sim/simulation.h"
 

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "angen_sim/sim/household.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
 
 namespace angen::sim {
 namespace {

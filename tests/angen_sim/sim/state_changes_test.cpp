@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "angen_sim/sim/household.h"
+#include "plugin/view.h"
 
 namespace angen::sim {
 namespace {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "angen_sim/sim/household.h"
+#include "plugin/view.h"
 #include "rays/shaft.h"
 
 namespace angen::sim {

@@ -241,10 +241,10 @@ TEST(Frames, OfModelsThatStayAreThoseOfATreeMadeAnew) {
 }
 
 // A robot of others in a namespace: two sensors on its first link.
-World two_eyes(bool tolerant) {
+World two_eyes(bool is_foreign) {
   World world;
   desc::Model model = robot("bot");
-  model.tolerant = tolerant;
+  model.customs.keeps_frames = is_foreign;
   model.plugins.resize(1);
   Element space;
   space.name = "robotNamespace";

@@ -9,8 +9,9 @@ namespace {
 
 // The troposphere of ISO 2533, as altimeters compute: 288.15 K at the reference, 6.5 K/km less.
 double altitude_of(double pressure, double reference) {
-  constexpr double kScale = 288.15 / 0.0065;                              // m
-  constexpr double kExponent = 8.31432 * 0.0065 / (9.80665 * 0.0289644);  // of the ratio
+  constexpr double kScale = 288.15 / 0.0065;  // m
+  constexpr double kExponent =
+      8.31432 * 0.0065 / (9.80665 * 0.0289644);  // exponent of the ratio of pressures
   return kScale * (1.0 - std::pow(pressure / reference, kExponent));
 }
 

@@ -9,7 +9,8 @@ namespace {
 
 void fill(const Reading& state, const Label&, sensor_msgs::BatteryState& message) {
   using Message = sensor_msgs::BatteryState;
-  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();  // as its definition says
+  constexpr float kUnknown =
+      std::numeric_limits<float>::quiet_NaN();  // what the message's definition asks for
   const auto number = [&](const char* name) { return static_cast<float>(state.get<double>(name)); };
   message.voltage = number("voltage");
   message.current = -number("drawn") / message.voltage;

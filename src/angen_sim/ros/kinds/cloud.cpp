@@ -72,7 +72,7 @@ void fill_block(const Reading& reading, const Label&, sensor_msgs::PointCloud& m
   message.channels.push_back(std::move(intensities));
 }
 
-/// As velodyne_pointcloud has it: column after column, hits only, or all where it is organized.
+/// Column after column, hits only, or all if it is organized, as in velodyne_pointcloud.
 /// All points are of one instant.
 void fill_rings(const Reading& reading, const Label&, sensor_msgs::PointCloud2& message) {
   const Scan scan(reading);

@@ -24,7 +24,7 @@ struct Point {
   float x, y, z;
 };
 
-/// As PCL has it.
+/// PCL's layout.
 struct ColorPoint {
   float x, y, z, none;
   std::uint32_t color;
@@ -94,7 +94,7 @@ class Points {
   FloatImage depth_;
   ByteImage colors_;
   render::Distortion lens_;
-  std::vector<double> across_, down_;  // of each column and row, in focal lengths
+  std::vector<double> across_, down_;  // each column's and row's, in focal lengths
 };
 
 void fill_points(const Reading& reading, const Label&, Bulk<sensor_msgs::PointCloud2>& message) {

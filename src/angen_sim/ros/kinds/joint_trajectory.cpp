@@ -5,7 +5,7 @@
 namespace angen::node {
 namespace {
 
-// As joint_pose_trajectory takes it. A point with another number of positions than there are joints
+// The values of joint_pose_trajectory. A point with another number of positions than of joints
 // makes the number of values wrong, and is rejected.
 Command of_trajectory(const trajectory_msgs::JointTrajectory& trajectory) {
   Command command = command_of({trajectory.header.stamp.toSec()});

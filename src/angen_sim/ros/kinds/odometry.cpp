@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "ros/robots.h"
 #include "ros/ros_kind.h"
 #include "ros/wire.h"
 
@@ -36,7 +37,7 @@ void fill(const Reading& reading, const Label& label, nav_msgs::Odometry& messag
   message.twist.twist.linear.x = reading.get<double>("forward");
   message.twist.twist.linear.y = reading.get<double>("left");
   message.twist.twist.angular.z = reading.get<double>("turn");
-  // Those of Gazebo's drives: large where a drive knows nothing.
+  // Variances of Gazebo's drives: large for what a drive does not know.
   constexpr std::pair<std::size_t, double> kVariances[] = {{0, 1e-5},  {7, 1e-5},  {14, 1e12},
                                                            {21, 1e12}, {28, 1e12}, {35, 1e-3}};
   for (const auto& [at, variance] : kVariances) {
@@ -61,6 +62,20 @@ void fill_truth(const Reading& reading, const Label& label, nav_msgs::Odometry& 
   message.twist.twist.angular = vector_in<geometry_msgs::Vector3>(reading, "angular_velocity");
 }
 
+std::string frame_of(const sim::SensorEntry& sensor) {
+  return value_of({&sensor.desc->plugin_element}, "odometryFrame", "odom");
+}
+
+RosKind::Odometry odometry_of(const sim::SensorEntry& sensor) {
+  const std::vector<const Element*> plugin = {&sensor.desc->plugin_element};
+  return {value_of(plugin, "robotBaseFrame", "base_footprint"),
+          value_of(plugin, "odometrySource", "world") == "encoder"};
+}
+
+std::string link_of_truth(const sim::SensorEntry& sensor) {
+  return sensor.desc->plugin_element.child_text("bodyName");
+}
+
 std::string frame_of_truth(const sim::SensorEntry& sensor) {
   return sensor.frame.empty() ? kWorldFrame : sensor.frame;
 }
@@ -69,26 +84,26 @@ ANGEN_REGISTER_ROS_KIND({"odometry"},
                         RosKindBuilder()
                             .named_message<nav_msgs::Odometry>(&fill, "odom", "odometryTopic")
                             .transform(&fill_transform, "publishOdomTF")
-                            .odometry());
+                            .odometry(&frame_of, &odometry_of));
 ANGEN_REGISTER_ROS_KIND({"planar_odometry"},
                         RosKindBuilder()
                             .named_message<nav_msgs::Odometry>(&fill, "odom", "odometryTopic")
                             .transform(&fill_transform, "publishOdometryTf")
-                            .odometry());
+                            .odometry(&frame_of, &odometry_of));
 ANGEN_REGISTER_ROS_KIND({"kobuki_odometry"},
                         RosKindBuilder()
                             .named_message<nav_msgs::Odometry>(&fill, "odom", "none")
                             .transform(&fill_transform, "publish_tf")
-                            .odometry());
+                            .odometry(&frame_of, &odometry_of));
 ANGEN_REGISTER_ROS_KIND({"skid_steer_odometry"},
                         RosKindBuilder()
                             .named_message<nav_msgs::Odometry>(&fill, "odom", "odometryTopic")
                             .transform(&fill_transform, "broadcastTF")
-                            .odometry());
+                            .odometry(&frame_of, &odometry_of));
 ANGEN_REGISTER_ROS_KIND({"p3d"}, RosKindBuilder()
                                      .named_message<nav_msgs::Odometry>(&fill_truth, "p3d")
                                      .frame(&frame_of_truth)
-                                     .truth());
+                                     .truth(&link_of_truth));
 
 }  // namespace
 }  // namespace angen::node

@@ -8,7 +8,7 @@
 namespace angen::node {
 namespace {
 
-/// As gazebo_ros_range has it: max_range where nothing is in reach, as range_sensor_layer drops
+/// The range is max_range if nothing is in reach, as in gazebo_ros_range: range_sensor_layer drops
 /// infinite ranges.
 void fill(const Reading& reading, const Label&, sensor_msgs::Range& message) {
   const auto number = [&](const char* name) {

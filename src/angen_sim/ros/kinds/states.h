@@ -7,7 +7,7 @@
 
 namespace angen::node {
 
-/// The message constant of a choice, as a door's mode; 0 where there is none.
+/// The message constant of a choice, as a door's mode; 0 if there is none.
 inline std::uint8_t constant_of(const Reading& state, const char* field) {
   return static_cast<std::uint8_t>(state.get<Choice>(field).value);
 }

@@ -21,7 +21,7 @@ class BandPass {
   /// The voltage for the next sample's flux in W.
   double step(double flux);
 
-  /// As if this flux had always been there: 0 V.
+  /// Settles as if this flux had always been there: 0 V.
   void settle(double flux);
 
   /// Whether nothing in it is further from that than `volts`.

@@ -8,7 +8,7 @@ namespace angen::sensors {
 
 namespace {
 
-constexpr double kSoft = 0.25;  // of a zone's width or height, at each edge: how much a lens blurs
+constexpr double kSoft = 0.25;  // share of a zone's width or height that a lens blurs at each edge
 
 /// 0 outside of 0 … 1, 1 in the middle, linear at the edges; half at 0 and 1.
 double soft_box(double u) {

@@ -44,7 +44,7 @@ class FresnelLens {
   struct Zones {
     Window window;
     double width;              // rad, of a pair
-    std::vector<double> sign;  // of each zone from right to left; 0 = taped over
+    std::vector<double> sign;  // sign of each zone from right to left; 0 = taped over
   };
 
   std::vector<Zones> rows_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "plugin/rooms.h"
+#include "plugin/view.h"
 
 namespace angen::sensors {
 
@@ -20,8 +21,8 @@ constexpr int kFewest = 12;  // cells on a side
 constexpr int kMaxCells = 64;
 constexpr double kSameAir = 0.01;                    // K
 constexpr double kWatchCell = 0.02;                  // rad between the rays that bound its view
-constexpr std::size_t kEach = 4;                     // of the rays to a surface, one is probed
-constexpr std::size_t kFewProbed = 24;               // of fewer rays all are tested
+constexpr std::size_t kEach = 4;                     // one of so many rays to a surface is probed
+constexpr std::size_t kFewProbed = 24;               // fewer rays are all tested
 constexpr Nanoseconds kHiddenPeriod = kSecond / 20;  // while all surfaces are hidden
 constexpr std::size_t kMaxScans = 64;
 

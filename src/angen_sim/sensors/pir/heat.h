@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "plugin/view.h"
+#include "core/warming.h"
+#include "plugin/plugin.h"
 #include "rays/shaft.h"
 #include "sensors/pir/fresnel_lens.h"
 
@@ -37,7 +38,7 @@ class Heat {
   /// transmittance of the lens and the detector's window.
   Heat(FresnelLens lens, double range, double opening, Nanoseconds period);
 
-  /// Looks at every such surface; at none where nothing moved since the last time.
+  /// Looks at every such surface; at none if nothing moved since the last time.
   void sample(const View& view);
 
   /// Flux on the positive element less that on the negative one, in W.
@@ -73,10 +74,11 @@ class Heat {
   struct Scan {
     Eigen::AlignedBox3d box;
     Eigen::Matrix3d rotation;
-    std::vector<Window> windows;           // of the lens, around the shape
-    std::vector<std::vector<Cell>> parts;  // that it fills of each window; once needed
-    std::uint64_t blockers = 0;            // of its shaft, when it was last looked at …
-    double factor = 0.0;                   // … and the part of it that was visible, m^2 sr
+    std::vector<Window> windows;  // windows of the lens, around the shape
+    /// The cells of each window that it fills; found when they are needed.
+    std::vector<std::vector<Cell>> parts;
+    std::uint64_t blockers = 0;  // blockers of its shaft, when it was last looked at …
+    double factor = 0.0;         // … and the part of it that was visible, m^2 sr
     bool is_known = false;
   };
 
@@ -100,12 +102,12 @@ class Heat {
   double range_ = 0.0;
   double opening_ = 0.0;
   Nanoseconds period_ = 0;
-  std::vector<std::uint32_t> shapes_;  // that radiate more or less than the air …
+  std::vector<std::uint32_t> shapes_;  // shapes that radiate more or less than the air …
   HeatSources radiating_;              // … and how they do
   std::shared_ptr<const HeatSources> sources_ = std::make_shared<HeatSources>();  // a copy of that
   std::uint64_t revision_ = UINT64_MAX;
   Pose pose_;
-  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();  // of pose_
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();  // rotation of pose_
   bool near_ = false;                              // whether a surface is where the lens looks
   std::unordered_map<std::uint32_t, Scan> scans_;  // by shape, from pose_
   bool pending_ = false;                           // something has moved since
@@ -114,7 +116,7 @@ class Heat {
   double drift_ = 0.0;
   bool rests_ = false;
   std::uint64_t surfaces_set_ = UINT64_MAX;  // at the last sample()
-  Nanoseconds felt_at_ = -1;                 // that air, in whole seconds
+  Nanoseconds felt_at_ = -1;                 // when that air was felt, in whole seconds
 };
 
 }  // namespace angen::sensors

@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "plugin/register.h"
+#include "plugin/registration.h"
 #include "sensors/pir/pyroelectric.h"
 #include "sensors/pir/range_difference.h"
 

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <utility>
 
+#include "plugin/view.h"
 #include "sensors/fan.h"
 
 namespace angen::sensors {

@@ -18,10 +18,10 @@ struct PirSignal {
   BandPass band;
   double rest = 0.0;   // V: a filter nearer than this to rest is at rest
   double flux = 0.0;   // W, of the last sample, without drift
-  double volts = 0.0;  // of that sample, without noise
+  double volts = 0.0;  // volts of that sample, without noise
   bool asleep = false;
 
-  /// As if this flux had always been there.
+  /// Settles as if this flux had always been there.
   void settle(double constant);
   /// Takes the next sample's flux.
   void step(double next);
@@ -54,7 +54,7 @@ class Pyroelectric : public Sensor, public NoisySensor {
     double noise = 0.0;      // V, while it is awake
     double threshold = 0.0;  // V
     bool motion = false;
-    Nanoseconds time = -1;  // of the sample
+    Nanoseconds time = -1;  // time of the sample
     Nanoseconds period = kSecond / 100;
 
     double filtered_flux(Nanoseconds at) const { return sources->flux(at) - drift; }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "plugin/view.h"
+
 namespace angen::sensors {
 
 namespace {
@@ -94,7 +96,7 @@ int RangeDifference::ray_set(const View& view) {
 }
 
 void RangeDifference::aim(const View& view, RayBatch& rays) {
-  fan_.aim(view.pose(), directions_[phase_], rays);
+  fan_.aim(view, directions_[phase_], rays);
 }
 
 RangeDifference::Scan RangeDifference::scan_of(const Fan& fan, const Ranges& clean,

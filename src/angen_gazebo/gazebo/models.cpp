@@ -1,0 +1,163 @@
+#include "gazebo/models.h"
+
+#include <gazebo_msgs/DeleteModel.h>
+#include <gazebo_msgs/GetModelProperties.h>
+#include <gazebo_msgs/GetModelState.h>
+#include <gazebo_msgs/GetWorldProperties.h>
+#include <gazebo_msgs/SetModelConfiguration.h>
+#include <gazebo_msgs/SetModelState.h>
+#include <ros/console.h>
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+
+#include "core/text.h"
+#include "gazebo/names.h"
+#include "gazebo/states.h"
+#include "ros/convert.h"
+
+namespace angen::node::gazebo {
+
+namespace {
+
+/// The number of requests for each model, which answers have in their header.
+class Requests {
+ public:
+  std::uint32_t count(const std::string& model) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return ++counts_[model];
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::uint32_t> counts_;
+};
+
+std::string get_state(Inbox& inbox, Requests& requests,
+                      const gazebo_msgs::GetModelState::Request& request,
+                      gazebo_msgs::GetModelState::Response& response) {
+  const auto structure = structure_of(inbox);
+  model_named(*structure, request.model_name);
+  const std::string frame = frame_named(
+      *structure, request.relative_entity_name,
+      "reference relative_entity_name not found, did you forget to scope the body by model name?");
+  const sim::Observed seen = observe(inbox, {{request.model_name, frame}, {}});
+  const sim::Motion motion = relative(seen.entities[0], seen.entities[1]);
+  response.header.seq = requests.count(request.model_name);
+  response.header.stamp = to_ros(seen.time);
+  response.header.frame_id = request.relative_entity_name;
+  response.pose = to_ros(motion.pose);
+  response.twist = twist_of(motion);
+  return "GetModelState: got properties";
+}
+
+void list_parts(const desc::Model& model, gazebo_msgs::GetModelProperties::Response& response) {
+  for (const desc::Link& link : model.links) {
+    response.body_names.push_back(link.name);
+    for (const desc::Collision& collision : link.collisions) {
+      response.geom_names.push_back(collision.name);
+    }
+    const std::string child = link.name.substr(0, link.name.find("::"));
+    std::vector<std::string>& children = response.child_model_names;
+    const bool known = std::find(children.begin(), children.end(), child) != children.end();
+    if (child != link.name && !known) children.push_back(child);
+  }
+  for (const desc::Joint& joint : model.joints) response.joint_names.push_back(joint.name);
+  if (!model.links.empty()) response.canonical_body_name = model.links.front().name;
+  response.is_static = static_cast<unsigned char>(model.is_static);
+}
+
+std::string get_world(Inbox& inbox, gazebo_msgs::GetWorldProperties::Response& response) {
+  const auto snapshot = inbox.simulation().snapshot();
+  response.sim_time = to_seconds(snapshot->time);
+  for (const auto& model : snapshot->structure->models) {
+    response.model_names.push_back(model->name);
+  }
+  response.rendering_enabled = 1;
+  return "GetWorldProperties: got properties";
+}
+
+// The name of a joint, which may have that of its model before it.
+std::string within(const std::string& model, const std::string& joint) {
+  const std::string scope = model + "::";
+  return joint.compare(0, scope.size(), scope) == 0 ? joint.substr(scope.size()) : joint;
+}
+
+std::string configure(Inbox& inbox, const gazebo_msgs::SetModelConfiguration::Request& request) {
+  if (request.joint_names.size() != request.joint_positions.size()) {
+    throw Error("joint name and position list have different lengths");
+  }
+  // Names that the model lacks are passed over, as in Gazebo.
+  const auto structure = structure_of(inbox);
+  const desc::Model& model = *structure->models[model_named(*structure, request.model_name)];
+  sim::SetJoints to{request.model_name, {}, {}};
+  std::vector<std::string> unknown;
+  for (std::size_t i = 0; i < request.joint_names.size(); ++i) {
+    const std::string name = within(request.model_name, request.joint_names[i]);
+    const bool known = std::any_of(model.joints.begin(), model.joints.end(),
+                                   [&](const auto& joint) { return joint.name == name; });
+    if (!known) {
+      unknown.push_back(printable(name));
+      continue;
+    }
+    to.joints.push_back(name);
+    to.positions.push_back(request.joint_positions[i]);
+  }
+  if (!unknown.empty()) {
+    ROS_WARN("set_model_configuration: %s has no joint '%s'%s", request.model_name.c_str(),
+             unknown[0].c_str(),
+             unknown.size() == 1
+                 ? ""
+                 : (" (and " + std::to_string(unknown.size() - 1) + " others)").c_str());
+  }
+  edit(inbox, to);
+  return "SetModelConfiguration: success";
+}
+
+std::string erase(Inbox& inbox, const gazebo_msgs::DeleteModel::Request& request) {
+  model_named(*structure_of(inbox), request.model_name);
+  const sim::Outcome outcome = inbox.call(sim::Delete{request.model_name});
+  if (!outcome.ok) throw Error(outcome.message);
+  return "DeleteModel: successfully deleted model";
+}
+
+}  // namespace
+
+sim::Edit edit_of(const sim::Structure& structure, const gazebo_msgs::ModelState& state) {
+  model_named(structure, state.model_name);
+  const std::string frame = frame_named(structure, state.reference_frame,
+                                        "specified reference frame entity does not exist");
+  return sim::SetModelState{
+      state.model_name,
+      {frame, pose_of(state.pose), vector_of(state.twist.linear), vector_of(state.twist.angular)}};
+}
+
+void serve_models(Server& server, Inbox& inbox) {
+  using namespace gazebo_msgs;
+  const auto requests = std::make_shared<Requests>();
+  server.serve<GetModelState>("get_model_state", "GetModelState",
+                              [&inbox, requests](const auto& request, auto& response) {
+                                return get_state(inbox, *requests, request, response);
+                              });
+  server.serve<GetModelProperties>(
+      "get_model_properties", "GetModelProperties", [&](const auto& request, auto& response) {
+        const auto structure = structure_of(inbox);
+        list_parts(*structure->models[model_named(*structure, request.model_name)], response);
+        return "GetModelProperties: got properties";
+      });
+  server.serve<GetWorldProperties>(
+      "get_world_properties", "GetWorldProperties",
+      [&](const auto&, auto& response) { return get_world(inbox, response); });
+  server.serve<SetModelState>("set_model_state", "SetModelState", [&](const auto& request, auto&) {
+    edit(inbox, edit_of(*structure_of(inbox), request.model_state));
+    return "SetModelState: set model state done";
+  });
+  server.serve<SetModelConfiguration>(
+      "set_model_configuration", "SetModelConfiguration",
+      [&](const auto& request, auto&) { return configure(inbox, request); });
+  server.serve<DeleteModel>("delete_model", "DeleteModel",
+                            [&](const auto& request, auto&) { return erase(inbox, request); });
+}
+
+}  // namespace angen::node::gazebo

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "core/anatomy.h"
+#include "core/pose.h"
+
+namespace angen::devices {
+
+/// The swing of the limbs of a walking person: thighs, shanks, upper arms and forearms, left and
+/// right. Those of a standing person do not swing.
+class Gait {
+ public:
+  static constexpr int kLimbs = 8;
+
+  /// The visuals of each limb.
+  static std::vector<Anatomy::Names> visuals();
+
+  /// The body is at `pose` now, at `speed` m/s.
+  void advance(const Pose& pose, double speed);
+
+  /// The motion of a limb from its place in the standing body, in the body's frame.
+  Pose limb(int number) const;
+
+ private:
+  Vec3 at_ = Vec3::Zero();
+  double phase_ = 0.0;  // rad; two steps are a turn
+  double swing_ = 0.0;  // rad, of the thighs to both sides
+};
+
+}  // namespace angen::devices

@@ -1,0 +1,119 @@
+#include "py/geometry.h"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "core/text.h"
+#include "plugin/ray_geometry.h"
+#include "render/tessellate.h"
+
+namespace angen::py {
+
+namespace {
+
+using Vertices = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+const char* type_name(Shape::Type type) {
+  constexpr std::array<const char*, 8> kNames = {"empty",   "box",   "sphere", "cylinder",
+                                                 "capsule", "plane", "mesh",   "heightmap"};
+  return kNames[static_cast<std::size_t>(type)];
+}
+
+Vertices vertices_of(const Shape& shape, const Pose& pose) {
+  if (shape.type == Shape::Type::kPlane) return {};
+  const TriangleMesh mesh = render::tessellate(shape);
+  Vertices all(static_cast<Eigen::Index>(mesh.vertices.size()), 3);
+  for (Eigen::Index i = 0; i < all.rows(); ++i)
+    all.row(i) = pose * mesh.vertices[static_cast<std::size_t>(i)].cast<double>();
+  return all;
+}
+
+std::vector<pyb::tuple> shapes(const World& world) {
+  const sim::Snapshot& now = world.now();
+  const sim::Structure& structure = *now.structure;
+  std::vector<pyb::tuple> all;
+  for (std::size_t i = 0; i < structure.links.size(); ++i) {
+    const sim::LinkEntry& entry = structure.links[i];
+    const desc::Model& model = *structure.models[entry.model];
+    const desc::Link& link = model.links[entry.link];
+    for (const desc::Collision& collision : link.collisions) {
+      all.push_back(
+          pyb::make_tuple(model.name, link.name, type_name(collision.shape.type), entry.moves,
+                          vertices_of(collision.shape, now.link_poses[i] * collision.pose)));
+    }
+  }
+  return all;
+}
+
+pyb::dict joint(const World& world, const std::string& name) {
+  constexpr std::array<const char*, 6> kTypes = {"fixed", "revolute",  "prismatic",
+                                                 "ball",  "universal", "screw"};
+  const sim::Snapshot& now = world.now();
+  const sim::Structure& structure = *now.structure;
+  const auto& joints = structure.joints;
+  const auto entry = std::find_if(joints.begin(), joints.end(),
+                                  [&](const sim::JointEntry& each) { return each.name == name; });
+  if (entry == joints.end()) throw Error("no joint '" + printable(name) + "'");
+  const desc::Model& model = *structure.models[entry->model];
+  const desc::Joint& joint = model.joints[entry->joint];
+  Pose frame = model.pose;  // at present, as the parent has it
+  for (std::size_t i = 0; i < structure.links.size(); ++i) {
+    const sim::LinkEntry& link = structure.links[i];
+    if (link.model != entry->model || model.links[link.link].name != joint.parent) continue;
+    frame = now.link_poses[i] * model.links[link.link].pose.inverse();
+  }
+  pyb::dict dict;
+  dict["type"] = kTypes[static_cast<std::size_t>(joint.type)];
+  dict["model"] = model.name;
+  dict["child"] = joint.child;
+  dict["anchor"] = Vec3(frame * joint.anchor);
+  dict["position"] = now.joint_positions[static_cast<std::size_t>(entry - joints.begin())];
+  if (!joint.axes.empty()) {
+    const desc::JointAxis& axis = joint.axes.front();
+    dict["axis"] = Vec3(frame.rotation * axis.xyz);
+    dict["limits"] = pyb::make_tuple(axis.lower, axis.upper);
+  }
+  return dict;
+}
+
+/// The field of a sensor with rays, or the horizontal one of a camera, whose range has no end.
+pyb::object field_of(const sim::SensorEntry& sensor) {
+  if (sensor.rays != nullptr)
+    return pyb::make_tuple(sensor.rays->min_yaw, sensor.rays->max_yaw, sensor.rays->max);
+  const Element* camera = sensor.desc->element.child("camera");
+  if (camera == nullptr || camera->child("horizontal_fov") == nullptr) return pyb::none();
+  const double half = parse_number(camera->child_text("horizontal_fov")).value_or(0.0) / 2;
+  return pyb::make_tuple(-half, half, std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+
+void bind_geometry(pyb::class_<World>& world) {
+  world
+      .def_property_readonly(
+          "shapes", &shapes,
+          "Shapes of collisions: (model, link, type, moves, vertices). The vertices, (n, 3) in m "
+          "in "
+          "the world, have the shape as their convex hull, of a mesh as its corners; a plane and a "
+          "heightmap have none. Round shapes are within 0.2 % of their radius.")
+      .def("joint", &joint, pyb::arg("name"),
+           "A model::joint as a dict: type, model, child (a link), position (rad or m), anchor and "
+           "axis in the world, limits of its first axis.")
+      .def(
+          "field_of_view",
+          [](const World& w, const std::string& kind, const std::string& name) {
+            for (const sim::SensorEntry& sensor : w.now().structure->sensors) {
+              if (sensor.kind == kind && sensor.name == name) return field_of(sensor);
+            }
+            throw Error("no " + printable(kind) + " named '" + printable(name) + "'");
+          },
+          pyb::arg("kind"), pyb::arg("name"),
+          "Horizontal limits (rad, left is positive) and range (m) of a sensor's field of view; "
+          "None if it has none.");
+}
+
+}  // namespace angen::py
