@@ -1,4 +1,4 @@
-"""Fixtures of the tests of angen_tools; none needs ROS."""
+"""Fixtures of the tests of angen_tools."""
 from __future__ import annotations
 
 from pathlib import Path

@@ -1,6 +1,7 @@
 """The order of packages and modules: no import cycle, also not through imports inside of functions.
 
-angen_bench imports angen_apps, and both import angen_tools, which finds their commands by name.
+angen_bench imports angen_apps, both import angen_tools, which finds their commands by name, and all
+import angen_models.
 """
 from __future__ import annotations
 
@@ -11,8 +12,8 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-SOURCES = {'angen_tools': ROOT / 'src/angen_tools/src', 'angen_apps': ROOT / 'src/angen_apps/src',
-           'angen_bench': ROOT / 'bench'}
+SOURCES = {name: ROOT / f'src/{name}/src' for name in ('angen_models', 'angen_tools', 'angen_apps')}
+SOURCES['angen_bench'] = ROOT / 'bench'
 TESTS = {'angen_tools': ROOT / 'tests/angen_tools', 'angen_apps': ROOT / 'tests/angen_apps'}
 FINDS_COMMANDS = 'angen_tools.cli.applications'  # the module that may name other packages
 Graph = dict[str, set[str]]
@@ -86,8 +87,9 @@ def test_only_commands_import_the_command_line() -> None:
 
 def test_each_package_imports_only_those_below_it() -> None:
     assert reduced(module_graph(SOURCES), 1) == {
-        'angen_tools': set(), 'angen_apps': {'angen_tools'},
-        'angen_bench': {'angen_apps', 'angen_tools'}}
+        'angen_models': set(), 'angen_tools': {'angen_models'},
+        'angen_apps': {'angen_models', 'angen_tools'},
+        'angen_bench': {'angen_apps', 'angen_models', 'angen_tools'}}
 
 
 @pytest.mark.parametrize('package', ['angen_apps', 'angen_bench'])

@@ -66,7 +66,7 @@ def test_wrong_days(code: int, part: str, mistake: str, tmp_path: Path,
     world, day = tmp_path / 'my.world', tmp_path / 'day.csv'
     world.write_text(f'<sdf version="1.6"><world name="w">{DOOR}</world></sdf>')
     day.write_text(f'time,target,command\n{mistake}\n')
-    found, line = answer(['run', '--fast', str(world), '--for', '10s', '--day', str(day), '-o',
+    found, line = answer(['run', '--fast', str(world), '--for', '10s', '--day', str(day), '--out',
                           str(tmp_path)], capsys)
     assert part in line and found == code and f'{day}:2: ' in line
 

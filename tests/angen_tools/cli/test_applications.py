@@ -12,7 +12,6 @@ from angen_tools.cli import applications, main as cli
 def alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """An installation of angen_tools and nothing above it."""
     monkeypatch.setattr(applications, 'MODULES', ('no_apps.cli.commands', 'no_bench.commands'))
-    monkeypatch.setattr(applications, 'BENCH', Path('/nonexistent'))
 
 
 def test_commands_of_absent_packages_are_not_offered(
@@ -21,13 +20,6 @@ def test_commands_of_absent_packages_are_not_offered(
         cli.run(['task', 'patrol'])
     assert end.value.code == 2 and "'task' is not known" in capsys.readouterr().err
     assert cli.make_parser().parse_args(['luxcheck']).run
-
-
-def test_an_absent_bench_says_where_it_is(alone: None, capsys: pytest.CaptureFixture[str]) -> None:
-    assert cli.run(['bench', 'sensors', '--kind', 'pir']) == 1
-    assert capsys.readouterr().err == (
-        'angen: the benchmarks are not installed; run ./angen bench in a checkout of Angen, which '
-        'has them in bench/angen_bench\n')
 
 
 def test_an_error_inside_of_a_package_is_not_hidden(

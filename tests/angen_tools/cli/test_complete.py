@@ -8,7 +8,7 @@ import pytest
 
 from angen_tools.cli import complete
 from angen_tools.common.failure import Failure
-from angen_tools.live import client
+from angen_tools.session import live
 
 ENTITIES = [SimpleNamespace(name=name, kind=kind) for name, kind in (
     ('table0', 'model'), ('kitchen0', 'door'), ('hall0', 'door'), ('eye', 'pir'))]
@@ -33,7 +33,7 @@ class Absent(Running):
 
 @pytest.fixture
 def running(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(client, 'Client', Running)
+    monkeypatch.setattr(live, 'Live', Running)
 
 
 def test_names_are_those_that_the_command_takes(running: None) -> None:
@@ -45,7 +45,7 @@ def test_names_are_those_that_the_command_takes(running: None) -> None:
 
 
 def test_without_a_simulator_there_are_kinds_but_no_names(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(client, 'Client', Absent)
+    monkeypatch.setattr(live, 'Live', Absent)
     assert complete.names_to_watch() == [] and complete.names_of_devices('door')() == []
     assert {'model', 'pir', 'door'} <= set(complete.kind_names())
 

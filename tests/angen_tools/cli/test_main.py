@@ -70,7 +70,7 @@ def test_help_has_an_example_that_parses(words: str, capsys: pytest.CaptureFixtu
         assert cli.make_parser().parse_args(given).run
 
 
-NO_RESULT = {'completion'}  # it prints a script
+NO_RESULT = {'completion', 'mqtt'}  # a script; a bridge that runs until it is ended
 
 
 def test_every_command_that_prints_a_result_prints_json() -> None:
@@ -171,9 +171,17 @@ def test_completion_of_addresses_on_the_model_path() -> None:
 @pytest.mark.parametrize('words', [
     'run --fast {root}/worlds/empty.world --for 1', 'task patrol', 'task patrol --seeds 2',
     'task seek', 'bench sensors', 'bench core', 'bench load', 'walktest --profile nema-wd7', 'care',
-    'care --world {root}/worlds/empty.world', 'locate --for 1', 'pid door'])
+    'care {root}/worlds/empty.world', 'locate --for 1', 'pid door'])
 def test_a_folder_that_cannot_be_written_is_named_before_the_work(
         words: str, no_master: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / 'file').touch()
     assert cli.run([*words.format(root=ROOT).split(), '--out', str(tmp_path / 'file/out')]) == 1
     assert capsys.readouterr() == ('', f'angen: {tmp_path}/file: is not a folder\n')
+
+
+def test_a_former_spelling_is_a_warning(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        cli.run(['locate', '--world', 'a.world'])
+    first, second = capsys.readouterr().err.splitlines()
+    assert first == 'angen locate: --world is now WORLD, without an option'
+    assert 'WORLD needs --for TIME' in second

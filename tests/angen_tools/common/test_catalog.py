@@ -17,9 +17,9 @@ from angen_tools.common.failure import Failure
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A folder of a user's plug-ins."""
     monkeypatch.setenv('ANGEN_PLUGIN_PATH', str(tmp_path))
-    catalog.plugins.cache_clear()
+    catalog.forget()
     yield tmp_path
-    catalog.plugins.cache_clear()
+    catalog.forget()
 
 
 def put(folder: Path, library: str, kind: str, **changes: Any) -> None:
@@ -27,7 +27,7 @@ def put(folder: Path, library: str, kind: str, **changes: Any) -> None:
     (folder / f'{library}.so').touch()
     entry = {**catalog.kind_of('lamp'), 'library': f'{library}.so', 'kind': kind, **changes}
     (folder / f'{library}.json').write_text(json.dumps([entry]))
-    catalog.plugins.cache_clear()
+    catalog.forget()
 
 
 def test_the_files_equal_the_catalogs_of_the_libraries() -> None:
@@ -50,7 +50,7 @@ def test_a_workspace_that_is_sourced_is_enough(tmp_path: Path, monkeypatch: pyte
     put(tmp_path / 'lib', 'libfoo', 'foo')
     assert 'foo' in catalog.kinds('device') and 'lamp' in catalog.kinds('device')
     monkeypatch.undo()
-    catalog.plugins.cache_clear()
+    catalog.forget()
 
 
 def test_the_first_library_of_a_name_counts(folder: Path) -> None:
@@ -68,7 +68,7 @@ def test_a_file_that_is_not_a_catalog_is_passed_over(folder: Path, content: str)
 def test_a_file_without_its_library_is_passed_over(folder: Path) -> None:
     put(folder, 'libfoo', 'foo')
     (folder / 'libfoo.so').unlink()
-    catalog.plugins.cache_clear()
+    catalog.forget()
     assert 'foo' not in catalog.kinds()
 
 

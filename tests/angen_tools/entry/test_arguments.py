@@ -1,12 +1,14 @@
 """Arguments of the launch file that are wrong."""
 from __future__ import annotations
 
+import subprocess
 from pathlib import Path
 
 import pytest
 
 from angen_tools.common.failure import Failure
 from angen_tools.entry.arguments import check_arguments, check_roslaunch, kinds
+from angen_tools.entry.run import resolved
 
 ROOT = Path(__file__).resolve().parents[3]
 LAUNCH = ROOT / 'launch/angen.launch'
@@ -50,10 +52,43 @@ def test_a_wrong_word_is_named_with_near_ones(word: str, parts: list[str]) -> No
         assert part in str(failed.value)
 
 
-def test_roslaunch_itself_is_checked(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_world_of_the_users_own_folder_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+                                                  ) -> None:
+    monkeypatch.setenv('HOME', str(tmp_path))
+    (tmp_path / 'my.world').write_text('')
+    check_arguments(LAUNCH, ['world:=~/my.world'])
+    assert resolved('world:=~/my.world') == f'world:={tmp_path}/my.world'
+    with pytest.raises(Failure, match=f'did you mean world:={tmp_path}/my.world?'):
+        check_arguments(LAUNCH, ['world:=~/my.wrld'])
+
+
+def test_roslaunch_itself_is_checked(monkeypatch: pytest.MonkeyPatch,
+                                     capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr('sys.argv', ['/usr/bin/roslaunch', 'angen_sim', 'angen.launch', 'wrld:=x'])
-    with pytest.raises(Failure, match='wrld:=x: not an argument'):
+    with pytest.raises(SystemExit, match='2'):
         check_roslaunch(str(LAUNCH))
+    assert capsys.readouterr().err.startswith('angen: wrld:=x: not an argument')
+
+
+@pytest.mark.parametrize(('words', 'lit'), [
+    (['web:=true', 'gui:=false'], 'livingroom0 On'), (['gui:=false'], "''"),
+    (['web:=true', 'gui:=false', f'world:={ROOT}/worlds/empty.world'], "''")])
+def test_living_rooms_are_lit_where_one_sees_them(words: list[str], lit: str) -> None:
+    told = subprocess.run(['roslaunch', '--dump-params', str(LAUNCH), *words], text=True,
+                          capture_output=True, timeout=60).stdout
+    line, = (line for line in told.splitlines() if line.startswith('/angen/commands'))
+    assert lit in line
+
+
+def test_a_missing_package_is_one_line_of_roslaunch(tmp_path: Path) -> None:
+    file = tmp_path / 'my.launch'
+    file.write_text((ROOT / 'launch/navigation.launch').read_text()
+                    .replace('amcl move_base', 'no_such_package'))
+    done = subprocess.run(['roslaunch', '--dump-params', str(file)], capture_output=True,
+                          text=True, timeout=60)
+    assert done.returncode == 1
+    line, = done.stderr.splitlines()
+    assert line.startswith('angen: no_such_package is not installed') and 'eval' not in line
 
 
 def test_a_launch_file_that_includes_it_is_not(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,49 +1,38 @@
 """When a command waits for others."""
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Callable
 
 import pytest
 
-from angen_msgs.msg import ElevatorState, ElevatorStateArray, Entity
 from angen_tools.common.catalog import kind_of
 from angen_tools.common.verbs import parse
 from angen_tools.live import control
+from angen_tools.session import Entity, State
 
-LIFT = Entity(name='lift', topic='/angen/elevator/lift', type='angen_msgs/ElevatorState')
-
-
-class Mail:
-    """The messages of a topic."""
-
-    sent: list[Any] = []
-
-    def __init__(self, client: object) -> None:
-        pass
-
-    def subscribe(self, topic: str, kind: str) -> None:
-        assert topic == LIFT.topic
-
-    def until(self, done: Any, limit: float) -> bool:
-        return any(done(LIFT.topic, message) for message in self.sent)
+LIFT = Entity('elevator', 'lift', 'lift', (0.0,) * 7, '', '/angen/elevator/lift',
+              'angen_msgs/ElevatorState')
 
 
-@pytest.mark.parametrize('targets, later', [([1], False), ([0, 1], False), ([0, 0], True)])
-@pytest.mark.parametrize('together', [False, True])
-def test_an_elevator_with_another_target_comes_later(
-        targets: list[int], later: bool, together: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(control, 'Mailbox', Mail)
-    states = [ElevatorState(name='lift', target_floor=floor) for floor in targets]
-    if together:  # with topics:=kind
-        other = ElevatorState(name='other', target_floor=1)
-        states = [ElevatorStateArray(names=['other', 'lift'], readings=[other, state])
-                  for state in states]
-    monkeypatch.setattr(Mail, 'sent', states)
+class Simulator:
+    """Has some states of the lift, one after the other."""
+
+    def __init__(self, *floors: int) -> None:
+        self._floors = list(floors)
+
+    def until(self, condition: Callable[[], Any], limit: float) -> bool:
+        return any(condition() for _ in list(self._floors))
+
+    def state(self, kind: str, name: str) -> State:
+        return State(kind, name, 0.0, {'target_floor': self._floors.pop(0)})
+
+
+@pytest.mark.parametrize('floors, later', [([1], False), ([0, 1], False), ([0, 0], True)])
+def test_an_elevator_with_another_target_comes_later(floors: list[int], later: bool) -> None:
     kind = kind_of('elevator')
-    assert control.comes_later(object(), kind, parse(kind, ['1']), LIFT) is later
+    assert control.comes_later(Simulator(*floors), kind, parse(kind, ['1']), LIFT) is later
 
 
-def test_a_lamp_never_comes_later(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(control, 'Mailbox', Mail)
+def test_a_lamp_never_comes_later() -> None:
     kind = kind_of('lamp')
-    assert not control.comes_later(object(), kind, parse(kind, ['on']), LIFT)
+    assert not control.comes_later(Simulator(), kind, parse(kind, ['on']), LIFT)

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import json
-from types import SimpleNamespace
 
 import pytest
 
@@ -10,25 +9,24 @@ from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import quaternion
 from angen_tools.common.output import plain
 from angen_tools.live import listing
+from angen_tools.session import Entity
 
 
-def entity(name: str, kind: str, topic: str) -> SimpleNamespace:
-    turn = SimpleNamespace(**dict(zip('xyzw', quaternion(0.0, 0.0, 1.5))))
-    pose = SimpleNamespace(position=SimpleNamespace(x=1.0, y=-1e-9, z=0.25), orientation=turn)
-    return SimpleNamespace(name=name, kind=kind, model='hall', room='living0', topic=topic,
-                           type='t', pose=pose)
+def entity(name: str, kind: str, topic: str) -> Entity:
+    pose = (1.0, -1e-9, 0.25, *quaternion(0.0, 0.0, 1.5))
+    return Entity(kind, name, 'hall', pose, 'living0', topic, 't')
 
 
 class Simulator:
     """A client of a simulator with a door and a PIR."""
 
-    def entities(self) -> list[SimpleNamespace]:
+    def entities(self) -> list[Entity]:
         return [entity('hall0', 'door', '/angen/door/hall0'), entity('eye', 'pir', '/eye')]
 
 
 @pytest.fixture(autouse=True)
 def simulator(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(listing, 'Client', Simulator)
+    monkeypatch.setattr(listing, 'Live', Simulator)
 
 
 def test_a_row_has_place_and_topic() -> None:

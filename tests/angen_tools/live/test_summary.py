@@ -1,49 +1,51 @@
-"""The rows that angen watch shows, from messages of /angen/summary."""
+"""The rows that angen watch shows, from the summaries of a world."""
 from __future__ import annotations
 
-from types import SimpleNamespace
-from typing import Any
+from typing import Any, Callable
 
 import pytest
 import rospy
 
-from angen_msgs.msg import Stats, Summary, SummaryEntry
-from angen_tools.live import summary
+from angen_msgs.msg import Stats
 from angen_tools.live.summary import Board, Filter
+from angen_tools.live.watch import _cells
+from angen_tools.session import Entity, Summary
 
 
-class Mail:
-    """A mailbox that is given its first message."""
+class Simulator:
+    """Has summaries and statistics."""
 
-    def __init__(self, client: object) -> None:
-        pass
+    def __init__(self) -> None:
+        self.robots: list[Entity] = []
+        self.stats = Stats(sim_time=rospy.Time(1))
+        self.rows = [summary('pir', 'kitchen_pir0', 'still', period=0.1),
+                     summary('pir', 'bath_pir0', 'MOTION', alarm=True, period=0.1),
+                     summary('lamp', 'kitchen0', 'off'), summary('camera', 'eye', ''),
+                     summary('reed', 'kitchen_reed', '', period=1.0)]
 
-    def subscribe(self, topic: str, kind: object) -> None:
-        pass
+    def entities(self) -> list[Entity]:
+        return [Entity('camera', 'eye', 'eye', (0.0,) * 7, 'cellar0'), *self.robots]
 
-    def until(self, done: Any, limit: float) -> bool:
-        return bool(done(summary.TOPIC, message(
-            entry('pir', 'kitchen_pir0', 'still', period=0.1),
-            entry('pir', 'bath_pir0', 'MOTION', alarm=True, period=0.1),
-            entry('lamp', 'kitchen0', 'off'), entry('camera', 'eye', ''),
-            entry('reed', 'kitchen_reed', '', period=1.0), complete=True)))
+    def summaries(self) -> dict[tuple[str, str], Summary]:
+        return {(row.kind, row.name): row for row in self.rows}
 
-
-def entry(kind: str, name: str, text: str, **fields: Any) -> SummaryEntry:
-    return SummaryEntry(kind=kind, name=name, text=text, **fields)
+    def until(self, condition: Callable[[], Any], limit: float) -> bool:
+        return bool(condition())
 
 
-def message(*entries: SummaryEntry, at: float = 1.0, complete: bool = False) -> Summary:
-    made = Summary(complete=complete, entries=list(entries))
-    made.header.stamp = rospy.Time(at)
-    return made
+def summary(kind: str, name: str, text: str, alarm: bool = False, at: float = 1.0,
+            period: float = 0.0) -> Summary:
+    return Summary(kind, name, text, alarm, at, (), period)
 
 
 @pytest.fixture
-def board(monkeypatch: pytest.MonkeyPatch) -> Board:
-    monkeypatch.setattr(summary, 'Mailbox', Mail)
-    listed = [SimpleNamespace(kind='camera', name='eye', room='cellar0')]
-    return Board(SimpleNamespace(entities=lambda: listed))
+def simulator() -> Simulator:
+    return Simulator()
+
+
+@pytest.fixture
+def board(simulator: Simulator) -> Board:
+    return Board(simulator)
 
 
 def names(board: Board, **words: Any) -> list[str]:
@@ -63,15 +65,26 @@ def test_filters(board: Board, words: Any, rows: list[str]) -> None:
     assert names(board, **words) == rows
 
 
-def test_what_changes_is_active(board: Board) -> None:
-    board.take(summary.TOPIC, message(entry('lamp', 'kitchen0', 'on'),
-                                      entry('pir', 'kitchen_pir0', 'still 0.2'), at=2.0))
-    assert names(board, active=True) == ['kitchen0', 'bath_pir0']  # a PIR has alarms
+def test_what_changes_is_active(board: Board, simulator: Simulator) -> None:
+    assert not board.receive(0.1)
+    simulator.rows[0] = summary('pir', 'kitchen_pir0', 'still 0.2', at=2.0)  # a PIR has alarms
+    simulator.rows[2] = summary('lamp', 'kitchen0', 'on', at=2.0)
+    assert board.receive(0.1)
+    assert names(board, active=True) == ['kitchen0', 'bath_pir0']
     assert board.time == 2.0
 
 
-def test_a_complete_message_removes_deleted_entries(board: Board) -> None:
-    board.take(summary.TOPIC, message(entry('lamp', 'kitchen0', 'off'), complete=True))
+def test_a_robot_is_where_people_are_by_the_same_coordinates(simulator: Simulator) -> None:
+    simulator.rows.append(summary('drive', 'bot', '0.50 m  0.00 m  0.00 rad'))
+    simulator.robots = [Entity('drive', 'bot', 'bot', (2.0, 5.0, *(0.0,) * 5), 'hall0')]
+    row, = Board(simulator).chosen(Filter(kinds=['drive']))
+    assert _cells(row)[2] == ('2.00 m  5.00 m in the world, by its wheels '
+                              '0.50 m  0.00 m  0.00 rad')
+
+
+def test_deleted_entries_are_removed(board: Board, simulator: Simulator) -> None:
+    simulator.rows = simulator.rows[2:3]
+    assert board.receive(0.1)
     assert names(board) == ['kitchen0']
 
 
@@ -79,6 +92,7 @@ def test_only_a_sensor_that_publishes_by_itself_is_waited_for(board: Board) -> N
     assert [row.name for row in board.rows.values() if row.waits] == ['kitchen_reed']
 
 
-def test_the_statistics_say_whether_time_passes(board: Board) -> None:
-    board.take(summary.STATS, Stats(paused=True, sim_time=rospy.Time(9)))
+def test_the_statistics_say_whether_time_passes(board: Board, simulator: Simulator) -> None:
+    simulator.stats = Stats(paused=True, sim_time=rospy.Time(9))
+    board.receive(0.1)
     assert board.paused and board.time == 9

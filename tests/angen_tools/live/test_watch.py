@@ -13,8 +13,8 @@ from angen_tools.live.summary import Filter, Row
 
 ROOT = Path(__file__).resolve().parents[3]
 SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
-ROWS = [Row('lamp', 'kitchen0', 'on  40 %', False, 1.0, 0.0),
-        Row('pir', 'kitchen_pir0', '', False, 0.0, 0.1)]
+ROWS = [Row('lamp', 'kitchen0', 'on  40 %', False, 1.0),
+        Row('pir', 'kitchen_pir0', '', False, 0.0, (), 0.1)]
 
 
 class Scene:
@@ -33,8 +33,8 @@ class Scene:
 
 
 def once(monkeypatch: pytest.MonkeyPatch, scene: Scene, **words: object) -> tuple[str, str]:
-    monkeypatch.setattr(watch, 'Board', lambda client: scene)
-    monkeypatch.setattr(watch, 'Client', object)
+    monkeypatch.setattr(watch, 'Board', lambda world: scene)
+    monkeypatch.setattr(watch, 'Live', object)
     shown, missing = watch.watch_once(Filter(**words), json=True)
     return str(shown), missing
 

@@ -47,7 +47,7 @@ def run(*words: object, **options: Any) -> subprocess.CompletedProcess[str]:
 
 
 def test_it_leaves_the_events_that_all_ticks_would_tell(world: Path, tmp_path: Path) -> None:
-    done = run(world, '--for', '55.5s', '--seed', '3', '-o', tmp_path / 'out')
+    done = run(world, '--for', '55.5s', '--seed', '3', '--out', tmp_path / 'out')
     assert (done.returncode, done.stderr) == (0, '')
     with (tmp_path / 'out/events.csv').open() as file:
         rows = list(csv.reader(file))
@@ -65,15 +65,16 @@ def test_it_leaves_the_events_that_all_ticks_would_tell(world: Path, tmp_path: P
 
 
 def test_errors_are_reported_in_a_line(world: Path, tmp_path: Path) -> None:
-    world.write_text(WORLD.replace('model://pir', 'model://no_such_model'))
-    done = run(world, '--for', '1', '-o', tmp_path)
+    world.write_text(WORLD.replace('model://pir', 'model://no_such_model')
+                     .replace('name="w"', 'name="w" angen:strict="true"'))
+    done = run(world, '--for', '1', '--out', tmp_path)
     assert done.returncode == 1 and done.stdout == ''
     line, = done.stderr.splitlines()
     assert 'walk.world:2: ' in line and 'no_such_model' in line
 
 
 def test_a_place_that_cannot_be_written_is_named(world: Path) -> None:
-    done = run(world, '--for', '1', '-o', '/dev/null')
+    done = run(world, '--for', '1', '--out', '/dev/null')
     assert done.returncode == 1 and done.stderr.count('\n') == 1
     assert '/dev/null' in done.stderr
 
@@ -89,7 +90,7 @@ def test_a_kill_leaves_the_events_until_then(world: Path, tmp_path: Path, seed: 
     log, part = tmp_path / 'events.csv', tmp_path / 'events.csv.part'
     log.write_text('of the last run')
     process = subprocess.Popen([sys.executable, str(SCRIPT), 'run', '--fast', str(world), '--for',
-                                '1e9', '-o', str(tmp_path)], stderr=subprocess.DEVNULL)
+                                '1e9', '--out', str(tmp_path)], stderr=subprocess.DEVNULL)
     enough = random.Random(seed).randrange(100, 5000)
     while not part.exists() or part.stat().st_size < enough:
         assert process.poll() is None
@@ -97,14 +98,14 @@ def test_a_kill_leaves_the_events_until_then(world: Path, tmp_path: Path, seed: 
     process.wait()
     assert log.read_text() == 'of the last run'
     written = part.read_text().splitlines()[:-1]  # the last line may be cut
-    whole = run(world, '--for', '3000', '-o', tmp_path)
+    whole = run(world, '--for', '3000', '--out', tmp_path)
     assert whole.returncode == 0 and not part.exists()
     lines = log.read_text().splitlines()
     assert len(written) > 1 and written[:len(lines)] == lines[:len(written)]
 
 
 def test_a_full_disk_leaves_whole_lines(world: Path, tmp_path: Path) -> None:
-    done = run(world, '--for', '1e9', '-o', tmp_path, preexec_fn=lambda: resource.setrlimit(
+    done = run(world, '--for', '1e9', '--out', tmp_path, preexec_fn=lambda: resource.setrlimit(
         resource.RLIMIT_FSIZE, (3000, 3000)))
     assert (done.returncode, done.stdout) == (1, '')
     line, = done.stderr.splitlines()
@@ -145,7 +146,7 @@ def test_readings_are_those_that_each_tick_would_publish(tmp_path: Path) -> None
     path.write_text(FLAT)
     day = tmp_path / 'day.csv'
     day.write_text('time,target,command\n0:00:12,door/bathroom0,Open\n0:00:20,stove/all,Off\n')
-    done = run(path, '--for', '30', '--day', day, '--readings', readings, '-o', tmp_path)
+    done = run(path, '--for', '30', '--day', day, '--readings', readings, '--out', tmp_path)
     assert (done.returncode, done.stderr) == (0, '')
     with (tmp_path / 'events.csv').open() as file:
         assert {('12', 'bathroom0', 'opening')} <= {
@@ -176,7 +177,7 @@ def test_readings_are_those_that_each_tick_would_publish(tmp_path: Path) -> None
 def test_pandas_reads_the_readings_with_types(tmp_path: Path) -> None:
     path, readings = tmp_path / 'flat.world', tmp_path / 'r.csv.gz'
     path.write_text(FLAT)
-    assert run(path, '--for', '50', '--readings', readings, '-o', tmp_path).returncode == 0
+    assert run(path, '--for', '50', '--readings', readings, '--out', tmp_path).returncode == 0
     day, rows = pandas.read_csv(readings), table(readings)
     assert len(day) == len(rows) > 1000
     assert [str(day[name].dtype) for name in ('time', 'value', 'name')] == [
@@ -195,7 +196,7 @@ def test_a_wrong_order_is_reported_before_the_day(line: str, part: str, tmp_path
     path, day = tmp_path / 'flat.world', tmp_path / 'day.csv'
     path.write_text(FLAT)
     day.write_text(f'time,target,command\n{line}\n')
-    done = run(path, '--for', '30', '--day', day, '-o', tmp_path)
+    done = run(path, '--for', '30', '--day', day, '--out', tmp_path)
     said, = done.stderr.splitlines()
     assert done.returncode == 1 and said.startswith(f'angen: {day}:2: ') and part in said
 
@@ -204,7 +205,7 @@ def test_ctrl_c_reports_the_kept_files(world: Path, tmp_path: Path) -> None:
     readings = tmp_path / 'r.csv.gz'
     process = subprocess.Popen(
         [sys.executable, str(SCRIPT), 'run', '--fast', str(world), '--for', '100d', '--readings',
-         str(readings), '-o', str(tmp_path)], stderr=subprocess.PIPE, text=True,
+         str(readings), '--out', str(tmp_path)], stderr=subprocess.PIPE, text=True,
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
     part = tmp_path / 'r.csv.gz.part'
     while not part.exists() or part.stat().st_size < 3000:
@@ -246,5 +247,5 @@ class Interrupting:
 
 
 def test_a_table_needs_a_known_ending(world: Path, tmp_path: Path) -> None:
-    done = run(world, '--for', '1', '--readings', tmp_path / 'r.xlsx', '-o', tmp_path)
+    done = run(world, '--for', '1', '--readings', tmp_path / 'r.xlsx', '--out', tmp_path)
     assert done.returncode == 1 and '.csv.gz or .parquet' in done.stderr

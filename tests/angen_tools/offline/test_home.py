@@ -15,9 +15,10 @@ WORLD = Path(__file__).resolve().parents[3] / 'worlds/angen.world'
 ROOM = ('<angen:room name="{}"><angen:polygon>{}</angen:polygon></angen:room>')
 
 
-def written(folder: Path, inside: str) -> str:
+def written(folder: Path, inside: str, strict: bool = False) -> str:
     path = folder / 'my.world'
-    path.write_text(f'<sdf version="1.6"><world name="w">{inside}</world></sdf>')
+    path.write_text(f'<sdf version="1.6"><world name="w" angen:strict="{str(strict).lower()}">'
+                    f'{inside}</world></sdf>')
     return str(path)
 
 
@@ -35,7 +36,7 @@ def test_json_is_the_dict_of_the_world() -> None:
     described, findings = load_home(str(WORLD))
     read = json.loads(home_json(described, findings))
     assert read.pop('findings') == {'guessed': [], 'contradicting': []}
-    assert Home.of_dict(read) == Home.of_dict(described)
+    assert Home.of(read) == Home.of(described)
 
 
 def test_findings_are_listed(tmp_path: Path) -> None:
@@ -48,6 +49,6 @@ def test_findings_are_listed(tmp_path: Path) -> None:
 
 
 def test_a_world_that_does_not_load_is_one_line(tmp_path: Path) -> None:
-    path = written(tmp_path, ROOM.format('a', '0 0 4 0'))
+    path = written(tmp_path, ROOM.format('a', '0 0 4 0'), strict=True)
     with pytest.raises(Failure, match='my.world:1: <angen:polygon> of room .a. has 4 numbers'):
         load_home(path)

@@ -9,7 +9,7 @@ from angen_tools.offline import pid
 
 @pytest.mark.parametrize('kind', ['door', 'elevator'])
 def test_all_follow_their_closed_forms(kind, tmp_path, capsys):
-    assert run(['pid', kind, '--json', '-o', str(tmp_path)]) == 0
+    assert run(['pid', kind, '--json', '--out', str(tmp_path)]) == 0
     p, pi, full, own = json.loads(capsys.readouterr().out)
     assert all(one['deviation'] < 0.01 for one in (p, pi, full))
     assert p['settles_s'] is None and pi['settles_s'] is None, 'P alone and P + I swing'
@@ -30,4 +30,4 @@ def test_p_alone_swings_with_its_period():
 def test_a_wrong_simulation_is_found(monkeypatch, tmp_path, capsys):
     right = pid.closed_form
     monkeypatch.setattr(pid, 'closed_form', lambda *args: 1.02 * right(*args))
-    assert run(['pid', 'door', '-o', str(tmp_path)]) == 1
+    assert run(['pid', 'door', '--out', str(tmp_path)]) == 1

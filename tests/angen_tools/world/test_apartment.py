@@ -11,7 +11,8 @@ from angen_bench import sensors as bench
 from angen_tools.cli import main as cli
 from angen_tools.world import apartment as world_maker
 from angen_tools.world import placing
-from tests.worlds import world_geometry as geometry
+from angen_models import plan
+from tests.angen_models import world_geometry as geometry
 
 COUNTS = {'pir': 30, 'switch': 15, 'luminosity': 14, 'contact': 25}
 
@@ -54,7 +55,6 @@ def test_the_same_options_give_the_same_bytes(tmp_path: Path) -> None:
 
 def test_every_pir_is_in_a_room_and_sees_its_walls(path: Path) -> None:
     models = geometry.load(path)
-    plan = placing.generator('plan')
     building = [s for m in models.values() if m.source == 'apartment' for s in geometry.shapes(m)]
     eyes = [m for m in models.values() if m.source == 'pir']
     assert len(eyes) == COUNTS['pir']
@@ -94,7 +94,6 @@ def test_sensors_on_one_link_stand_where_models_would(path: Path, tmp_path: Path
 def test_the_robot_drives_the_round_by_one_order(tmp_path: Path) -> None:
     write(tmp_path / 'a.world', {}, mover='robot')
     world = angen.World(str(tmp_path / 'a.world'))
-    plan = placing.generator('plan')
     x, y, radius = plan.ROUND
     assert 'person' not in world.models and not world.sensors('lidar')
     speed, turn = bench.robot_round()

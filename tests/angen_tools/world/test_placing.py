@@ -9,7 +9,7 @@ import pytest
 from angen_tools.common.failure import Failure
 from angen_tools.world import apartment as world_maker
 from angen_tools.world import placing
-from tests.worlds import world_geometry as geometry
+from tests.angen_models import world_geometry as geometry
 
 COUNTS = {'pir': 30, 'switch': 15, 'luminosity': 14, 'contact': 25}
 
@@ -37,7 +37,7 @@ def test_the_first_sensors_stand_where_the_building_has_them() -> None:
 
 @pytest.mark.parametrize('kind', placing.KINDS)
 def test_more_than_fits_is_an_error(kind: str) -> None:
-    with pytest.raises(Failure, match=rf'a flat has room for \d+ {kind} sensors, not 5000'):
+    with pytest.raises(Failure, match=rf'a floor has room for \d+ {kind} sensors, not 5000'):
         placing.placements(kind, 5000, 1, 1)
 
 

@@ -150,10 +150,10 @@ def nosy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     (tmp_path / 'libnosy.so').touch()
     (tmp_path / 'libnosy.json').write_text(json.dumps([entry]))
     monkeypatch.setenv('ANGEN_PLUGIN_PATH', str(tmp_path))
-    catalog.plugins.cache_clear()
+    catalog.forget()
     angen.register('libnosy.so', 'nosy', Nosy)
     yield 'nosy'
-    catalog.plugins.cache_clear()
+    catalog.forget()
 
 
 @pytest.mark.parametrize('lone', [True, False])

@@ -1,4 +1,4 @@
-"""Completions that a shell offers after TAB; none where there is no simulator to query."""
+"""Completions that a shell offers after TAB; none if there is no simulator to query."""
 from __future__ import annotations
 
 import argparse
@@ -16,9 +16,9 @@ def completed_by(argument: argparse.Action, completer: Callable[..., list[str]])
 
 
 def _entities() -> list[Any]:
-    from angen_tools.live.client import Client
+    from angen_tools.session.live import Live
     try:
-        found: list[Any] = Client(limit=LIMIT).entities()
+        found: list[Any] = Live(limit=LIMIT).entities()
     except Failure:
         return []
     return found

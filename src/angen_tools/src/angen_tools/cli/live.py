@@ -4,12 +4,13 @@ from __future__ import annotations
 import argparse
 import shlex
 import sys
+from difflib import get_close_matches
 from pathlib import Path
-from typing import Any, Container, Sequence
+from typing import Any, Collection, Container, Sequence
 
 from angen_tools.cli import complete
 from angen_tools.cli.arguments import checked, link, new_name, pose, setting
-from angen_tools.cli.parser import Parser, add_json, command
+from angen_tools.cli.parser import MEANT, Parser, add_json, command
 from angen_tools.common import verbs
 from angen_tools.common.catalog import Plugin, has_parameter, kinds
 from angen_tools.common.output import show, show_done
@@ -35,9 +36,14 @@ def run_spawn(args: argparse.Namespace) -> int:
 
 def run_delete(args: argparse.Namespace) -> int:
     from angen_tools.live import spawn
-    deleted = spawn.delete(args.names)
+    deleted = spawn.delete(args.names, yes if sys.stdin.isatty() and not args.yes else None)
     show_done({'deleted': deleted, 'text': f'deleted {", ".join(deleted)}'}, args.json)
     return 0
+
+
+def yes(question: str) -> bool:
+    """Whether the user says so."""
+    return input(f'{question} [y/N] ').strip().lower() in ('y', 'yes')
 
 
 def run_list(args: argparse.Namespace) -> int:
@@ -172,6 +178,7 @@ def add_delete(commands: Any) -> None:
                      'delete p1 chair1')
     complete.completed_by(delete.add_argument('names', metavar='NAME', nargs='+'),
                           complete.names_to_delete)
+    delete.add_argument('--yes', action='store_true', help='does not ask before it deletes walls')
     add_json(delete)
 
 
@@ -213,9 +220,19 @@ def right_order(words: Sequence[str], commands: Container[str] = ()) -> str:
     if words[0] == 'set' and first == 'all':
         return next((shlex.join(['set', kind, *words[1:]]) for kind in (*COMMON, *known)
                      if _takes(known[kind], ' '.join(words[2:]))), '')
-    if first in (*known, 'model', 'sitter') or second not in (*known, 'model', 'sitter'):
+    if first in (*known, 'model', 'sitter'):
+        return ''
+    if words[0] == 'set' and not rest and not near_kind(first, known):
+        return next((f'set {kind} {shlex.join(words[1:])}' for kind in (*COMMON, *known)
+                     if _takes(known[kind], second)), '')
+    if second not in (*known, 'model', 'sitter'):
         return ''
     return shlex.join([words[0], second, first, *rest])
+
+
+def near_kind(word: str, known: Collection[str]) -> bool:
+    """Whether a word may be a kind that is misspelled, or another word for one."""
+    return bool({word, word.removesuffix('s')} & set(MEANT) or get_close_matches(word, known))
 
 
 def _spelled(model: str) -> str:

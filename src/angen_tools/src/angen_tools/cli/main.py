@@ -4,6 +4,7 @@ from __future__ import annotations
 import argparse
 import logging
 import os
+import re
 import signal
 import sys
 from typing import Any, NoReturn, Sequence
@@ -42,6 +43,8 @@ def make_parser() -> Parser:
         '  angen help set door',
         formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--version', action=PrintVersion, nargs=0, help='prints the version')
+    parser.add_argument('--ns', metavar='NAMESPACE', help='of the simulator, where several share a '
+                        'ROS master: --ns house1 list')
     parser.kinds = commands = parser.add_subparsers(metavar='COMMAND', required=True)
     for add in (live.add_spawn, live.add_delete, live.add_list, offline.add_plugins, live.add_set,
                 live.add_save, live.add_watch, live.add_top, live.add_drive, offline.add_checks,
@@ -61,13 +64,18 @@ def run(arguments: Sequence[str]) -> int:
     if '_ARGCOMPLETE' in os.environ:
         import argcomplete
         argcomplete.autocomplete(parser)
+    if arguments and arguments[0] == '--ns':
+        if not re.fullmatch(r'/?[A-Za-z]\w*(/\w+)*', (*arguments, '')[1], re.ASCII):
+            parser.error('--ns is followed by a ROS namespace: angen --ns house1 list')
+        os.environ['ROS_NAMESPACE'] = arguments[1]  # before rospy is imported
+        arguments = arguments[2:]
     for word in arguments:
         if _has_other_bytes(word):
             parser.error(f'{ascii(word)} is not text in UTF-8')
     first = arguments[0] if arguments else ''
     if first.startswith('-') and not any(option.startswith(first) for option in OPTIONS):
-        parser.error(f"'{first}' is not an option of angen, which has --help and --version; those "
-                     'of a command follow it')
+        parser.error(f"'{first}' is not an option of angen, which has --help, --ns and --version; "
+                     'those of a command follow it')
     if arguments and arguments[0] == 'help':
         arguments = [*arguments[1:], '--help']
     if arguments and arguments[0] == 'run' and any(':=' in word for word in arguments):

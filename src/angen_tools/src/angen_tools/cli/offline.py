@@ -9,7 +9,8 @@ from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked, duration, moment
 from angen_tools.cli.complete import completed_by, kind_names
-from angen_tools.cli.parser import add_allow_paths, add_json, add_out, add_seed, command
+from angen_tools.cli.parser import (add_allow_paths, add_file, add_json, add_out, add_seed,
+                                    add_world_file, command)
 from angen_tools.common.files import check_folder, check_output
 from angen_tools.common.output import as_json, show, show_done
 
@@ -110,7 +111,7 @@ def add_checks(commands: Any) -> None:
                    'prints the rooms of a world, its doors and the contents of the rooms, and '
                    'lists missing and wrong parts; needs no simulator', 'home worlds/angen.world',
                    'home worlds/angen.world --json')
-    home.add_argument('world', metavar='FILE.world', help='the SDF file of the world')
+    add_world_file(home, 'the SDF file of the world', True, str)
     add_json(home)
     add_allow_paths(home)
     lux = command(commands, 'luxcheck', run_luxcheck,
@@ -123,27 +124,28 @@ def add_world(commands: Any) -> None:
     world = command(commands, 'world', run_world, 'writes a world; needs no simulator',
                     'world apartment --floors 2 --pir 50 -o out.world')
     world.kinds = kinds = world.add_subparsers(dest='what', metavar='WHAT', required=True)
-    flat = command(kinds, 'apartment', run_world, 'writes flats, one above the other, with sensors',
+    made = command(kinds, 'apartment', run_world,
+                   'writes apartments, one above the other, with sensors',
                    'world apartment --floors 2 --pir 50 --switch 12 -o out.world')
-    flat.add_argument('--floors', metavar='N', type=checked(at_least(1, 1000)), default=2,
-                      help='how many flats (2)')
+    made.add_argument('--floors', metavar='N', type=checked(at_least(1, 1000)), default=2,
+                      help='how many floors, of an apartment each (2)')
     for kind in KINDS:
-        flat.add_argument(f'--{kind}', metavar='N', type=checked(at_least(0)), default=0,
+        made.add_argument(f'--{kind}', metavar='N', type=checked(at_least(0)), default=0,
                           help=f'how many {kind} sensors' +
                           (', each with its chair or table (0)' if kind == 'contact' else ' (0)'))
-    flat.add_argument('--elevator', action='store_true',
+    made.add_argument('--elevator', action='store_true',
                       help='with the elevator of floors 0 and 1, which has one of the '
                            'contact sensors')
-    flat.add_argument('--mover', choices=MOVERS, default='person', help='who is on floor 0: '
+    made.add_argument('--mover', choices=MOVERS, default='person', help='who is on floor 0: '
                       'a person who walks; a robot, which drives in the workroom when it is sent '
                       '(person)')
-    flat.add_argument('--one-link', action='store_true',
+    made.add_argument('--one-link', action='store_true',
                       help='puts all sensors of a kind on one link, not each in its own model; '
                       'contact sensors stay on the furniture')
-    add_json(flat)
-    add_seed(flat, 'of the places that are left to chance')
-    flat.add_argument('-o', '--output', metavar='FILE', type=Path, required=True)
-    world.epilog = flat.format_help()
+    add_json(made)
+    add_seed(made, 'of the places that are left to chance')
+    add_file(made)
+    world.epilog = made.format_help()
 
 
 def add_run(commands: Any) -> None:
@@ -154,7 +156,7 @@ def add_run(commands: Any) -> None:
                   'run --fast worlds/angen.world --for 1h',
                   'run --fast worlds/care/ordinary.world --for 24h --day '
                   'worlds/care/ordinary.csv')
-    run.add_argument('world', metavar='WORLD', help='the SDF file of the building')
+    add_world_file(run, 'the SDF file of the building', True, str)
     run.add_argument('--fast', action='store_true', required=True,
                      help='as fast as possible; the only way without ROS')
     run.add_argument('--for', metavar='TIME', dest='span', type=checked(duration),

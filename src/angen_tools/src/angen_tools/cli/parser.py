@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import argparse
 import re
+import sys
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, Callable, NoReturn
@@ -20,9 +21,9 @@ MEANT = {'light': 'lamp', 'bulb': 'lamp', 'lift': 'elevator', 'oven': 'stove', '
          'show': 'watch', 'status': 'watch', 'move': 'go', 'open': 'set', 'close': 'set'}
 # Commands of ./angen, which angen itself has not.
 ENTRY = ('demo', 'shell', 'build', 'test', 'fuzz', 'coverage', 'tidy', 'docs')
-ALIKE = 0.75  # of an option and the one that was meant
+ALIKE = 0.75  # likeness of an option and the one that was meant
 SEED = 2**53 - 1  # the largest: JSON has no larger whole numbers
-EXPLICIT = re.compile("ignored explicit argument '.*'")  # of --json=yes
+EXPLICIT = re.compile("ignored explicit argument '.*'")  # argparse's error for --json=yes
 NEGATIVE = re.compile(r'-\.?\d.*')  # -1.57 and -90deg are values, no options
 
 
@@ -91,6 +92,30 @@ class Parser(argparse.ArgumentParser):
         self.exit(2, f'{self.prog}: {message}; see {self.prog} --help\n')
 
 
+class Given(argparse.Action):
+    """A word that may be missing: then the former option may have set its value."""
+
+    def __call__(self, parser: argparse.ArgumentParser, namespace: argparse.Namespace,
+                 values: Any, option: str | None = None) -> None:
+        if values is not None:
+            setattr(namespace, self.dest, values)
+
+
+class Former(argparse.Action):
+    """The former spelling of an option, for one release: a warning, then its value as before."""
+
+    def __call__(self, parser: argparse.ArgumentParser, namespace: argparse.Namespace,
+                 values: Any, option: str | None = None) -> None:
+        print(f'{parser.prog}: {option} is now {self.metavar}', file=sys.stderr)
+        setattr(namespace, self.dest, values)
+
+
+def former(parser: Parser, option: str, now: str, dest: str, kind: Any = Path) -> None:
+    """Accepts the former spelling of an option, which the help does not show."""
+    parser.add_argument(option, action=Former, metavar=now, dest=dest, type=kind,
+                        default=argparse.SUPPRESS, help=argparse.SUPPRESS)
+
+
 def command(commands: Any, name: str, run: Run, summary: str, *examples: str, more: str = ''
             ) -> Parser:
     """Adds a subcommand whose help ends with examples, and `more`."""
@@ -112,13 +137,30 @@ def add_json(parser: Parser) -> None:
 def add_seed(parser: Parser, text: str, default: int = 1) -> None:
     """The option of every command whose result depends on random numbers."""
     parser.add_argument('--seed', metavar='S', type=checked(at_least(0, SEED)), default=default,
-                        help=f'{text} ({default})')
+                        help=f'seed {text} ({default})')
+
+
+def add_world_file(parser: Parser, text: str, required: bool = False, kind: Any = Path) -> None:
+    """The world of a command; without one it is the running simulator or the built-in world."""
+    if required:
+        parser.add_argument('world', metavar='WORLD', type=kind, help=text)
+        return
+    parser.add_argument('world', metavar='WORLD', nargs='?', type=Path, action=Given, help=text)
+    former(parser, '--world', 'WORLD, without an option', 'world')
+
+
+def add_file(parser: Parser, text: str = 'the world that is written', metavar: str = 'FILE',
+             default: Path | None = None) -> None:
+    """The file that a command writes."""
+    parser.add_argument('-o', '--output', metavar=metavar, type=Path, default=default,
+                        required=default is None, help=text)
 
 
 def add_out(parser: Parser, what: str) -> None:
     """The folder in which a command leaves files."""
-    parser.add_argument('-o', '--out', metavar='DIR', type=Path, default=Path('out'),
+    parser.add_argument('--out', metavar='DIR', type=Path, default=Path('out'),
                         help=f'folder for {what} (out)')
+    former(parser, '-o', '--out', 'out')
 
 
 def add_allow_paths(parser: Parser) -> None:

@@ -8,7 +8,7 @@ MOST_TURN = 6.3  # rad
 
 
 def radians(word: str) -> float:
-    """The angle of '1.57', '90deg' or '90°', rad; NaN where it is not an angle."""
+    """The angle of '1.57', '90deg' or '90°', rad; NaN if it is not an angle."""
     number = word.removesuffix('deg').removesuffix('°')
     try:
         return float(number) if number == word else math.radians(float(number))

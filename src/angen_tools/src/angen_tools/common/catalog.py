@@ -19,15 +19,16 @@ from angen_tools.common.nearest import did_you_mean
 
 Plugin = dict[str, Any]  # an entry of angen.plugins()
 KEYS = ('library', 'kind', 'doc', 'role', 'rate', 'models', 'sensor_type', 'example', 'verbs',
-        'values', 'fields', 'params')  # that are read here
+        'values', 'fields', 'params')  # keys that are read here
 # in the file of a library that registers a plug-in with class_loader
 MARKS = (b'N12class_loader4impl10MetaObjectI', b'N5angen6PluginE')
+SPEEDS = ['m/s', 'rad/s']  # the values of a robot that cmd_vel drives
 SCRIPT = b'angen.register('  # in a file of Python that registers one
 LOADER = 'libangen_plugin.so'  # contains these words as it searches for them
 
 
 def angen_module() -> Any:
-    """The module angen; Failure where it is not built or not on the path."""
+    """The module angen; Failure if it is not built or not on the path."""
     try:
         import angen
     except ImportError as error:
@@ -138,6 +139,11 @@ def _broken(library: str, why: str) -> Plugin:
 
 def kinds(role: str = '') -> dict[str, Plugin]:
     """The kinds by name, or those of a role: sensor or device."""
+    return dict(_kinds(role))
+
+
+@cache
+def _kinds(role: str) -> dict[str, Plugin]:
     found: dict[str, Plugin] = {}
     for plugin in plugins():
         if plugin['kind'] and role in ('', plugin['role']):
@@ -145,13 +151,24 @@ def kinds(role: str = '') -> dict[str, Plugin]:
     return found
 
 
+def forget() -> None:
+    """Has the libraries searched again."""
+    plugins.cache_clear()
+    _kinds.cache_clear()
+
+
 def kind_of(name: str) -> Plugin:
-    """A kind; Failure where there is none of that name."""
+    """A kind; Failure if there is none of that name."""
     known = kinds()
     if name not in known:
         raise Failure(f"there is no kind '{name}'; "
                       + did_you_mean(name, known, 'angen plugins'))
     return known[name]
+
+
+def is_robot(kind: Plugin) -> bool:
+    """Whether devices of a kind drive, so that navigation sends them."""
+    return bool(kind['values'] == SPEEDS)
 
 
 def parameters(kind: str) -> dict[str, dict[str, Any]]:

@@ -25,7 +25,7 @@ def writing(path: Path, binary: bool = False, log: bool = False) -> Iterator[IO[
     """A file to write, as UTF-8 unless `binary`; missing folders are made.
 
     A `log` is useful in part: a signal that ends the command ends it, too, so that it gets its
-    name; after an error the whole lines of a text stay in NAME.part. Failure where it cannot be
+    name; after an error the whole lines of a text stay in NAME.part. Failure if it cannot be
     written.
     """
     target = path.resolve()
@@ -57,7 +57,7 @@ def _in_part(target: Path, binary: bool, log: bool) -> Iterator[IO[Any]]:
             raise
         _finish(file, part, target)
     except BaseException:
-        with suppress(OSError):  # of data that could not be written
+        with suppress(OSError):  # its data could not be written
             file.close()
         with suppress(FileNotFoundError):  # it is finished
             _cut(part) if log and not binary else part.unlink()
@@ -120,7 +120,7 @@ def later_signals() -> Iterator[None]:
 
 
 def make_folder(path: Path) -> None:
-    """Makes a folder where there is none; Failure where it cannot be made."""
+    """Makes a folder where there is none; Failure if it cannot be made."""
     try:
         path.mkdir(parents=True, exist_ok=True)
     except FileExistsError:
@@ -130,7 +130,7 @@ def make_folder(path: Path) -> None:
 
 
 def check_folder(path: Path, better: str = 'a folder of yours, as --out DIR') -> None:
-    """Failure where files cannot be written into a folder, which may be missing: before work whose
+    """Failure if files cannot be written into a folder, which may be missing: before work whose
     result would be lost."""
     nearest = next(folder for folder in (path.absolute(), *path.absolute().parents)
                    if folder.exists())
@@ -144,7 +144,7 @@ def check_folder(path: Path, better: str = 'a folder of yours, as --out DIR') ->
 
 
 def check_output(path: Path, ending: str = '') -> None:
-    """Failure where a file cannot be written, or its name has another ending: before work whose
+    """Failure if a file cannot be written, or its name has another ending: before work whose
     result would be lost."""
     if not path.name.lower().endswith(ending):
         raise Failure(f'{path}: must end in {ending}')

@@ -4,13 +4,14 @@ Lengths in m, angles in rad, in the world."""
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
-from typing import Any, Mapping, Sequence
+from dataclasses import dataclass, field, is_dataclass
+from functools import cache
+from typing import Any, Mapping, get_args, get_origin, get_type_hints
 
+from angen_tools.common.catalog import angen_module
 from angen_tools.common.clock import time_of_day
 from angen_tools.common.geometry import yaw as yaw_of
 
-ON_FLOOR = 0.5  # m below its floor that belong to a storey
 IN_WALL = 0.1  # m: a thing in a wall, floor or ceiling is in the room
 Point = tuple[float, float]
 FloorPose = tuple[float, float, float, float]  # x y z yaw
@@ -137,46 +138,15 @@ class Home:
     elevators: list[Elevator] = field(default_factory=list)
 
     @staticmethod
-    def of_dict(home: Mapping[str, Any]) -> Home:
-        """The home of a dict such as `world.home`."""
-        def corners(polygon: Sequence[Sequence[float]]) -> list[Point]:
-            return [(x, y) for x, y in polygon]
-
-        return Home(
-            home['entrance'], home['north'], home['latitude'], home['start'],
-            [Storey(**storey) for storey in home['storeys']],
-            [Room(r['name'], r['use'], r['storey'], corners(r['polygon']),
-                  [corners(hole) for hole in r['holes']], r['floor'], r['ceiling'], r['area'],
-                  r['guessed']) for r in home['rooms']],
-            [Thing(t['name'], t['type'], t['room'], _seven(t['pose']),
-                   [Place(place['posture'], _four(place['pose'])) for place in t['places']])
-             for t in home['things']],
-            [Door(d['name'], d['kind'], (d['rooms'][0], d['rooms'][1]), d['width'], d['height'],
-                  _four(d['pose']), d.get('partner', '')) for d in home['doors']],
-            [Elevator(e['name'], _seven(e['pose']),
-                      [Landing(at['storey'], at['room'], _four(at['pose']))
-                       for at in e['landings']]) for e in home['elevators']])
+    def of(given: Any) -> Home:
+        """The home of a dict such as `world.home`, or of an angen_msgs/Home."""
+        home: Home = _made(Home, given)
+        return home
 
     @staticmethod
     def of_world(world: Any) -> Home:
         """The home of an `angen.World`."""
-        return Home.of_dict(world.home)
-
-    @staticmethod
-    def of_message(message: Any) -> Home:
-        """The home of an angen_msgs/Home."""
-        return Home(
-            message.entrance, message.north,
-            None if math.isnan(message.latitude) else message.latitude, message.start,
-            [Storey(s.number, s.name, s.elevation, s.height) for s in message.storeys],
-            [Room(r.name, r.use, r.storey, _corners(r.polygon), [_corners(h) for h in r.holes],
-                  r.floor, r.ceiling, r.area, r.guessed) for r in message.rooms],
-            [Thing(t.name, t.type, t.room, _pose(t.pose),
-                   [Place(p.posture, _flat(p.pose)) for p in t.places]) for t in message.things],
-            [Door(d.name, d.kind, (d.rooms[0], d.rooms[1]), d.width, d.height, _flat(d.pose),
-                  d.partner) for d in message.doors],
-            [Elevator(e.name, _pose(e.pose), [Landing(at.storey, at.room, _flat(at.pose))
-                                              for at in e.landings]) for e in message.elevators])
+        return Home.of(world.home)
 
     def room(self, name: str) -> Room | None:
         return next((room for room in self.rooms if room.name == name), None)
@@ -201,16 +171,20 @@ class Home:
 
     @property
     def time_of_day(self) -> float:
-        """At simulated time 0, in s since midnight; 0 where the world does not say."""
+        """At simulated time 0, in s since midnight; 0 if the world does not say."""
         return time_of_day(self.start.partition('T')[2] or '0:00')
 
     def storey(self, number: int) -> Storey | None:
         return next((storey for storey in self.storeys if storey.number == number), None)
 
     def storey_at(self, z: float) -> int:
-        """The number of the highest storey whose floor is not above z, or else of the lowest."""
-        below = [storey for storey in self.storeys if storey.elevation - ON_FLOOR <= z]
-        return next((storey.number for storey in below[-1:] or self.storeys), 0)
+        """The number of the storey at a height, 0 in a home without storeys."""
+        return int(self.storeys_at(z))
+
+    def storeys_at(self, z: Any) -> Any:
+        """As storey_at(), also of an array of heights."""
+        described = [(storey.number, storey.elevation) for storey in self.storeys]
+        return angen_module().storey_at(described, z)
 
     def elevation(self, number: int) -> float:
         """The height of a storey's floor; 0 in a home without storeys."""
@@ -238,25 +212,31 @@ def _away(a: Point, b: Point, x: float, y: float) -> float:
     return math.hypot(x - a[0] - share * along[0], y - a[1] - share * along[1])
 
 
-def _four(values: Sequence[float]) -> FloorPose:
-    x, y, z, yaw = values
-    return x, y, z, yaw
+@cache
+def _fields(kind: Any) -> dict[str, Any]:
+    """The names and types of a dataclass's fields."""
+    return get_type_hints(kind)
 
 
-def _seven(values: Sequence[float]) -> Pose:
-    x, y, z, *turned = values
-    return x, y, z, turned[0], turned[1], turned[2], turned[3]
+def _made(kind: Any, given: Any) -> Any:
+    """A value of this type, of a part of a dict or of a message."""
+    if is_dataclass(kind):
+        names = given if isinstance(given, Mapping) else given.__slots__
+        read = given.__getitem__ if isinstance(given, Mapping) else given.__getattribute__
+        return kind(**{name: _made(each, read(name)) for name, each in _fields(kind).items()
+                       if name in names})
+    if get_origin(kind) is list:
+        each, = get_args(kind)
+        return [_made(each, value) for value in getattr(given, 'points', given)]
+    if get_origin(kind) is tuple:
+        return tuple(given if isinstance(given, (list, tuple)) else _numbers(kind, given))
+    return None if isinstance(given, float) and math.isnan(given) else given
 
 
-def _corners(polygon: Any) -> list[Point]:
-    return [(point.x, point.y) for point in polygon.points]
-
-
-def _pose(pose: Any) -> Pose:
-    at, turned = pose.position, pose.orientation
-    return at.x, at.y, at.z, turned.x, turned.y, turned.z, turned.w
-
-
-def _flat(pose: Any) -> FloorPose:
-    x, y, z, *turned = _pose(pose)
-    return x, y, z, yaw_of(*turned)
+def _numbers(kind: Any, given: Any) -> tuple[float, ...]:
+    """Those of a message's point or pose."""
+    if kind == Point:
+        return given.x, given.y
+    at, turned = given.position, given.orientation
+    quaternion = turned.x, turned.y, turned.z, turned.w
+    return at.x, at.y, at.z, *((yaw_of(*quaternion),) if kind == FloorPose else quaternion)

@@ -5,7 +5,7 @@ from difflib import SequenceMatcher
 from typing import Iterable, Sequence
 
 COUNT = 3
-FAR = 0.6  # of the likeness of the nearest: less is another word
+FAR = 0.6  # share of the likeness of the nearest: less is another word
 WHOLE = 3  # letters that a name has at least to be a part of another
 
 

@@ -14,7 +14,7 @@ def port(text: str) -> int:
 
 
 def require_free(host: str, number: int) -> None:
-    """Failure where this machine cannot serve an address."""
+    """Failure if this machine cannot serve an address."""
     try:
         kind, _, _, _, address = socket.getaddrinfo(host, number, type=socket.SOCK_STREAM)[0]
         with socket.socket(kind, socket.SOCK_STREAM) as probe:

@@ -9,7 +9,7 @@ from importlib import import_module
 def run_main(module: str) -> None:
     """Runs main() of a module. Ctrl-C while the module is imported ends the process, and prints no
     traceback; so does one before, where the caller has blocked it."""
-    if signal.getsignal(signal.SIGINT) != signal.SIG_IGN:  # as in the background
+    if signal.getsignal(signal.SIGINT) != signal.SIG_IGN:  # ignored in the background
         signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     import_module(module).main()

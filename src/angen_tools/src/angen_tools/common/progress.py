@@ -17,7 +17,7 @@ class Progress:
         self._what, self._every = what, every
         self._reported = -1
         self._shown = time.monotonic()
-        self._bar: Any = None  # of rich
+        self._bar: Any = None  # rich's
         if sys.stderr.isatty():
             from rich.progress import BarColumn
             from rich.progress import Progress as Bar

@@ -7,14 +7,30 @@ from pathlib import Path
 from angen_tools.common.failure import Failure
 
 LONGEST = 40  # characters of a value in an error
+LARGEST = 64 << 20  # bytes of a file
 
 
-def read_text(path: Path) -> str:
-    """The text of a file; Failure with the line where it is not UTF-8."""
+def read_bytes(path: Path, most: int = LARGEST) -> bytes:
+    """All of a regular file; Failure if it is none, cannot be read or has more bytes."""
+    if not path.is_file():
+        raise Failure(f'{path}: is not a file that can be read')
+    return _read(path, most)
+
+
+def _read(path: Path, most: int) -> bytes:
     try:
-        data = path.read_bytes().removeprefix(codecs.BOM_UTF8)
+        with path.open('rb') as file:
+            data = file.read(most + 1)
     except OSError as error:
         raise Failure(f'{path}: cannot be read: {error.strerror}') from None
+    if len(data) > most:
+        raise Failure(f'{path}: has more than {most >> 20} MB, the limit for such a file')
+    return data
+
+
+def read_text(path: Path, most: int = LARGEST) -> str:
+    """The text of a file; Failure with the line where it is not UTF-8."""
+    data = _read(path, most).removeprefix(codecs.BOM_UTF8)
     try:
         return data.decode()
     except UnicodeDecodeError as error:

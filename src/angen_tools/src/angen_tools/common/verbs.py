@@ -11,7 +11,7 @@ from angen_tools.common.angle import in_radians, warn_of_turns
 from angen_tools.common.catalog import Plugin
 
 
-ALIKE = 0.7  # of a misspelled verb and the one that was meant
+ALIKE = 0.7  # likeness of a misspelled verb and the one that was meant
 DECIMAL_COMMA = re.compile(r'(?<![\d.,])\d+,\d+(?![\d.,])')
 
 

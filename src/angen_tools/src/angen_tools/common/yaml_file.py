@@ -12,6 +12,7 @@ from angen_tools.common.nearest import did_you_mean
 from angen_tools.common.text_file import read_text, shortened
 
 DEEPEST = 100  # levels of lists in lists: the composer of libyaml calls itself for each
+MOST = 1_000_000  # nodes and ends of lists: the composer takes memory for each
 
 
 class YamlFile:
@@ -21,16 +22,17 @@ class YamlFile:
         self.path = path
         text = read_text(path)
         try:
-            deepest = _deeper_than(text, DEEPEST)
-            self.root = None if deepest else yaml.compose(text, yaml.CSafeLoader)
+            beyond = _beyond_limits(text)
+            self.root = None if beyond else yaml.compose(text, yaml.CSafeLoader)
         except yaml.YAMLError as short:
             explained = _explained(text, short)
             mark = getattr(explained, 'problem_mark', None)
             line = mark.line + 1 if mark else 1
             raise Failure(f'{path}:{line}: is not YAML: {getattr(explained, "problem", explained)}'
                           ) from None
-        if deepest:
-            raise Failure(f'{path}:{deepest}: is nested deeper than {DEEPEST} levels')
+        if beyond:
+            raise Failure(f'{path}:{beyond}: is nested deeper than {DEEPEST} levels, or has more '
+                          f'than {MOST} parts')
 
     def fail(self, node: Any, what: str) -> Failure:
         """The error at a node."""
@@ -99,16 +101,16 @@ def _explained(text: str, error: yaml.YAMLError) -> yaml.YAMLError:
     return error
 
 
-def _deeper_than(text: str, most: int) -> int:
-    """The line at which a document is nested deeper; 0 where it is not."""
+def _beyond_limits(text: str) -> int:
+    """The line at which a document is nested too deeply or has too many parts; 0 if it has not."""
     depth = 0
-    for event in yaml.parse(text, yaml.CSafeLoader):
+    for count, event in enumerate(yaml.parse(text, yaml.CSafeLoader)):
         if isinstance(event, yaml.CollectionStartEvent):
             depth += 1
-            if depth > most:
-                return int(event.start_mark.line) + 1
         elif isinstance(event, yaml.CollectionEndEvent):
             depth -= 1
+        if depth > DEEPEST or count > MOST:
+            return int(event.start_mark.line) + 1
     return 0
 
 

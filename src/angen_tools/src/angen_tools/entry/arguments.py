@@ -6,7 +6,7 @@ import os
 import sys
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Callable
+from typing import Callable, NoReturn
 from xml.etree import ElementTree
 
 from angen_tools.common.failure import Failure, WrongWords, code_of
@@ -14,9 +14,9 @@ from angen_tools.common.nearest import nearest
 from angen_tools.common.port import port, require_free
 from angen_tools.common.verbs import comma_hint
 
-ALIKE = 0.8  # of the names of a missing file and the one that was meant
+ALIKE = 0.8  # likeness of the names of a missing file and the one that was meant
 LEAST = {'rate': 0, 'states_rate': 0, 'seed': 0}
-LARGEST = 2**31 - 1  # of a whole number as a parameter of ROS
+LARGEST = 2**31 - 1  # largest whole number as a parameter of ROS
 BOOLEANS = ('true', 'false')
 INPUTS = {'world': 'one that is there is world:=worlds/empty.world',
           'replay': 'give a log that record:= wrote'}
@@ -38,7 +38,7 @@ def kinds(launch: Path) -> dict[str, str]:
 
 
 def check_page(launch: Path, words: list[str]) -> None:
-    """Failure where the page that the words start cannot be served."""
+    """Failure if the page that the words start cannot be served."""
     given = {arg.get('name', ''): arg.get('default', '')
              for arg in ElementTree.parse(launch).getroot().iter('arg')}
     given |= {name: value for name, _, value in (word.partition(':=') for word in words)}
@@ -47,7 +47,7 @@ def check_page(launch: Path, words: list[str]) -> None:
 
 
 def check_arguments(launch: Path, words: list[str]) -> None:
-    """Failure where a word is not an option of roslaunch, nor NAME:=VALUE with a name and a value
+    """Failure if a word is not an option of roslaunch, nor NAME:=VALUE with a name and a value
     that the launch file has."""
     known = kinds(launch)
     for word in words:
@@ -74,10 +74,11 @@ def _check(word: str, known: dict[str, str]) -> None:
         raise WrongWords(f'{word}: {problem}')
     if name in LEAST and float(value) < LEAST[name]:
         raise WrongWords(f'{word}: must be at least {LEAST[name]}')
-    if name in INPUTS and Path(value).is_dir():
+    path = Path(value).expanduser()  # a shell leaves the ~ of world:=~/my.world
+    if name in INPUTS and path.is_dir():
         raise Failure(f'{word}: is a folder; give a file')
-    if name in INPUTS and not Path(value).is_file():
-        raise Failure(f'{word}: no such file; ' + (_like(name, Path(value)) or INPUTS[name]))
+    if name in INPUTS and not path.is_file():
+        raise Failure(f'{word}: no such file; ' + (_like(name, path) or INPUTS[name]))
 
 
 def _like(name: str, missing: Path) -> str:
@@ -125,11 +126,20 @@ def check_roslaunch(launch: str) -> None:
     words = sys.argv[1:]
     if Path(sys.argv[0]).name == 'roslaunch' and any(
             Path(word).name == Path(launch).name for word in words):
-        check_arguments(Path(launch), [word for word in words if ':=' in word])
+        try:
+            check_arguments(Path(launch), [word for word in words if ':=' in word])
+        except Failure as failure:
+            end(failure)
+
+
+def end(failure: Failure) -> NoReturn:
+    """Ends the program: roslaunch would print the expression of its file around an exception."""
+    print(f'angen: {failure}', file=sys.stderr)
+    sys.exit(code_of(failure))
 
 
 def require_packages(names: str, page: str) -> None:
-    """Failure where roslaunch is to start nodes of ROS packages that are missing; `page` says how
+    """Ends roslaunch if it is to start nodes of ROS packages that are missing; `page` says how
     to get them."""
     if Path(sys.argv[0]).name != 'roslaunch':
         return
@@ -141,8 +151,8 @@ def require_packages(names: str, page: str) -> None:
         except ResourceNotFound:
             missing.append(name)
     if missing:
-        raise Failure(f'{" and ".join(missing)} {"are" if len(missing) > 1 else "is"} not '
-                      f'installed, or its workspace is not sourced; {page} says how to build it')
+        end(Failure(f'{" and ".join(missing)} {"are" if len(missing) > 1 else "is"} not '
+                    f'installed, or its workspace is not sourced; {page} says how to build it'))
 
 
 def main() -> None:
@@ -150,8 +160,7 @@ def main() -> None:
     try:
         check_arguments(Path(sys.argv[1]), sys.argv[2:])
     except Failure as failure:
-        print(f'angen: {failure}', file=sys.stderr)
-        sys.exit(code_of(failure))
+        end(failure)
 
 
 if __name__ == '__main__':

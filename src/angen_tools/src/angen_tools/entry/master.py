@@ -29,8 +29,8 @@ class Limited(Transport):
 
 
 def call(uri: str, method: str, *arguments: str) -> Any:
-    """The value of a method of a ROS master or node; None where it fails. OSError where nothing
-    listens, Failure where the listener is not of ROS or does not answer."""
+    """The value of a method of a ROS master or node; None if it fails. OSError if nothing
+    listens, Failure if the listener is not of ROS or does not answer."""
     try:
         code, _, value = getattr(ServerProxy(uri, Limited()), method)(CALLER, *arguments)
     except TimeoutError:
@@ -60,7 +60,7 @@ def running_node(uri: str, name: str) -> str:
 
 
 def master_command(port: int) -> list[str]:
-    """The command line of a master; Failure where it is not installed."""
+    """The command line of a master; Failure if it is not installed."""
     program = shutil.which('rosmaster')
     if not program:
         raise Failure('rosmaster is not found; install ros-core')
@@ -68,7 +68,7 @@ def master_command(port: int) -> list[str]:
 
 
 def start_master(uri: str) -> subprocess.Popen[bytes] | None:
-    """Starts a master at that address; None where one runs. Failure where it cannot."""
+    """Starts a master at that address; None if one runs. Failure if it cannot."""
     if answers(uri):
         return None
     address = urlsplit(uri)

@@ -27,7 +27,7 @@ TIMES = ('until',)
 END_LIMIT = 4.0  # s for an orderly end
 SAVE_LIMIT = 30.0  # s that the node has to notice that its master is another, and save the world
 TURN = 0.1
-READY = '/angen/list'  # a service that the node has once it runs a world
+READY = 'angen/list'  # a service that the node has once it runs a world
 # roslaunch's own progress is left out, which it prints by Python, and its box about a node that has
 # ended with an error of its own; other errors and nodes' lines are not.
 ROSLAUNCH = '''
@@ -39,7 +39,7 @@ roslaunch.main()'''
 OPTIONS = ('--disable-title', '--no-summary', '--skip-log-check', '--sigint-timeout=1.5',
            '--sigterm-timeout=0.5')
 HELP = 'Ctrl-C ends it. To try, in a second terminal, after {angen} shell:'
-BUILDING = (  # of the world without world:=
+BUILDING = (  # arguments of the world without world:=
     'rostopic pub -1 /gazebo/Door_controller std_msgs/String "Open, bathroom1"',
     'rostopic pub -1 /gazebo/Light_controller std_msgs/String "On, kitchen0"',
     'rostopic pub -1 /gazebo/Elevator_controller std_msgs/String "Floor1"')
@@ -111,21 +111,24 @@ class Session:
 
     def _runs(self) -> bool:
         """Whether the node runs its world; a node that cannot says why."""
+        from rosgraph.names import get_ros_namespace
         with suppress(Failure, OSError):
-            return call(self._uri, 'lookupService', READY) is not None
+            return call(self._uri, 'lookupService', get_ros_namespace() + READY) is not None
         return False
 
 
 def require_no_other(uri: str) -> None:
-    """Failure where a node of ours runs already: a second one would end it."""
+    """Failure if a node of ours runs already: a second one would end it."""
     from rosgraph.names import get_ros_namespace
-    process = running_node(uri, get_ros_namespace() + 'angen')
+    name = get_ros_namespace() + 'angen'
+    process = running_node(uri, name)
     if process:
         host, _, port = uri.rstrip('/').rpartition(':')
         beside = f'{host}:{int(port) + 1}' if port.isdigit() else 'another'
         raise Failure(f'already running at {uri} ({process}); it is not changed. To end it: Ctrl-C '
-                      'where it was started, or rosnode kill /angen; to start another beside it: '
-                      f'ROS_MASTER_URI={beside} ./angen run')
+                      f'where it was started, or rosnode kill {name}; to start another beside it: '
+                      f'ROS_NAMESPACE=house2 ./angen run, or ROS_MASTER_URI={beside} ./angen run'
+                      )
 
 
 def with_world(words: list[str], world: Path) -> list[str]:
@@ -155,7 +158,9 @@ def resolved(word: str) -> str:
     if name in TIMES:
         with suppress(ValueError):  # a number alone is in s already
             value = f'{duration(value):.9g}'
-    return f'{name}:={os.path.realpath(value) if name in FILES else value}' if value else word
+    if name in FILES:
+        value = os.path.realpath(os.path.expanduser(value))
+    return f'{name}:={value}' if value else word
 
 
 def help_text(angen: Path, words: list[str]) -> str:
@@ -188,7 +193,7 @@ def run(launch: Path, words: list[str]) -> int:
             if world is None:
                 if session.ran:
                     say('the simulator ended unexpectedly')
-                return code or 1  # roslaunch ends with 0 where a node has failed
+                return code or 1  # roslaunch ends with 0 if a node has failed
             say('the ROS master was lost: starting again with the saved world')
             count += 1
             now = with_world(words, world)
@@ -197,7 +202,7 @@ def run(launch: Path, words: list[str]) -> int:
 def main() -> None:
     """LAUNCH WORD..."""
     for number in CODES:
-        if signal.getsignal(number) != signal.SIG_IGN:  # as under nohup
+        if signal.getsignal(number) != signal.SIG_IGN:  # ignored under nohup
             signal.signal(number, stop)
     try:
         sys.exit(run(Path(sys.argv[1]), sys.argv[2:]))

@@ -8,9 +8,9 @@ from angen_tools.common.catalog import Plugin, kind_of
 from angen_tools.common.failure import Failure
 from angen_tools.common.shown import BETWEEN, values_of
 from angen_tools.common.verbs import Order, parse
-from angen_tools.live.client import CONNECT_LIMIT, Client, Mailbox
-from angen_tools.live.states import states_by_name
 from angen_tools.live.summary import Board
+from angen_tools.session import Entity
+from angen_tools.session.live import Live
 
 STATE_LIMIT = 0.6  # s of wall time within which a state follows its command
 NEXT_LIMIT = 0.5  # s of wall time after which a busy device executes the command later
@@ -20,20 +20,18 @@ def set_device(kind_name: str, name: str, words: Sequence[str]) -> dict[str, Any
     """Sends the command; returns the result, whose `text` has the device's state in words, and
     for which event the command waits.
 
-    ValueError where the words are not a command of the kind; Failure where no device has that name
+    ValueError where the words are not a command of the kind; Failure if no device has that name
     or the simulator rejects it.
     """
-    from angen_msgs.srv import SendCommand
     kind = kind_of(kind_name)
     order = parse(kind, words)
-    client = Client()
-    devices = [entity for entity in client.entities(kind_name) if name in ('all', entity.name)]
+    world = Live()
+    devices = [entity for entity in world.entities(kind_name) if name in ('all', entity.name)]
     if name == 'all' and not devices:
         raise Failure(f'the world has no {kind_name}')
-    board = Board(client)
-    before = client.fence()
-    state = client.call('/angen/command', SendCommand, target=f'{kind_name}/{name}',
-                        text=order.text).state
+    board = Board(world)
+    before = world.fence()
+    state = world.command(kind_name, name, order.text)
     values: dict[str, Any] = {}
     if name == 'all':
         text = f'all of kind {kind_name}, {len(devices)}: {order.text}'
@@ -44,10 +42,10 @@ def set_device(kind_name: str, name: str, words: Sequence[str]) -> dict[str, Any
         text = f'{kind_name} {name}: {state}'
     done = {'kind': kind_name, 'names': [device.name for device in devices],
             'command': order.text, 'waits': ''}
-    if client.fence() == before and is_paused(client):
+    if world.fence() == before and world.stats.paused:
         done['waits'] = 'the simulation is no longer paused'
         text += f'; {order.text} is executed when {done["waits"]}'
-    elif any(comes_later(client, kind, order, device) for device in devices):
+    elif any(comes_later(world, kind, order, device) for device in devices):
         done['waits'] = 'the device has finished its current command'
         text += f'; {order.text} is executed next'
     elif has_target(kind, order):
@@ -65,15 +63,6 @@ def changed(board: Board, which: tuple[str, str], state: str) -> str:
     return state
 
 
-def is_paused(client: Client) -> bool:
-    """Whether the simulation is paused, by /angen/stats."""
-    from angen_msgs.msg import Stats
-    mail = Mailbox(client)
-    mail.subscribe('/angen/stats', Stats)
-    received = mail.get(CONNECT_LIMIT)
-    return received is not None and bool(received[1].paused)
-
-
 def target_of(order: Order) -> str:
     return f'target_{order.verb.get("argument", "")}'
 
@@ -83,7 +72,7 @@ def has_target(kind: Plugin, order: Order) -> bool:
     return any(field['name'] == target_of(order) for field in kind['fields'])
 
 
-def comes_later(client: Client, kind: Plugin, order: Order, device: Any) -> bool:
+def comes_later(world: Live, kind: Plugin, order: Order, device: Entity) -> bool:
     """Whether a device does something else first, as an elevator on its way does.
 
     For a verb with the argument X and a state with the field target_X, the current target.
@@ -91,11 +80,5 @@ def comes_later(client: Client, kind: Plugin, order: Order, device: Any) -> bool
     target = target_of(order)
     if not has_target(kind, order) or not device.topic:
         return False
-    mail = Mailbox(client)
-    mail.subscribe(device.topic, device.type)
-
-    def goes_there(_: str, message: Any) -> bool:
-        state = states_by_name(message).get(device.name)
-        return state is not None and getattr(state, target, order.number) == order.number
-
-    return not mail.until(goes_there, NEXT_LIMIT)
+    return not world.until(lambda: world.state(device.kind, device.name).values.get(
+        target, order.number) == order.number, NEXT_LIMIT)

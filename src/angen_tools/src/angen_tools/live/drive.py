@@ -12,7 +12,7 @@ from typing import Any
 from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import did_you_mean
 from angen_tools.common.terminal import single_keys
-from angen_tools.live.client import Client
+from angen_tools.session.live import Live
 
 HOLD = 0.25  # s after the last key, and it stops: a held key repeats faster
 FIRST_HOLD = 0.7  # s after the first one: as long as X waits before a held key repeats
@@ -21,7 +21,7 @@ STEP = 1.25  # faster or slower by one key
 SPEED, TURN = 0.2, 1.0  # m/s and rad/s to begin with
 MOST_SPEED, MOST_TURN = 0.7, 3.1  # the limits of the drive
 ARROWS = {b'A': (1, 0), b'B': (-1, 0), b'C': (0, -1), b'D': (0, 1)}  # ahead, to the left
-STARTS = (b'\x1b[', b'\x1bO')  # of the bytes of an arrow key, in either mode of the keypad
+STARTS = (b'\x1b[', b'\x1bO')  # first bytes of an arrow key, in either mode of the keypad
 HELP = 'arrows drive and turn, + and - change the speed, space or s stops, q quits'
 
 
@@ -73,14 +73,14 @@ class Keys:
 def drive(robot: str | None, as_json: bool) -> None:
     """Drives a robot, the first without a name, until q or Ctrl-C; it is at rest when this returns.
 
-    Shows the command in one line that changes, or each new one as a line of JSON. Failure where
+    Shows the command in one line that changes, or each new one as a line of JSON. Failure if
     there is no such robot, it has not subscribed or is deleted, or stdin is not a terminal.
     """
     if not sys.stdin.isatty():
         raise Failure('drive needs a terminal; use rostopic pub to drive from a script')
-    client = Client()
-    name = _chosen(robot, [entity.name for entity in client.entities('drive')])
-    wheel = _Wheel(client, f'/{name}/cmd_vel')
+    world = Live()
+    name = _chosen(robot, [entity.name for entity in world.entities('drive')])
+    wheel = _Wheel(world, f'{name}/cmd_vel')
     line = JsonLines(name) if as_json else Line()
     print(f'{name}: {HELP}', file=sys.stderr if as_json else sys.stdout)
     try:
@@ -103,15 +103,15 @@ def _chosen(robot: str | None, known: list[str]) -> str:
 class _Wheel:
     """Commands to one robot."""
 
-    def __init__(self, client: Client, topic: str) -> None:
+    def __init__(self, world: Live, topic: str) -> None:
         from geometry_msgs.msg import Twist
-        self._topic, self._kind = topic, Twist
-        self._publisher: Any = client.publisher(topic, Twist)
+        self._kind = Twist
+        self._publisher: Any = world.publisher(topic, Twist)
 
     def send(self, ahead: float, left: float) -> None:
-        """m/s and rad/s; Failure where the robot has been deleted."""
+        """m/s and rad/s; Failure if the robot has been deleted."""
         if self._publisher.get_num_connections() == 0:
-            raise Failure(f'{self._topic} has no subscriber any more')
+            raise Failure(f'{self._publisher.resolved_name} has no subscriber any more')
         twist = self._kind()
         twist.linear.x, twist.angular.z = ahead, left
         self._publisher.publish(twist)

@@ -5,10 +5,11 @@ from typing import TYPE_CHECKING, Any
 
 from angen_tools.common.catalog import kinds
 from angen_tools.common.failure import Failure
-from angen_tools.common.geometry import yaw_of
+from angen_tools.common.geometry import yaw
 from angen_tools.common.nearest import did_you_mean
 from angen_tools.common.output import as_json, table
-from angen_tools.live.client import Client
+from angen_tools.session import Entity
+from angen_tools.session.live import Live
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
 def list_entities(kind: str, json: bool) -> RenderableType:
     """All entities of the world, or those of one kind."""
-    every = Client().entities()
+    every = Live().entities()
     known = {entity.kind for entity in every} | set(kinds()) | {'model'}
     if kind and kind not in known:
         raise Failure(f"there is no kind '{kind}'; "
@@ -28,16 +29,12 @@ def list_entities(kind: str, json: bool) -> RenderableType:
                  (_row(entity) for entity in chosen))
 
 
-def _row(entity: Any) -> list[str]:
-    at = entity.pose.position
-    numbers = [f'{round(v, 3) + 0.0:g}'
-               for v in (at.x, at.y, at.z, yaw_of(entity.pose.orientation))]
+def _row(entity: Entity) -> list[str]:
+    numbers = [f'{round(v, 3) + 0.0:g}' for v in (*entity.pose[:3], yaw(*entity.pose[3:]))]
     return [entity.name, entity.kind, entity.model, entity.room, *numbers, entity.topic]
 
 
-def _as_dict(entity: Any) -> dict[str, Any]:
-    at, turn = entity.pose.position, entity.pose.orientation
+def _as_dict(entity: Entity) -> dict[str, Any]:
     return {'name': entity.name, 'kind': entity.kind, 'model': entity.model, 'room': entity.room,
             'topic': entity.topic, 'type': entity.type,
-            'pose': {'position': [at.x, at.y, at.z],
-                     'orientation': [turn.x, turn.y, turn.z, turn.w]}}
+            'pose': {'position': entity.pose[:3], 'orientation': entity.pose[3:]}}

@@ -25,7 +25,7 @@ END_LIMIT = 10.0
 
 
 def built_program(name: str) -> Path | None:
-    """A built program of angen_sim; None where it is not built."""
+    """A built program of angen_sim; None if it is not built."""
     places = (Path(prefix) / 'lib/angen_sim' / name
               for prefix in os.environ.get('CMAKE_PREFIX_PATH', '').split(':') if prefix)
     return next((path for path in places if path.is_file()), None)
@@ -47,7 +47,8 @@ class Sandbox:
         # for this process too, which is to become a node of that master
         os.environ.update(ROS_MASTER_URI=uri, ROS_IP='127.0.0.1', ROS_LOG_DIR=str(folder),
                           ROS_HOME=str(folder))
-        os.environ.pop('ROS_HOSTNAME', None)
+        for name in ('ROS_HOSTNAME', 'ROS_NAMESPACE'):
+            os.environ.pop(name, None)
         self.environment = dict(os.environ)
         self._api: Any = xmlrpc.client.ServerProxy(uri)
         self.start(master_command(port), 'master')
@@ -144,7 +145,7 @@ class Sandbox:
         raise Failure(f'the node ended: {lines[-1] if lines else "without a message"}')
 
     def rviz(self) -> subprocess.Popen[bytes] | None:
-        """rviz, once it shows the building; None where it does not start."""
+        """rviz, once it shows the building; None if it does not start."""
         import rospkg
         view = Path(rospkg.RosPack().get_path('angen_sim')) / 'launch/angen.rviz'
         process = self.start(['rviz', '-d', str(view)], 'rviz')

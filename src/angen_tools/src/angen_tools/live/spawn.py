@@ -2,30 +2,31 @@
 from __future__ import annotations
 
 import math
-import re
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Any, Callable, Sequence
 
+import numpy as np
 from lxml import etree
 
-from angen_tools.common.catalog import kind_of, kinds
+from angen_tools.common.catalog import kind_of, kinds, simulator
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
-from angen_tools.common.geometry import quaternion, yaw_of
+from angen_tools.common.geometry import yaw
 from angen_tools.common.nearest import did_you_mean
-from angen_tools.live.client import Client
+from angen_tools.session.live import Live
 from angen_tools.world import models, sdf, sensor
 from angen_tools.world.free_place import free_place
 
 SEAT_AIR = 0.001  # m over the seat, where a sitter comes to be
 LEANS = 0.05  # rad: a model that leans by more is not a seat
 SHANKS = 0.31  # m ahead of a sitter's middle: they hang before the seat
+PART = 1.9  # m: a wall or floor is as long and as wide or high
 SITTER_WIDTH = 0.3  # m: nearer than this two do not sit
 
 
 def model_source(what: str) -> str:
     """A model:// address as it is, of a name alone where a model has it, a path made absolute;
-    Failure where there cannot be a model."""
+    Failure if there cannot be a model."""
     if not what:
         raise Failure("'': is not a model; give a path or model://NAME")
     if '://' in what:
@@ -52,16 +53,16 @@ def spawn_model(source: str, name: str, pose: Sequence[float] | None) -> dict[st
     """Adds a model at `pose` (x y z roll pitch yaw in the world), or at a place that is free;
     returns the result."""
     source = _in_order(source, name)
-    client = Client()
-    chosen = pose if pose is not None else free_place(_saved(client))
-    call_spawn(client, name, source, '', chosen)
+    world = Live()
+    chosen = pose if pose is not None else free_place(_saved(world))
+    world.spawn(name, source, chosen)
     where = '' if pose is not None else f' at {" ".join(f"{part:g}" for part in chosen[:3])}'
     return {'name': name, 'kind': 'model', 'source': source, 'pose': list(chosen),
             'text': f'spawned the model {name} from {source}{where}'}
 
 
 def _in_order(source: str, name: str) -> str:
-    """The model to spawn; Failure where source and name are swapped."""
+    """The model to spawn; Failure if source and name are swapped."""
     try:
         return model_source(source)
     except Failure:
@@ -78,51 +79,53 @@ def spawn_sensor(kind: str, name: str, pose: Sequence[float], on: str,
     `pose` is x y z roll pitch yaw in the link's frame, or in the world.
     """
     element = sensor.build(kind, name, settings, bool(on))
-    client = Client()
+    world = Live()
     if on and sensor.senses_contacts(kind_of(kind)) and element.find(sensor.COLLISION) is None:
-        _watch_all(client, element, on)
-    call_spawn(client, name, sdf.text(element), on, pose)
-    topic = next((entity.topic for entity in client.entities(kind) if entity.name == name), '')
+        _watch_all(world, element, on)
+    world.spawn(name, sdf.text(element), pose, on)
+    topic = next((entity.topic for entity in world.entities(kind) if entity.name == name), '')
     return {'name': name, 'kind': kind, 'topic': topic, 'on': on, 'pose': list(pose),
             'text': f'spawned the {kind} {name}{" on " + on if on else ""}, see {topic}'}
 
 
 def seat_sitter(name: str, chair: str) -> dict[str, Any]:
     """Seats a person of 75 kg on an upright model with a seat; returns the result."""
-    client = Client()
-    places = {entity.name: entity.pose for entity in client.entities('model')}
+    world = Live()
+    places = {entity.name: entity.pose for entity in world.entities('model')}
     if chair not in places:
         raise Failure(f"no model named '{chair}'; "
                       + did_you_mean(chair, places, 'angen list --kind model'))
-    seat = models.seat_of(_saved(client), chair)
+    seat = models.seat_of(_saved(world), chair)
     if seat is None:
         raise Failure(f"'{chair}' has no box seat_collision to sit on, as a chair or a sofa has")
-    at, turn = places[chair].position, places[chair].orientation
-    if 1 - 2 * (turn.x * turn.x + turn.y * turn.y) < math.cos(LEANS):
+    x, y, z, *turn = places[chair]
+    if 1 - 2 * (turn[0] * turn[0] + turn[1] * turn[1]) < math.cos(LEANS):
         raise Failure(f"'{chair}' is not upright")
-    heading = yaw_of(turn)
+    heading = yaw(*turn)
     ahead = seat[0] + max(0.0, seat[3] / 2 - SHANKS)
-    x = at.x + ahead * math.cos(heading) - seat[1] * math.sin(heading)
-    y = at.y + ahead * math.sin(heading) + seat[1] * math.cos(heading)
-    z = at.z + seat[2] + SEAT_AIR
+    x += ahead * math.cos(heading) - seat[1] * math.sin(heading)
+    y += ahead * math.sin(heading) + seat[1] * math.cos(heading)
+    z += seat[2] + SEAT_AIR
     for other, place in places.items():
-        there = place.position
-        if other != chair and math.dist((x, y, z), (there.x, there.y, there.z)) < SITTER_WIDTH:
+        if other != chair and math.dist((x, y, z), place[:3]) < SITTER_WIDTH:
             raise Failure(f"on '{chair}' is '{other}'")
-    call_spawn(client, name, 'model://sitter', '', (x, y, z, 0.0, 0.0, heading))
+    world.spawn(name, 'model://sitter', (x, y, z, 0.0, 0.0, heading))
     return {'name': name, 'kind': 'sitter', 'on': chair, 'pose': [x, y, z, 0.0, 0.0, heading],
             'text': f'seated {name}, 75 kg, on {chair}'}
 
 
-def delete(names: Sequence[str]) -> list[str]:
-    """Deletes models or sensors from the world, in order; stops at the first that cannot be."""
-    from angen_msgs.srv import Delete
-    client = Client()
+def delete(names: Sequence[str], ask: Callable[[str], bool] | None = None) -> list[str]:
+    """Deletes models or sensors from the world, in order; stops at the first that cannot be, and
+    at walls and floors if the answer of `ask` is no."""
+    world = Live()
     done: list[str] = []
     for name in names:
         try:
-            _must_be_there(client, name)
-            client.call('/angen/delete', Delete, name=name)
+            _must_be_there(world, name)
+            if ask and _is_structure(world, name) and not ask(
+                    f"'{name}' has walls or floors of the home; delete it?"):
+                raise Failure(f"'{name}' is not deleted")
+            world.delete(name)
         except Failure as error:
             raise Failure(f'{error}{"; deleted before: " + ", ".join(done) if done else ""}') \
                 from None
@@ -130,10 +133,21 @@ def delete(names: Sequence[str]) -> list[str]:
     return done
 
 
-def _must_be_there(client: Client, name: str) -> None:
-    """Failure where there is no model or sensor of that name."""
+def _is_structure(world: Live, name: str) -> bool:
+    """Whether a model has parts as large as walls and floors, and is no thing of the home."""
+    if any(thing.name == name for thing in world.home.things):
+        return False
+    with simulator() as angen:
+        copy = angen.World.from_text(world.save(), allow_paths=True)
+        return any(np.sort(np.ptp(corners, axis=0))[1:].min() > PART
+                   for model, _, _, moves, corners in copy.shapes
+                   if model == name and not moves and len(corners))
+
+
+def _must_be_there(world: Live, name: str) -> None:
+    """Failure if there is no model or sensor of that name."""
     devices = kinds('device')
-    entities = client.entities()
+    entities = world.entities()
     names = [entity.name for entity in entities if entity.kind not in devices]
     if name in names:
         return
@@ -146,10 +160,9 @@ def _must_be_there(client: Client, name: str) -> None:
 
 def save(path: Path) -> dict[str, Any]:
     """Writes the current world to a file, all of it or nothing; returns the result."""
-    from angen_msgs.srv import Save
     if path.is_dir() or not path.absolute().parent.is_dir():
         raise Failure(f'{path}: cannot be written; give a file in a folder that exists')
-    xml = Client().call('/angen/save', Save).xml
+    xml = Live().save()
     try:
         root = etree.fromstring(xml.encode())
     except etree.XMLSyntaxError as error:
@@ -159,28 +172,15 @@ def save(path: Path) -> dict[str, Any]:
     return {'file': str(path), 'models': models, 'text': f'saved {models} models to {path}'}
 
 
-def call_spawn(client: Client, name: str, xml: str, on: str, pose: Sequence[float]) -> None:
-    """Calls /angen/spawn; pose is x y z roll pitch yaw (m, rad). Failure if it is rejected."""
-    from geometry_msgs.msg import Point, Pose, Quaternion
-
-    from angen_msgs.srv import Spawn
-    place = Pose(Point(*pose[:3]), Quaternion(*quaternion(*pose[3:])))
-    try:
-        client.call('/angen/spawn', Spawn, name=name, xml=xml, on=on, pose=place)
-    except Failure as error:  # the text that was built has lines that no user has seen
-        raise Failure(re.sub(r'\(text\):\d+: ', '', str(error))) from None
+def _saved(world: Live) -> etree._Element:
+    return etree.fromstring(world.save().encode())
 
 
-def _saved(client: Client) -> etree._Element:
-    from angen_msgs.srv import Save
-    return etree.fromstring(client.call('/angen/save', Save).xml.encode())
-
-
-def _watch_all(client: Client, element: etree._Element, on: str) -> None:
+def _watch_all(world: Live, element: etree._Element, on: str) -> None:
     """Lets a contact sensor watch every collision of its link."""
     contact = element.find('contact')
     if contact is None:
         contact = etree.SubElement(element, 'contact')
     # Where there are none, the simulator reports the error in `on`.
-    for name in models.collisions(_saved(client), on):
+    for name in models.collisions(_saved(world), on):
         etree.SubElement(contact, 'collision').text = name

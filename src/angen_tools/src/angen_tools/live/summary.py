@@ -4,14 +4,13 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass
-from typing import Any, Sequence
+from typing import Sequence
 
-from angen_tools.common.catalog import kinds
-from angen_tools.common.failure import Failure
-from angen_tools.live.client import CONNECT_LIMIT, Client, Mailbox
+from angen_tools.common.catalog import is_robot, kinds
+from angen_tools.session import Summary
+from angen_tools.session.live import Live
 
-TOPIC = '/angen/summary'
-STATS = '/angen/stats'
+PERIOD = 0.5  # s of wall time between two looks at the places of robots
 RECENT = 5.0  # s of wall time for which a change counts as activity
 
 
@@ -31,17 +30,12 @@ class Filter:
                 and any(self.room.lower() in text.lower() for text in (room, name)))
 
 
-@dataclass
-class Row:
-    """A sensor or device, as the simulator summarizes it."""
+@dataclass(frozen=True)
+class Row(Summary):
+    """A sensor or device in a table."""
 
-    kind: str
-    name: str
-    text: str       # '' before its first reading
-    alarm: bool     # it detects something
-    stamp: float    # s, of that reading
-    period: float   # s, how often a sensor publishes; 0 for a device and a sensor on demand
     room: str = ''
+    place: str = ''  # a robot's, in the world: its state has that by its wheels
     changed: float = -math.inf  # s of wall time, when its text changed last
 
     @property
@@ -51,48 +45,43 @@ class Row:
 
 
 class Board:
-    """The messages of /angen/summary, and the state of time in the simulation."""
+    """The summaries of a world, and the state of time in its simulation."""
 
-    def __init__(self, client: Client) -> None:
-        from angen_msgs.msg import Stats, Summary
+    def __init__(self, world: Live) -> None:
         self.rows: dict[tuple[str, str], Row] = {}
         self.time = 0.0       # s simulated
         self.paused = False
-        self._complete = False
-        self._rooms = {(e.kind, e.name): e.room for e in client.entities()}
-        self._mail = Mailbox(client)
-        self._mail.subscribe(STATS, Stats)
-        self._mail.subscribe(TOPIC, Summary)
-        if not self._mail.until(self._begins, CONNECT_LIMIT):
-            raise Failure(f'{TOPIC} is not published')
-
-    def _begins(self, topic: str, message: Any) -> bool:
-        self.take(topic, message)
-        return self._complete
+        self._world = world
+        entities = world.entities()
+        self._rooms = {(e.kind, e.name): e.room for e in entities}
+        self._robots = {name for name, kind in kinds('device').items() if is_robot(kind)
+                        and any(e.kind == name for e in entities)}
+        self._places: dict[str, str] = {}  # robots' by name
+        self._placed = -math.inf  # s of wall time
+        self._take()
 
     def receive(self, limit: float) -> bool:
-        """Takes the messages of up to `limit` s of wall time; false where none came."""
-        return self._mail.drain(self.take, limit)
+        """Takes a change within `limit` s of wall time; false if none came."""
+        return self._world.until(self._take, limit)
 
-    def take(self, topic: str, message: Any) -> None:
-        """Takes a Summary or Stats message."""
-        if topic == STATS:
-            self.paused = message.paused
-            self.time = max(self.time, message.sim_time.to_sec())
-            return
-        self.time = message.header.stamp.to_sec()
-        before = self.rows
-        if message.complete:
-            self._complete = True
-            self.rows = {}
-        for entry in message.entries:
-            key = (entry.kind, entry.name)
-            row = Row(*key, entry.text, entry.alarm, entry.stamp.to_sec(), entry.period,
-                      self._rooms.get(key, ''))
-            old = before.get(key)
-            if old is not None:
-                row.changed = old.changed if old.text == row.text else time.monotonic()
-            self.rows[key] = row
+    def _take(self) -> bool:
+        stats, before = self._world.stats, self.rows
+        if self._robots and time.monotonic() - self._placed > PERIOD:
+            self._placed = time.monotonic()
+            self._places = {e.name: '{:.2f} m  {:.2f} m in the world'.format(*e.pose)
+                            for e in self._world.entities() if e.kind in self._robots}
+        self.rows = {key: self._row(key, summary, before.get(key))
+                     for key, summary in self._world.summaries().items()}
+        self.paused = bool(stats.paused)
+        self.time = max([stats.sim_time.to_sec(), *(row.time for row in self.rows.values())])
+        return self.rows != before
+
+    def _row(self, key: tuple[str, str], new: Summary, old: Row | None) -> Row:
+        place = self._places.get(key[1], '') if key[0] in self._robots else ''
+        if old is None:
+            return Row(**vars(new), room=self._rooms.get(key, ''), place=place)
+        changed = old.changed if old.text == new.text else time.monotonic()
+        return Row(**vars(new), room=old.room, place=place, changed=changed)
 
     def chosen(self, rule: Filter) -> list[Row]:
         """The rows to show, by kind and name."""

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 from angen_tools.common.failure import Failure
 from angen_tools.common.output import as_json, number, plain, table
-from angen_tools.live.client import Client, Mailbox
+from angen_tools.session.live import Live
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-TOPIC = '/angen/cost'
+TOPIC = 'angen/cost'
 LIMIT = 10.0    # s of wall time for the first message; it comes after about one
 REFRESH = 0.25  # s of wall time between two checks for a key
 PARTS = ('physics', 'devices', 'sensors', 'commands', 'snapshots', 'publishing', 'network')
@@ -52,18 +52,17 @@ class Meter:
 
     def __init__(self) -> None:
         from angen_msgs.msg import Cost
-        self._mail = Mailbox(Client())
-        self._mail.subscribe(TOPIC, Cost)
-        self._mail.connected(TOPIC)
+        self._world = Live()
+        self._inbox = self._world.subscribe(TOPIC, Cost)
+        self._inbox.connect()
         self.cost: Any = None
 
     def receive(self, limit: float) -> bool:
         """True when there is a new message within `limit` s of wall time."""
-        mail = self._mail.get(limit)
-        if mail is None:
-            return False
-        self.cost = mail[1]
-        return True
+        before, inbox = self.cost, self._inbox
+        came = self._world.until(lambda: inbox.latest is not before, limit)
+        self.cost = inbox.latest
+        return came
 
 
 def top_once(json: bool = False) -> RenderableType:

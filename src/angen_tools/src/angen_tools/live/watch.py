@@ -11,8 +11,8 @@ from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import did_you_mean
 from angen_tools.common.output import as_json, table
 from angen_tools.common.shown import values_of
-from angen_tools.live.client import Client
 from angen_tools.live.summary import Board, Filter, Row
+from angen_tools.session.live import Live
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -29,7 +29,7 @@ def watch_once(rule: Filter, json: bool = False) -> tuple[RenderableType, str]:
 
     Waits for the first reading of each sensor up to its period of simulated time.
     """
-    board = Board(Client())
+    board = Board(Live())
     check(board, rule)
     silent = _wait(board, rule)
     rows = board.chosen(rule)
@@ -60,7 +60,7 @@ def _missing(board: Board, silent: Sequence[Row]) -> str:
 
 
 def check(board: Board, rule: Filter) -> None:
-    """Failure where a filter has an unknown name."""
+    """Failure if a filter has an unknown name."""
     names = {name for _, name in board.rows}
     for name in rule.names:
         if name not in names:
@@ -83,14 +83,15 @@ def check(board: Board, rule: Filter) -> None:
 
 
 def _cells(row: Row) -> list[str]:
-    text = row.text if len(row.text) <= WIDEST else row.text[:WIDEST - 1] + '…'
-    return [row.kind, row.name, text or '-', f'{row.stamp:.1f}' if row.text else '']
+    text = f'{row.place}, by its wheels {row.text}' if row.place and row.text else row.text
+    text = text if len(text) <= WIDEST else text[:WIDEST - 1] + '…'
+    return [row.kind, row.name, text or '-', f'{row.time:.1f}' if row.text else '']
 
 
 def _as_dict(row: Row) -> dict[str, object]:
     return {'kind': row.kind, 'name': row.name, 'value': row.text,
             'values': values_of(kinds().get(row.kind), row.text), 'alarm': row.alarm,
-            'time': row.stamp if row.text else None}
+            'time': row.time if row.text else None}
 
 
 def watch(rule: Filter) -> None:
@@ -98,7 +99,7 @@ def watch(rule: Filter) -> None:
     from angen_tools.common.terminal import LiveTable
     if not sys.stdin.isatty() or not sys.stdout.isatty():
         raise Failure('a live table needs a terminal; use --once for one table')
-    board = Board(Client())
+    board = Board(Live())
     check(board, rule)
     with LiveTable() as screen, suppress(KeyboardInterrupt):
         while not screen.closed():

@@ -9,15 +9,20 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, Collection, Iterator
 
-from lxml import etree
-
 from angen_tools.common.catalog import angen_module, kinds
+from angen_tools.common.failure import Failure
+from angen_tools.common.text_file import read_bytes
+from angen_tools.common.xml_file import parse_xml
+from angen_tools.offline import proportion
 from angen_tools.world import models
 
 MISSPELLED = re.compile(r' is not known; did you mean <\w+>\?$'
                         r'|plug-in library .* is not found; did you mean \S+\?'
                         r"|(names an unknown link '.*'|joins '.*' to itself); it is left out$"
-                        r"|unknown joint type '(?!gearbox'|piston')")  # those two are SDF's
+                        r"|unknown joint type '(?!gearbox'|piston')"  # SDF knows these two
+                        r'|a model named .* exists already, at line '
+                        r"|; <[^>]*> is left out|(mesh|model|heightmap) '[^']*' is not found")
+FOLLOWS = re.compile(' has no collision left, so that nothing would stop its fall')
 NOT_INCLUDED = re.compile(r'(.*: )an <include> has no <(\w+)>')
 OUR_OWN = re.compile(r': <angen:\w+> in <\w+>$')
 INCLUDE = ('uri', 'name', 'pose', 'static', 'plugin')
@@ -93,9 +98,8 @@ def holds_world(path: str) -> bool:
         return True
     try:
         # Gazebo reads files with a comment before the declaration, or values without quotes.
-        parser = etree.XMLParser(resolve_entities=False, recover=True)
-        root = etree.parse(path, parser).getroot()
-    except (OSError, etree.XMLSyntaxError):
+        root = parse_xml(path, read_bytes(Path(path)), recover=True)
+    except Failure:
         return True
     if root is None:
         return True
@@ -106,7 +110,7 @@ def _checked_world(world: Any, path: str) -> Checked:
     found = ', '.join((_counted(len(world.models), 'model'),
                        _counted(len(world.devices()), 'device'),
                        _counted(len(world.sensors()), 'sensor')))
-    return _right(path, found, world)
+    return _right(path, found, world, remarks=[*proportion.remarks(world, path)])
 
 
 def _checked_model(angen: Any, path: str) -> Checked:
@@ -124,10 +128,13 @@ def _checked_model(angen: Any, path: str) -> Checked:
     return _right(path, found, world, around)
 
 
-def _right(path: str, found: str, world: Any, around: Collection[str] = ()) -> Checked:
-    """`around`: the ignored elements of the world that a model was loaded into."""
+def _right(path: str, found: str, world: Any, around: Collection[str] = (),
+           remarks: Collection[str] = ()) -> Checked:
+    """`around`: the ignored elements of the world that a model was loaded into; `remarks`: more
+    warnings."""
     wrong = [meant for line in world.warnings if (meant := misspelled(line))]
-    warnings = [line for line in world.warnings if not misspelled(line)]
+    warnings = [line for line in world.warnings if not misspelled(line)
+                and not (wrong and FOLLOWS.search(line))] + [*remarks]
     state = f'loads with {_counted(len(warnings), "warning")}' if warnings else 'no errors'
     found_here = [line for line in world.ignored if line not in around]
     ignored = [line for line in found_here if not OUR_OWN.search(line)]
@@ -138,8 +145,8 @@ def _right(path: str, found: str, world: Any, around: Collection[str] = ()) -> C
 
 
 def misspelled(warning: str) -> str:
-    """The mistake, if a warning of a tolerant world is about a misspelled element or link; else
-    ''."""
+    """The mistake, if a warning of a tolerant world is about a misspelled element or link, a
+    missing file, or something left out; else ''."""
     if MISSPELLED.search(warning):
         return warning
     found = NOT_INCLUDED.match(warning)

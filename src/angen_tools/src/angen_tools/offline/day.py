@@ -28,13 +28,13 @@ class Order:
     where: str  # file:line
 
     def execute(self, world: Any) -> None:
-        """Commands an angen.World; Failure where it rejects."""
+        """Commands an angen.World; Failure if it rejects."""
         with simulator(f'{self.where}: '):
             world.command(self.kind, self.name, self.text)
 
 
 def checked_orders(world: Any, orders: Sequence[Order]) -> list[Order]:
-    """The orders in the words that the simulator takes; Failure where a world has not the device
+    """The orders in the words that the simulator takes; Failure if a world has not the device
     of one, or that does not take its words."""
     found = []
     for order in orders:

@@ -30,7 +30,7 @@ class Done:
     readings: int
     events: int
     events_file: str
-    rows: int = 0  # of the table of readings
+    rows: int = 0  # rows of the table of readings
     readings_file: str = ''
 
     def text(self) -> str:
@@ -46,7 +46,7 @@ def run(path: str, span: float, seed: int, out: Path, day: Path | None = None,
     readings into the file `readings`, if any. `day` has commands, which are executed at their
     times of day; time 0 is the time of day that the world gives.
 
-    Failure where the world does not load, an order is wrong, or a file cannot be written. Ctrl-C
+    Failure if the world does not load, an order is wrong, or a file cannot be written. Ctrl-C
     keeps the written files, and prints their paths.
     """
     if readings:

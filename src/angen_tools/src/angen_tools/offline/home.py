@@ -15,7 +15,7 @@ Findings = list[tuple[str, str]]  # ('guessed' or 'contradicting', what)
 
 
 def load_home(path: str) -> tuple[dict[str, Any], Findings]:
-    """The home of a world's file; Failure where the world does not load."""
+    """The home of a world's file; Failure if the world does not load."""
     angen = angen_module()
     try:
         world = angen.World(path)
@@ -33,7 +33,7 @@ def home_json(home: dict[str, Any], findings: Findings) -> str:
 
 def home_text(described: dict[str, Any], findings: Findings) -> str:
     """Tables of the storeys, rooms, doors, things and elevators, and then the findings."""
-    home = Home.of_dict(described)
+    home = Home.of(described)
     latitude = 'not given' if home.latitude is None else f'{home.latitude:g} deg'
     parts = [f'main entrance {home.entrance or "not known"}, north {home.north:.4g} rad from x, '
              f'latitude {latitude}, starts {home.start or "at no given time"}']

@@ -26,7 +26,7 @@ CUBE_FLUX = 10_000.0    # lm
 GRID = 8                # places along a side of each of the cube's faces
 GAP = 0.001             # m from a sensor to its wall
 WALL = 0.2              # m
-CANDELA = 1000.0        # of the point lamp, and cd/m^2 of the flat ones
+CANDELA = 1000.0        # candela of the point lamp, and cd/m^2 of the flat ones
 
 # axis, sign: roll, pitch, yaw that turn x there
 FACING = {(0, 1): '0 0 0', (0, -1): f'0 0 {pi}', (1, 1): f'0 0 {pi / 2}',

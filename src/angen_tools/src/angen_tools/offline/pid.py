@@ -22,7 +22,7 @@ GRAVITY = 9.81          # m/s^2
 SPAN = 15.0             # s of each trace
 SHOWN = 10.0            # s of the figure
 GROWING = 2.5           # s of one that swings up
-LIMIT = 0.01            # of the step: greatest deviation from the closed form
+LIMIT = 0.01            # share of the step: greatest deviation from the closed form
 HEAD = ('CONTROLLER', 'OVERSHOOT', 'SETTLES s', 'DEVIATION')
 ROOM = 1e5              # N m or N: limits of integral and command that nothing reaches
 
@@ -61,7 +61,7 @@ class Answer:
 
     @property
     def settles(self) -> float:
-        """The time from which it stays within the band, s; infinite where it does not."""
+        """The time from which it stays within the band, s; infinite if it does not."""
         outside = np.nonzero(np.abs(self.x - self.target) > self.band)[0]
         last = int(outside[-1]) + 1 if len(outside) else 0
         return float(self.t[last]) if last < len(self.t) else math.inf

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 def list_plugins(names: Sequence[str], json: bool) -> RenderableType:
     """The kinds of these names, or of these libraries, on the plug-in path, or all: their verbs,
-    the fields of their state or reading, parameters. Failure where a name is not known."""
+    the fields of their state or reading, parameters. Failure if a name is not known."""
     from rich.console import Group
     libraries = {plugin['library'] for plugin in plugins()}
     for name in names:

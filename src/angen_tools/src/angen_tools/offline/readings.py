@@ -14,7 +14,7 @@ from angen_tools.common.files import later_signals, writing
 from angen_tools.offline.events import seconds
 
 COLUMNS = ('time', 'kind', 'name', 'field', 'value', 'unit', 'text')
-LEVEL = 3  # of gzip: twice as quick as its default, and a tenth larger
+LEVEL = 3  # gzip's level: twice as quick as its default, and a tenth larger
 
 
 class Writer(Protocol):
@@ -105,7 +105,7 @@ def _line(words: list[str]) -> str:
 
 
 def check_name(path: Path) -> None:
-    """Failure where such a table cannot be written."""
+    """Failure if such a table cannot be written."""
     if path.suffix == '.parquet':
         try:
             import pyarrow.parquet  # noqa: F401

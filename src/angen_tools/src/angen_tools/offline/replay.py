@@ -21,7 +21,7 @@ def replay(path: str, leap: bool) -> dict[str, Any]:
         run = angen.Replay(path, leap=leap)
         with Progress(path) as progress:
             while run.advance(SLICE) and not run.mismatch:
-                progress.update(run.time / max(run.end, SLICE))
+                progress.update(min(run.time / max(run.end, SLICE), 1.0))
     if run.truncated:
         print(f'warning: {run.truncated}', file=sys.stderr)
     if run.mismatch:

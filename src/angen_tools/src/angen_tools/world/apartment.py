@@ -1,4 +1,4 @@
-"""Writes a world of stacked flats with a number of sensors of each kind."""
+"""Writes a world of stacked apartments with a number of sensors of each kind."""
 from __future__ import annotations
 
 from copy import deepcopy
@@ -7,18 +7,20 @@ from typing import Mapping, Sequence
 
 from lxml import etree
 
+from angen_models import plan, world as blocks
+from angen_models.sdf import numbers
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
 from angen_tools.world import sdf
 from angen_tools.world.models import find
-from angen_tools.world.placing import KINDS, Placement, generator, has_contact, placements
+from angen_tools.world.placing import KINDS, Placement, has_contact, placements
 
 FOREVER = 1e6  # s that the robot keeps to its last order
 
 
 def apartment(floors: int, counts: Mapping[str, int], seed: int, elevator: bool = False
               ) -> list[Placement]:
-    """The sensors of such a world; `counts` by kind. Failure where there is no room for them.
+    """The sensors of such a world; `counts` by kind. Failure if there is no room for them.
 
     The contact sensor of the elevator is one of `contact`.
     """
@@ -32,13 +34,12 @@ def write_apartment(path: Path, floors: int, counts: Mapping[str, int], seed: in
                     elevator: bool = False, mover: str = 'person', one_link: bool = False) -> int:
     """Writes the world to a file; returns the number of its sensors.
 
-    Flats with doors, lamps, furniture and, on floor 0, the `mover`: person, robot or nobody. Chairs
-    and tables hold the contact sensors, so there are only as many as `counts` has. With
+    Apartments with doors, lamps, furniture and, on floor 0, the `mover`: person, robot or nobody.
+    Chairs and tables hold the contact sensors, so there are only as many as `counts` has. With
     `one_link` all others of a KIND are at the same places on one link of the model KIND_sensors,
     without housings, and are called KIND_sensors_NAME. The same arguments give the same bytes.
-    Failure where there is no room for the sensors.
+    Failure if there is no room for the sensors.
     """
-    plan, blocks = generator('plan'), generator('world')
     sensors = apartment(floors, counts, seed, elevator)
     root, world = blocks.new_world('apartment')
     blocks.add_world_plugins(world)
@@ -87,7 +88,7 @@ def _all_on_one_link(kind: str, sensors: Sequence[Placement]) -> etree._Element:
         element = deepcopy(blocks[sensor.model])
         element.set('name', sensor.name)
         pose = etree.Element('pose')
-        pose.text = generator('sdf').numbers(*sensor.pose)
+        pose.text = numbers(*sensor.pose)
         element.insert(0, pose)
         link.append(element)
     return model
@@ -95,13 +96,13 @@ def _all_on_one_link(kind: str, sensors: Sequence[Placement]) -> etree._Element:
 
 def _add_robot(world: etree._Element) -> None:
     """A TurtleBot without sensors of its own, at the start of its round."""
-    x, y, _ = generator('plan').ROUND
+    x, y, _ = plan.ROUND
     model = _block('turtlebot')
     for link in model.iterfind('link'):
         for sensor in link.findall('sensor'):
             link.remove(sensor)
     pose = etree.Element('pose')
-    pose.text = generator('sdf').numbers(x, y, 0.001, 0, 0, 0)
+    pose.text = numbers(x, y, 0.001, 0, 0, 0)
     model.insert(0, pose)
     world.append(model)
     plugin = world.find("plugin[@name='robot_controller']")

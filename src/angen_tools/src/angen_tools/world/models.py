@@ -40,7 +40,7 @@ def addresses() -> list[str]:
 
 
 def find(uri: str) -> Path | None:
-    """The SDF file of a model:// address or path; None where there is none."""
+    """The SDF file of a model:// address or path; None if there is none."""
     if uri.startswith('model://'):
         places = [folder / uri.removeprefix('model://') for folder in folders()]
     else:
@@ -52,7 +52,7 @@ def find(uri: str) -> Path | None:
 
 
 def collisions(world: etree._Element, link: str) -> list[str]:
-    """Names of the collisions of MODEL::LINK in a saved world; empty where they are not found."""
+    """Names of the collisions of MODEL::LINK in a saved world; empty if they are not found."""
     model_name, link_name = link.split('::', 1)
     model = _model_of(world, model_name)
     return [collision.get('name', '') for part in _children(model, 'link')
@@ -61,7 +61,7 @@ def collisions(world: etree._Element, link: str) -> list[str]:
 
 def seat_of(world: etree._Element, name: str) -> tuple[float, ...] | None:
     """x, y, z of the middle of the top of a model's box `seat_collision` in the model's frame, and
-    its depth along x, in m; None where the model of a saved world has none.
+    its depth along x, in m; None if the model of a saved world has none.
     """
     for link in _children(_model_of(world, name), 'link'):
         for collision in link.iterfind("collision[@name='seat_collision']"):

@@ -1,23 +1,20 @@
-"""Poses of sensors in the flats: the source's own places first, then a lattice in each room.
+"""Poses of sensors in the apartments: the source's own places first, then a lattice in each room.
 
 Meters and radians. Each room has a stream of random numbers for each kind of sensor, so that the
 sensors of one kind move none of another, and more sensors move none that exist already.
 """
 from __future__ import annotations
 
-import importlib
-import importlib.util
-import sys
 from dataclasses import dataclass
 from functools import cache
 from itertools import islice, zip_longest
 from math import atan2, cos, hypot, pi, sin
 from random import Random
-from types import ModuleType
-from typing import Any, Iterator
+from typing import Iterator
 
+from angen_models import plan, world
+from angen_models.furniture import pieces
 from angen_tools.common.failure import Failure
-from angen_tools.world.models import worlds_models
 
 KINDS = ('pir', 'switch', 'luminosity', 'contact')
 LATTICE = 0.25  # between sensors of one kind in a room
@@ -26,11 +23,12 @@ LAMP_GAP = 0.3
 SWITCH_HEIGHT = 2.2
 CHAIR_LATTICE = 0.55
 CHAIR_REACH = 0.31  # half a chair's diagonal, and a little air
-DOOR_REACH = 1.12  # of a leaf that swings, from the middle of its opening
+DOOR_REACH = 1.12  # reach of a leaf that swings, from the middle of its opening
 PERSON_REACH = 0.4
 ROBOT_REACH = 0.25
 Pose = tuple[float, float, float, float, float, float]
 Spot = tuple[str, str, Pose]  # model, ending of the name or whole name, pose
+PIECES = pieces()
 
 
 @dataclass(frozen=True)
@@ -42,31 +40,17 @@ class Placement:
     pose: Pose
 
 
-@cache
-def generator(part: str) -> ModuleType:
-    """A module of worlds/generate, which holds the building's numbers and blocks."""
-    package = 'angen_world_generator'
-    if package not in sys.modules:
-        folder = worlds_models().parent / 'generate'
-        spec = importlib.util.spec_from_file_location(
-            package, folder / '__init__.py', submodule_search_locations=[str(folder)])
-        if spec is None or not folder.is_dir():
-            raise Failure(f'{folder} is missing; it contains the building')
-        sys.modules[package] = importlib.util.module_from_spec(spec)
-    return importlib.import_module(f'{package}.{part}')
-
-
 def placements(kind: str, count: int, floors: int, seed: int, elevator: bool = False
                ) -> list[Placement]:
-    """The first `count` sensors of a kind; Failure where there is no room for them.
+    """The first `count` sensors of a kind; Failure if there is no room for them.
 
     Sensors are added room by room: first at the places where the building has them, then, again
     room by room, at free places.
     """
     found = list(islice(_all(kind, floors, seed, elevator), count))
     if len(found) < count:
-        flats = 'a flat has room for' if floors == 1 else f'{floors} flats have room for'
-        raise Failure(f'{flats} {len(found)} {kind} sensors, not {count}; give more --floors')
+        room = 'a floor has room for' if floors == 1 else f'{floors} floors have room for'
+        raise Failure(f'{room} {len(found)} {kind} sensors, not {count}; give more --floors')
     return found
 
 
@@ -79,7 +63,6 @@ def floors_for(kind: str, count: int, least: int) -> int:
 
 
 def _all(kind: str, floors: int, seed: int, elevator: bool) -> Iterator[Placement]:
-    plan = generator('plan')
     rooms = [(room, floor) for floor in range(floors) for room in plan.ROOMS]
     if kind == 'contact' and elevator:
         x, y = plan.ELEVATOR
@@ -100,7 +83,6 @@ def _spots(kind: str, room: str, floor: int, seed: int, of_plan: bool) -> list[P
 
 
 def _planned(kind: str, room: str, floor: int) -> list[Spot]:
-    plan, world = generator('plan'), generator('world')
     z = floor * plan.STOREY
     if kind == 'switch':
         return [('optical_switch', f'{room}_switch{floor}', world.switch_pose(room, floor))]
@@ -117,17 +99,11 @@ def _planned(kind: str, room: str, floor: int) -> list[Spot]:
 
 def has_contact(model: str) -> bool:
     """Whether a piece of furniture holds a contact sensor."""
-    return bool(_pieces()[model].touch)
-
-
-@cache
-def _pieces() -> dict[str, Any]:
-    return generator('furniture').pieces()
+    return bool(PIECES[model].touch)
 
 
 def _points(room: str, step: float, gap: float) -> list[tuple[float, float]]:
     """A lattice over a room, `gap` off its walls' faces."""
-    plan = generator('plan')
     x0, y0, x1, y1 = plan.ROOMS[room]
     gap += plan.WALL / 2
     columns, rows = (int((b - a - 2 * gap) / step + 1e-9) + 1 for a, b in ((x0, x1), (y0, y1)))
@@ -137,7 +113,6 @@ def _points(room: str, step: float, gap: float) -> list[tuple[float, float]]:
 
 def _lattice(kind: str, room: str, floor: int, rng: Random) -> list[Spot]:
     """Sensors under the ceiling that face the middle of the room, more or less."""
-    plan = generator('plan')
     model, short, height, pitch = {
         'pir': ('pir', 'pir', plan.PIR_HEIGHT, plan.PIR_PITCH),
         'switch': ('optical_switch', 'switch', SWITCH_HEIGHT, 0.0),
@@ -160,7 +135,6 @@ def _lattice(kind: str, room: str, floor: int, rng: Random) -> list[Spot]:
 
 def _free_chairs(_kind: str, room: str, floor: int, rng: Random) -> list[Spot]:
     """Chairs that are free of furniture, of doors that swing and of movers."""
-    plan = generator('plan')
     points = list(_free_points(room, floor == 0))
     rng.shuffle(points)
     return [('chair', f'{room}_seat{floor}_{i + 1}',
@@ -170,8 +144,7 @@ def _free_chairs(_kind: str, room: str, floor: int, rng: Random) -> list[Spot]:
 
 @cache
 def _free_points(room: str, ground_floor: bool) -> list[tuple[float, float]]:
-    plan = generator('plan')
-    boxes = [_footprint(*piece) for piece in generator('world').furniture_in(room, 0)]
+    boxes = [_footprint(*piece) for piece in world.furniture_in(room, 0)]
     doors = [(x + cos(yaw) / 2, y + sin(yaw) / 2) for x, y, yaw in plan.DOORS.values()]
     way = list(zip(plan.WALK, plan.WALK[1:])) if ground_floor else []
     x, y, radius = plan.ROUND
@@ -185,7 +158,7 @@ def _free_points(room: str, ground_floor: bool) -> list[tuple[float, float]]:
 
 def _footprint(model: str, _name: str, pose: Pose) -> tuple[float, float, float, float]:
     """x0, y0, x1, y1 of a piece of furniture along the walls."""
-    parts = _pieces()[model].parts
+    parts = PIECES[model].parts
     corners = []
     for part in parts:
         half = [v / 2 for v in part.size] if len(part.size) == 3 else [part.size[0]] * 2

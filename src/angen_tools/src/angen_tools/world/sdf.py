@@ -8,8 +8,9 @@ from pathlib import Path
 from lxml import etree
 
 from angen_tools.common.angle import radians
-from angen_tools.common.failure import Failure
+from angen_tools.common.text_file import read_bytes
 from angen_tools.common.verbs import comma_hint, number
+from angen_tools.common.xml_file import parse_xml
 
 
 def parse_pose(text: str) -> tuple[float, ...]:
@@ -49,16 +50,7 @@ def parse_settings(items: list[str]) -> list[tuple[str, str]]:
 
 def read(path: Path) -> etree._Element:
     """The root element of an XML file; Failure with file and line where it is none."""
-    if not path.is_file():
-        raise Failure(f'{path}: is not a file that can be read')
-    try:
-        return etree.parse(str(path), etree.XMLParser(remove_blank_text=True,
-                                                      resolve_entities=False)).getroot()
-    except OSError:
-        raise Failure(f'{path}: cannot be read') from None
-    except etree.XMLSyntaxError as error:
-        what = str(error.msg).partition(', line ')[0]
-        raise Failure(f'{path}:{error.lineno}: {what}') from None
+    return parse_xml(str(path), read_bytes(path), remove_blank_text=True)
 
 
 def text(element: etree._Element) -> str:

@@ -33,7 +33,7 @@ def build(kind_name: str, name: str, settings: Sequence[Setting], lone: bool) ->
     """A static <sdf> model `name` with one sensor of a kind, or if `lone` its <sensor> alone.
 
     It comes from the kind's model; a kind without one has a link with nothing but the sensor.
-    Failure where a key of `settings` is unknown, a value is not XML, or a sensor that needs a link
+    Failure if a key of `settings` is unknown, a value is not XML, or a sensor that needs a link
     is not lone.
     """
     kind = kind_of(kind_name)
