@@ -1,0 +1,74 @@
+"""angen mqtt: connects the running building to a broker until Ctrl-C."""
+from __future__ import annotations
+
+import math
+import signal
+import time
+from pathlib import Path
+from typing import Any
+
+from angen_apps.mqtt.bridge import Bridge
+from angen_apps.mqtt.broker import Access, Broker, Log
+from angen_apps.mqtt.discovery import Discovery
+from angen_apps.mqtt.habits import SHOP, Habits
+from angen_apps.mqtt.styles import STYLES
+from angen_apps.web.node import start_node
+from angen_tools.common.catalog import angen_module
+from angen_tools.common.failure import Failure
+from angen_tools.session.live import Live
+
+TURN = 0.5  # s of wall time between two turns without news
+REST = 0.01  # s between two turns with news, which take several messages at once
+TLS_PORT = 8883
+
+
+def serve(access: Access, prefix: str, style_name: str, discovery: str, profile: str, truth: bool
+          ) -> None:
+    """Bridges until Ctrl-C, or until the simulator ends."""
+    start_node('mqtt')
+    log = Log()
+    world = _simulator(log)
+    style = STYLES[style_name](prefix)
+    path = SHOP if profile == 'shop' else Path(profile) if profile else None
+    broker = Broker(access, log, world.wake)
+    bridge = Bridge(world, broker, style,
+                    Discovery(style, discovery == 'device', angen_module().__version__)
+                    if discovery != 'none' else None, Habits(path), truth, log)
+    ends: list[int] = []
+
+    def end(number: int, _: Any) -> None:
+        ends.append(number)
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, end)
+    broker.start(bridge.will)
+    print(f'angen mqtt: bridges to {access.address}, topics {prefix}/…', flush=True)
+    try:
+        while not ends:
+            seen = world.received
+            bridge.turn()
+            if not bridge.has_work:
+                world.until(lambda: bool(ends or broker.waiting or world.received != seen), TURN)
+                time.sleep(REST)
+    finally:
+        bridge.stop()
+        broker.stop()
+
+
+def _simulator(log: Log) -> Live:
+    """The running one, or the one that will run."""
+    try:
+        return Live()
+    except Failure as absent:
+        log.say(f'waits: {absent}')
+        return Live(patience=math.inf)
+
+
+def read_password(path: Path | None) -> str:
+    """The first line of a file."""
+    if path is None:
+        return ''
+    try:
+        return path.read_text(encoding='utf-8').partition('\n')[0]
+    except (OSError, UnicodeDecodeError) as error:
+        raise Failure(f'{path}: cannot be read: {error}') from None
