@@ -12,7 +12,7 @@ from typing import Any, Iterator
 import pytest
 from aiohttp import ClientSession, WSMsgType
 from browser import LIMIT, Page, Server
-from harness import Cli, Master
+from harness import WORLD, Cli, Master, end
 from selenium.webdriver.common.action_chains import ActionChains
 
 from angen_apps.data.generate import sha256
@@ -60,13 +60,13 @@ def day(tmp_path: Path) -> Path:
     return folder
 
 
-async def played(port: int) -> tuple[dict[str, Any], list[Any]]:
+async def played(port: int, end: float = 86400.0) -> tuple[dict[str, Any], list[Any]]:
     """The parts and the entries of a time line, once it is whole, and the scene."""
     url, found, entries = f'http://127.0.0.1:{port}', dict[str, Any](), list[Any]()
     async with ClientSession() as session:
         async with session.ws_connect(f'{url}/socket', headers={'Origin': url},
                                       max_msg_size=0) as socket:
-            while found.get('line', {}).get('loaded') != 86400.0:
+            while found.get('line', {}).get('loaded') != end or 'entities' not in found:
                 message = await socket.receive(timeout=LIMIT)
                 assert message.type == WSMsgType.TEXT, message
                 parts = json.loads(message.data)
@@ -87,6 +87,7 @@ def server(master: Master, tmp_path: Path, day: Path) -> Iterator[Server]:
 
 def test_a_day_is_played(server: Server) -> None:
     found, entries = asyncio.run(played(server.port))
+    assert (found['line']['begin'], found['line']['speed']) == (70.0, 20.0)  # anna gets up at 100 s
     scene = found['scene']
     ids = {f'{link["model"]}::{link["name"]}': number
            for number, link in zip(scene['ids'], scene['links'])}
@@ -141,7 +142,7 @@ def test_a_cabin_rides_with_who_is_in_it(master: Master, tmp_path: Path, day: Pa
                    '50.500,lift,cabin,30.0,0.0,1.5\n51.000,lift,cabin,30.0,0.0,2.0\n')
     with gzip.open(day / 'track.csv.gz', 'wt', encoding='utf-8') as file:
         file.write(f'{TRACK}40.0,anna,30.2,0.0,0\n60.0,anna,20.0,0.0,0\n')
-    server = Server(master, tmp_path, '--replay', str(day), '--world', str(world))
+    server = Server(master, tmp_path, '--replay', str(day), str(world))
     try:
         found, entries = asyncio.run(played(server.port))
     finally:
@@ -158,6 +159,21 @@ def test_a_cabin_rides_with_who_is_in_it(master: Master, tmp_path: Path, day: Pa
                if e[0] == 'p' and anna in e[2]}
     floor = heights[40.0]
     assert [heights[time] - floor for time in (50.5, 51.0, 60.0)] == pytest.approx([1.5, 2.0, 0.0])
+
+
+def test_a_recording_without_duration_shows_its_moment(master: Master, rospy_node: None,
+                                                       tmp_path: Path) -> None:
+    (tmp_path / 'small.world').write_text(WORLD)
+    log = tmp_path / 'run.log'
+    assert end(master.node(tmp_path / 'small.world', tmp_path / 'node', record=log,
+                           paused=True)) == 0
+    server = Server(master, tmp_path, '--replay', str(log))
+    try:
+        found, _ = asyncio.run(asyncio.wait_for(played(server.port, 0.0), LIMIT))
+    finally:
+        assert server.end() == 0, server.log()
+    assert {e['name'] for e in found['entities']} >= {'bathroom0', 'kitchen0', 'eye'}
+    assert {link['model'] for link in found['scene']['links']} >= {'turtlebot'}
 
 
 def apart(page: Page, selector: str) -> int:
@@ -205,6 +221,9 @@ def test_a_link_opens_at_its_time(server: Server, tmp_path: Path) -> None:
         page.press('#view-3d')
         page.first_view()
         assert apart(page, '.label.person') == 2
+        page.driver.get(server.url)  # it begins where one gets up
+        page.until('return window.angen?.player.time > 70 && angen.player.speed === 20')
+        assert page.run('return document.querySelector("#player select").value') == '20'
         assert page.errors() == []
     finally:
         page.close()
@@ -218,4 +237,4 @@ def test_folders_without_a_day_are_rejected(master: Master, tmp_path: Path, day:
     settings = json.loads((day / 'home.json').read_text())
     settings['settings']['world'] = 'f' * 64
     (day / 'home.json').write_text(json.dumps(settings))
-    assert 'give the same file by --world' in cli.fails('web', '--replay', str(day))
+    assert 'give the same file, too' in cli.fails('web', '--replay', str(day))

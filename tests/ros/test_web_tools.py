@@ -1,7 +1,7 @@
 """The tools of the page of angen web in a real browser, on the built-in building."""
 from __future__ import annotations
 
-import time
+import csv
 
 import pytest
 from angen_msgs.msg import Stats
@@ -22,6 +22,7 @@ def test_a_field_flashes_where_the_person_walks(home: Angen, page: Page) -> None
 
 
 def test_fields_show_beams_and_what_the_lidar_measures(home: Angen, page: Page) -> None:
+    page.run('angen.setStorey(null)')
     firing = page.run('return angen.view.fields.state.replaceAll("0", "").length')
     page.press('#layers button', 'Sensor fields')
     page.until('return angen.view.fields.state.replaceAll("0", "").length > arguments[0] + 20',
@@ -128,12 +129,9 @@ def test_a_goal_is_dragged_on_the_robots_map(home: Angen, page: Page) -> None:
         actions.move_to_element_with_offset(canvas, 60, 0).click_and_hold()
         actions.move_by_offset(0, -50).release().perform()
 
-    drag()
-    page.until('''return [...document.querySelectorAll(".notice.bad")].some(
-        (e) => e.textContent.includes("no program subscribes"))''')
     with Inbox('/move_base_simple/goal', PoseStamped) as goals:
-        until(lambda: (drag(), time.sleep(0.5), goals.messages)[-1], 'a goal', LIMIT)
-        goal = goals.messages[-1].pose
+        drag()
+        goal = goals.wait(lambda goal: True, 'a goal', LIMIT).pose
     assert goal.orientation.z == pytest.approx(0.707, abs=0.1)  # to the north, as it was dragged
     page.until('return angen.goal.pose !== null')
 
@@ -174,6 +172,32 @@ def test_plots_of_several_sensors_pause_and_zoom(page: Page) -> None:
     drag.release().perform()
     page.until('const s = angen.panels.plots.shown[0].plot.scales.x; '
                'return s.max - s.min < 0.7 * arguments[0]', whole)
+
+
+def test_readings_of_the_whole_run_are_kept(page: Page, tmp_path_factory: pytest.TempPathFactory
+                                            ) -> None:
+    kept = page.run('''const { home } = angen, row = (stamp, value) => home.remember({
+            kind: "luminosity", name: "old, one", text: "x", stamp, values: [value]});
+        for (let i = 0; i < 9000; i++) row(i / 10, i === 100 ? 500 : i % 7);
+        return home.series.get("luminosity/old, one/illuminance")''')
+    assert len(kept['t']) < 3001 and kept['t'] == sorted(kept['t'])
+    assert (kept['t'][0], kept['t'][-1], max(kept['v'])) == (0, 899.9, 500)
+    page.press('#tab-sensors')
+    page.run('angen.panels.plots.add("luminosity", "old, one")')
+    span = """const p = angen.panels.plots.shown.at(-1).plot.scales.x; return p.max - p.min"""
+    page.press('#panel button', 'Whole run')
+    assert page.until(f'{span} >= 899 && p.max - p.min') >= 899
+    page.press('#panel button', 'Whole run')
+    page.until(f'{span} <= 301')
+    page.press('#panel button', 'CSV')
+    folder = tmp_path_factory.getbasetemp()
+    path = until(lambda: next((path for path in folder.glob('readings*.csv')
+                               if path.stat().st_size), None), 'a table', LIMIT)
+    rows = list(csv.DictReader(path.open(newline='')))
+    assert [row['value'] for row in rows if row['name'] == 'old, one' and row['time'] == '10'] == [
+        '500']
+    assert len({row['kind'] for row in rows}) > 3
+    page.run('angen.home.series.delete("luminosity/old, one/illuminance")')
 
 
 def test_costs_are_listed(page: Page) -> None:

@@ -24,7 +24,7 @@ SHOWN = '''const {home, view} = angen, found = {};
 def test_floors_are_closed_below_the_top_one(master: Master, rospy_node: None, tmp_path: Path
                                              ) -> None:
     world = tmp_path / 'home.world'
-    Cli(master).does('world', 'home', '--storeys', str(FLOORS), '--rooms', '2', '--seed', '3',
+    Cli(master).does('world', 'home', '--floors', str(FLOORS), '--rooms', '2', '--seed', '3',
                      '-o', str(world))
     node = Angen(master, master.node(world, tmp_path / 'log'), tmp_path / 'log')
     server = Server(master, tmp_path)

@@ -10,9 +10,9 @@ from typing import Any, Awaitable, Callable
 
 import pytest
 from aiohttp import ClientSession, WSMsgType, WSServerHandshakeError, web
-from angen_apps.web import guard
+from angen_apps.web import guard, server as server_module
 from angen_apps.web.guard import Budget, Guard, is_loopback
-from angen_apps.web.server import BURST, LARGEST_MESSAGE, Server
+from angen_apps.web.server import BURST, LARGEST_MESSAGE, Browser, Server, json_text
 from angen_apps.web.store import Store
 from yarl import URL
 
@@ -62,13 +62,17 @@ class Running:
                                        headers={'Origin': f'http://{self.host}', **headers})
 
 
+def free_port() -> int:
+    from socket import socket
+    with socket() as free:
+        free.bind(('127.0.0.1', 0))
+        return int(free.getsockname()[1])
+
+
 def run(test: Callable[[Running], Awaitable[None]], host: str = '127.0.0.1', page: Path = PAGE
         ) -> None:
     async def go() -> None:
-        from socket import socket
-        with socket() as free:
-            free.bind(('127.0.0.1', 0))
-            port = int(free.getsockname()[1])
+        port = free_port()
         source, guard = Source(), Guard(host, port, set())
         runner = web.AppRunner(Server(source, guard, page, {'lamp': {}}).app)
         await runner.setup()
@@ -164,6 +168,8 @@ def test_another_address_needs_its_token() -> None:
                                       allow_redirects=False) as answer:
             assert answer.status == 302 and answer.headers['Location'] == '/?t=1.5'
             cookie = answer.headers['Set-Cookie']
+            assert cookie.startswith(f'angen_token_{server.host.partition(":")[2]}=')
+            assert answer.headers['Content-Security-Policy']
             assert 'HttpOnly' in cookie and 'SameSite=Strict' in cookie
         cookies = {'Cookie': cookie.split(';')[0]}
         assert (await server.get('/', **cookies))[0] == 200
@@ -247,6 +253,56 @@ def test_noise_ends_no_server() -> None:
             await socket.send_str(json.dumps({'do': 'command', 'id': 4}))
             assert await parts(socket, 'answers') == [{'id': 4, 'ok': True, 'text': 'done'}]
     run(test)
+
+
+def test_numbers_that_are_not_finite_are_null() -> None:
+    assert json_text({'a': [1.5, float('nan')], 'b': {'c': -float('inf')}}) == \
+        '{"a":[1.5,null],"b":{"c":null}}'
+
+
+def test_a_browser_that_sends_no_orders_is_closed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(server_module, 'MOST_ANSWERS', 50)
+
+    async def test(server: Running) -> None:
+        async with server.socket() as socket:
+            for _ in range(60):
+                await socket.send_str('nonsense')
+            for _ in range(200):
+                if (await socket.receive(timeout=60)).type in (WSMsgType.CLOSE, WSMsgType.CLOSED):
+                    return
+        raise AssertionError('the socket is open')
+    run(test)
+
+
+def test_answers_that_a_browser_does_not_read_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(server_module, 'MOST_ANSWERS', 50)
+    browser = Browser(web.WebSocketResponse())
+    for i in range(50):
+        browser.answer({'id': i})
+        assert not browser.is_broken
+    browser.answer({'id': 51})
+    assert browser.is_broken
+
+
+def test_a_connection_without_a_request_is_closed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(server_module, 'HEADERS_LIMIT', 0.4)
+
+    async def go() -> None:
+        ports: asyncio.Queue[int] = asyncio.Queue()
+        guard = Guard('127.0.0.1', 0, set())
+        serving = asyncio.ensure_future(server_module.listen(
+            Server(Source(), guard, PAGE, {}), '127.0.0.1', free_port(), ports.put))
+        port = await ports.get()
+        idle, wrote = [await asyncio.open_connection('127.0.0.1', port) for _ in range(2)]
+        wrote[1].write(b'GET / HTTP/1.1\r\n')  # and no more
+        assert await asyncio.wait_for(idle[0].read(), 30) == b''
+        assert await asyncio.wait_for(wrote[0].read(), 30) == b''
+        async with ClientSession() as session:
+            async with session.get(f'http://127.0.0.1:{port}/') as answer:
+                assert answer.status == 403  # it has port 0, but it answers
+                assert answer.headers['X-Content-Type-Options'] == 'nosniff'
+        serving.cancel()
+    asyncio.run(asyncio.wait_for(go(), 60))
 
 
 def test_budget() -> None:

@@ -13,7 +13,7 @@ export class Card {
     this.shown = null;
     /** @type {(() => void)[]} of sliders, which follow the state while they are not dragged */
     this.follow = [];
-    home.on('rows', () => this.refresh());
+    for (const topic of ['rows', 'trips']) home.on(topic, () => this.refresh());
     home.on('entities', () => this.again());
   }
 
@@ -51,10 +51,9 @@ export class Card {
     const rooms = home.roomsOf(entity).map(roomText).join(' – ');
     this.state = el('p', { class: 'state', role: 'status' });
     const parts = [this.state, ...this.verbs(entity, kind)];
-    if (home.isRobot(entity)) parts.push(el('div', { class: 'verbs' }, el('button', { type: 'button', onclick: () => this.page.robot(entity) }, 'Drive')));
-    if (home.fields(entity.kind).length) {
-      parts.push(el('div', { class: 'verbs' }, el('button', { type: 'button', onclick: () => this.page.plot(entity) }, 'Plot')));
-    }
+    if (home.isRobot(entity)) parts.push(...trip(home, this.page, entity));
+    parts.push(el('div', { class: 'verbs' }, home.isRobot(entity) && el('button', { type: 'button', onclick: () => this.page.robot(entity) }, 'Drive'),
+      home.fields(entity.kind).length > 0 && el('button', { type: 'button', onclick: () => this.page.plot(entity) }, 'Plot')));
     if (kind?.role === 'sensor' && !home.status.replay) {
       parts.push(el('div', { class: 'verbs' }, el('button', { type: 'button', onclick: () => this.remove(entity) }, 'Delete')));
     }
@@ -184,7 +183,7 @@ export class Card {
   refresh() {
     if (this.state && this.shown?.entity) {
       const row = this.home.row(this.shown.entity), isSensor = this.home.kinds[this.shown.entity.kind]?.role === 'sensor';
-      const text = row?.text || (!this.page.isTold(this.shown.entity) ? 'The recording does not have it.' : isSensor ? 'no reading yet' : '–');
+      const text = (row?.text && this.home.isRobot(this.shown.entity) ? placeText(this.home.place(this.shown.entity), row.text) : row?.text) || (!this.page.isTold(this.shown.entity) ? 'The recording does not have it.' : isSensor ? 'no reading yet' : '–');
       if (this.state.textContent !== text) this.state.textContent = text;
       this.state.classList.toggle('alarm', Boolean(row?.alarm));
       for (const follow of this.follow) follow();
@@ -210,6 +209,12 @@ function title(home, e) {
   const kind = home.isRobot(e) ? 'Robot' : words(e.kind);
   return e.name === e.kind ? kind : `${kind} ${e.name}`;
 }
+
+/**
+ * The place of a robot in the world, as people have it, before that by its wheels.
+ * @param {ArrayLike<number>} pose @param {string} text
+ */
+const placeText = (pose, text) => `${pose[0].toFixed(2)} m  ${pose[1].toFixed(2)} m in the world, by its wheels ${text}`;
 
 /**
  * The activity of a person, the speed of a robot: their places are visible.
@@ -246,4 +251,34 @@ export function thingRow(home, e, open) {
   toggle?.addEventListener('click', () => home.command(e, toggle.textContent));
   row.refresh();
   return row;
+}
+
+/**
+ * A menu of goals of a robot, and what becomes of its drive to one.
+ * @param {import('./home.js').Home} home @param {any} page @param {any} robot
+ * @returns {any[]}
+ */
+export function trip(home, page, robot) {
+  if (home.status.replay) return [];
+  const send = () => {
+    if (goals.value) home.order({ do: 'goal', name: robot.name, room: goals.value });
+    else page.goal.begin(robot);
+    goals.selectedIndex = 0;
+  };
+  const goals = el('select', { class: 'goals', 'aria-label': `Send ${robot.name} to`, onchange: send }, el('option', { hidden: true }, 'Go to …'), el('option', { value: '' }, 'a place …'),
+    ...[...home.storeys].reverse().map((storey) => el('optgroup', { label: storey.name || `Floor ${storey.number}` },
+      ...home.rooms.filter((room) => room.storey === storey.number).map((room) => el('option', { value: room.name }, roomText(room))))));
+  const text = el('span', { role: 'status' }), done = el('i'), bar = el('div', { class: 'bar' }, done);
+  const stop = el('button', { type: 'button', onclick: () => home.order({ do: 'halt', name: robot.name }) }, 'Stop');
+  const row = el('div', { class: 'thing trip' }, el('div', {}, text, bar), stop);
+  row.refresh = () => {
+    const now = home.trips[robot.name], shown = now ? `To ${now.goal}: ${now.text}` : '';
+    row.hidden = !now;
+    stop.hidden = !now?.drives;
+    bar.hidden = !now?.drives || now.share === null;
+    done.style.width = `${100 * (now?.share ?? 0)}%`;
+    if (text.textContent !== shown) text.textContent = shown;
+  };
+  row.refresh();
+  return [el('div', { class: 'verbs' }, goals), row];
 }

@@ -3,8 +3,28 @@ import * as THREE from '../vendor/three/three.module.min.js';
 
 const STEP = 0.01; // rad of the sun's way, for which the light is set again
 const USUAL = [-0.19, -0.41, 0.89]; // from where light comes at night
-const TILT = (23.44 * Math.PI) / 180; // of the earth's axis
 const DAY = 86400; // s
+const J2000 = Date.UTC(2000, 0, 1, 12) / 1000; // s
+const CENTURY = 36525 * DAY; // s
+const { sin, cos, atan2, PI } = Math, RAD = PI / 180;
+
+/**
+ * The sun's declination and the equation of time (rad), as in angen_tools/common/sun.py, which names the source.
+ * @param {number} t centuries since 2000-01-01 12:00
+ */
+function equatorial(t) {
+  const mean = 280.46646 + 36000.76983 * t, anomaly = (357.52911 + 35999.05029 * t) * RAD, node = (125.04 - 1934.136 * t) * RAD;
+  const center = (1.914602 - 0.004817 * t) * sin(anomaly) + 0.019993 * sin(2 * anomaly) + 0.000289 * sin(3 * anomaly);
+  const longitude = (mean + center - 0.00569 - 0.00478 * sin(node)) * RAD, tilt = (23.439291 - 0.0130042 * t + 0.00256 * cos(node)) * RAD;
+  const apart = (mean - 0.0057183) * RAD - atan2(cos(tilt) * sin(longitude), cos(longitude));
+  return { declination: Math.asin(sin(tilt) * sin(longitude)), equation: atan2(sin(apart), cos(apart)) };
+}
+
+/** @param {number} up rad, its true elevation @returns {number} as it appears through the air */
+function refracted(up) {
+  const degrees = up / RAD;
+  return degrees < -1 ? up : up + ((1.02 / 60) * RAD) / Math.tan((degrees + 10.3 / (degrees + 5.11)) * RAD);
+}
 
 /**
  * @param {any} described the home's description
@@ -16,12 +36,12 @@ export function sunAt(described, time) {
   if (!found) return null;
   const [year, month, day, hour, minute, second] = found.slice(1).map(Number);
   const clock = Date.UTC(year, month - 1, day, hour, minute, second) / 1000 + time;
-  const days = (clock - Date.UTC(year, 0, 1) / 1000) / DAY;
-  const declination = -TILT * Math.cos((2 * Math.PI * (days + 10)) / 365.25), turn = 2 * Math.PI * ((((clock % DAY) + DAY) % DAY) / DAY - 0.5);
+  const { declination, equation } = equatorial((clock - J2000) / CENTURY), turn = 2 * Math.PI * ((((clock % DAY) + DAY) % DAY) / DAY - 0.5) + equation;
   const latitude = ((described.latitude ?? 48) * Math.PI) / 180, north = described.north ?? Math.PI / 2;
-  const [sinD, cosD, sinL, cosL] = [Math.sin(declination), Math.cos(declination), Math.sin(latitude), Math.cos(latitude)];
-  const up = sinL * sinD + cosL * cosD * Math.cos(turn), toNorth = cosL * sinD - sinL * cosD * Math.cos(turn), toEast = -cosD * Math.sin(turn);
-  return [toNorth * Math.cos(north) + toEast * Math.sin(north), toNorth * Math.sin(north) - toEast * Math.cos(north), up];
+  const up = sin(latitude) * sin(declination) + cos(latitude) * cos(declination) * cos(turn), toEast = -cos(declination) * sin(turn);
+  const toNorth = cos(latitude) * sin(declination) - sin(latitude) * cos(declination) * cos(turn);
+  const height = refracted(Math.asin(Math.max(-1, Math.min(1, up)))), level = cos(height) / Math.max(1e-9, Math.hypot(toNorth, toEast));
+  return [(toNorth * cos(north) + toEast * sin(north)) * level, (toNorth * sin(north) - toEast * cos(north)) * level, sin(height)];
 }
 
 export class Sky {

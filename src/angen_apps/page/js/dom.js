@@ -50,6 +50,13 @@ export function notice(text, bad = false) {
   setTimeout(() => shown.remove(), bad ? 7000 : 3500);
 }
 
+/** @param {string} name @param {string} text @param {string} type of a file for the user */
+export function download(name, text, type) {
+  const link = el('a', { href: URL.createObjectURL(new Blob([text], { type })), download: name });
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
+
 /** @param {string} name */
 export const words = (name) => (name ? name[0].toUpperCase() + name.slice(1).replaceAll('_', ' ') : '');
 

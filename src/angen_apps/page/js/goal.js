@@ -41,7 +41,7 @@ export class Goal {
         view.dirty = true;
       });
     }
-    this.listen(plan.element, (x, y) => ({ point: plan.ground(x, y) }), (x, y) => plan.ground(x, y));
+    this.listen(plan.element, (x, y) => plan.hit(x, y), (x, y) => plan.ground(x, y));
     this.listeners.push(() => plan.showGoal(this.pose));
   }
 
@@ -85,7 +85,7 @@ export class Goal {
       this.held = null;
       this.ended = performance.now();
       if (held.carries && !held.moved) this.page.show(held.robot);
-      else this.send();
+      else this.send(held.robot);
       return true;
     });
     at('pointercancel', (e) => {
@@ -143,11 +143,13 @@ export class Goal {
     for (const listener of this.listeners) listener();
   }
 
-  async send() {
+  /** @param {any} robot */
+  async send(robot) {
     this.end();
     if (!this.pose) return;
-    const [x, y, , yaw] = this.pose, answer = await this.home.order({ do: 'goal', x, y, yaw: Math.atan2(Math.sin(yaw), Math.cos(yaw)) });
-    if (answer.ok) this.page.say(answer.text);
+    const [x, y, z, yaw] = this.pose, floor = this.home.storeyAt(z);
+    const answer = await this.home.order({ do: 'goal', name: robot.name, x, y, floor, yaw: Math.atan2(Math.sin(yaw), Math.cos(yaw)) });
+    if (answer.ok) this.page.show(robot);
     else this.put(null);
   }
 
@@ -159,7 +161,7 @@ export class Goal {
     else if (way) {
       const ahead = this.page.plan.hidden ? this.page.view.viewpoint.quarter() : 0, [c, s] = [Math.cos(ahead), Math.sin(ahead)];
       this.put([x + STEP * (c * way[0] - s * way[1]), y + STEP * (s * way[0] + c * way[1]), z, yaw]);
-    } else if (e.key === 'Enter') (this.then ?? (() => this.send()))(this.pose);
+    } else if (e.key === 'Enter') (this.then ?? (() => this.send(this.robot)))(this.pose);
     else if (e.key === 'Escape' && this.robot) { this.end(); this.put(null); }
     else return;
     e.preventDefault();

@@ -9,7 +9,7 @@ import { clockText, notice } from './dom.js';
 
 const POSES = 1, LEVELS = 2, PICTURE = 3, SCAN = 4; // as store.py
 export const HISTORY = 300; // s
-const MOST = 3000; // values of a series
+const MOST = 3000, BLOCK = 4; // values of a series; of so many older ones the least and the greatest stay
 const PATIENCE = 8000; // ms
 
 export class Home {
@@ -43,6 +43,8 @@ export class Home {
     this.connected = false;
     /** @type {any} */
     this.cost = null;
+    /** @type {Record<string, {goal: string, text: string, drives: boolean, share: number | null}>} by robot */
+    this.trips = {};
     /** @type {Map<string, {t: number[], v: (number | null)[]}>} by kind/name/field */
     this.series = new Map();
     /** @type {Map<string, ((what: any) => void)[]>} */
@@ -54,6 +56,8 @@ export class Home {
     this.movers = [];
     /** @type {any} */
     this.line = null;
+    /** @type {Record<string, number[][][]>} lines of things on a plan by type, from -1 to 1 */
+    this.symbols = {};
     this.token = ''; // that others need to open this page
     this.connection = new Connection((parts) => this.take(parts), (blob) => this.takeBlob(blob), (open) => {
       this.connected = open;
@@ -98,6 +102,7 @@ export class Home {
       this.roomsCache = new WeakMap();
       this.tell('home');
     }
+    this.symbols = parts.symbols ?? this.symbols;
     if (parts.entities) { this.entities = parts.entities; this.onEntities(); }
     if (parts.rows) this.takeRows(parts.rows, parts.complete);
     if (parts.events) {
@@ -105,6 +110,7 @@ export class Home {
       this.tell('events', parts.events);
     }
     this.token = parts.token ?? this.token;
+    if (parts.trips) { this.trips = parts.trips; this.tell('trips'); }
     if (parts.cost) { this.cost = parts.cost; this.tell('cost'); }
     if (parts.timeline) this.tell('timeline', parts.timeline);
     if (parts.line) { this.line = parts.line; this.tell('line'); }
@@ -151,11 +157,7 @@ export class Home {
       if (n > 1 && v[n - 1] === value && v[n - 2] === value) { t[n - 1] = row.stamp; return; } // a level line has two ends
       t.push(row.stamp);
       v.push(value);
-      if (t.length > MOST || t[0] < row.stamp - 1.5 * HISTORY) {
-        const from = Math.max(t.findIndex((time) => time >= row.stamp - HISTORY), t.length - MOST, 1);
-        t.splice(0, from - 1);
-        v.splice(0, from - 1);
-      }
+      if (t.length > MOST) thin(series);
     });
   }
 
@@ -341,4 +343,15 @@ export function middleOf(polygon) {
     y += (y0 + y1) * cross;
   });
   return area ? [x / (3 * area), y / (3 * area)] : polygon[0];
+}
+
+/** @param {{t: number[], v: any[]}} series whose older half gets fewer values, without the loss of a peak */
+function thin({ t, v }) {
+  const half = MOST / 2, kept = [];
+  for (let i = 0; i < half; i += BLOCK) {
+    const block = Array.from({ length: Math.min(BLOCK, half - i) }, (_, k) => i + k).sort((a, b) => v[a] - v[b]);
+    kept.push(...[...new Set([block[0], block[block.length - 1]])].sort((a, b) => a - b));
+  }
+  t.splice(0, half, ...kept.map((i) => t[i]));
+  v.splice(0, half, ...kept.map((i) => v[i]));
 }

@@ -32,7 +32,7 @@ export class Labels {
         if (isBehind(view, floors, at)) continue;
         const lit = view.glows.meshes.get(room.name)?.userData.lit;
         const lux = view.lights.lux(room);
-        due.set(`room ${room.name}`, { at, text: roomText(room), lit, small: lux === null ? '' : `${Math.round(lux)} lx` });
+        due.set(`room ${room.name}`, { at, text: roomText(room), lit, small: lux === null || lux < 0.5 ? '' : `${Math.round(lux)} lx` });
       }
     }
     const { clientWidth: width, clientHeight: height } = view.element, point = new THREE.Vector3();

@@ -1,6 +1,7 @@
 /** The page: the selection, the clock, the keys. */
-import { by, el, isForOthers, isNarrow, notice } from './dom.js';
+import { by, download, el, isForOthers, isNarrow, notice } from './dom.js';
 import { Card } from './card.js';
+import { sunAt } from './daylight.js';
 import { Goal } from './goal.js';
 import { Home } from './home.js';
 import { Panels } from './panels.js';
@@ -10,6 +11,7 @@ import { View3d } from './view3d.js';
 
 const NO_3D = 'This browser has no WebGL, which the 3D view needs: the plan has everything.';
 const EMPTY = 'This world has no rooms and no devices.';
+const DUSK = 0.1; // sine of the sun's height, below which lamps are wanted
 const RATES = [0.1, 0.5, 1, 2, 5, 10, 100, 0];
 
 class Page {
@@ -36,7 +38,7 @@ class Page {
     this.home.on('status', () => this.showStatus());
     this.home.on('stats', () => this.showClock());
     this.home.on('home', () => this.buildFloors());
-    for (const topic of ['status', 'scene', 'home', 'entities']) this.home.on(topic, () => this.showNothing());
+    for (const topic of ['status', 'scene', 'home', 'entities']) this.home.on(topic, () => { this.showNothing(); this.begin(); });
     setInterval(() => this.showClock(), 200);
     addEventListener('keydown', (e) => this.key(e));
     addEventListener('hashchange', () => { if (location.hash === '#home') this.whole(); });
@@ -44,7 +46,6 @@ class Page {
     this.setTheme(localStorage.getItem('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
     this.setView(this.view && !isNarrow() ? '3d' : 'plan');
     if (isNarrow()) by('side').classList.add('low');
-    this.welcome();
     this.home.begin();
   }
 
@@ -134,6 +135,17 @@ class Page {
 
   // --- floors and layers
 
+  /** The first view: the floor with the most people, or robots. */
+  begin() {
+    const { home } = this, { storeys, movers } = home;
+    if (this.begun || !storeys.length || !home.scene || !home.entities.length || !Object.keys(home.kinds).length) return;
+    this.begun = true;
+    const people = movers.filter((e) => e.kind === 'person'), on = (people.length ? people : movers).map((e) => home.storeyAt(home.place(e)[2]));
+    const count = (/** @type {number} */ number) => on.filter((one) => one === number).length;
+    if (storeys.length > 1 && on.length) this.setStorey([...storeys].sort((a, b) => count(b.number) - count(a.number))[0].number);
+    this.welcome();
+  }
+
   buildFloors() {
     const { storeys } = this.home, many = storeys.length > 1;
     const plan = this.plan.hidden === false;
@@ -175,10 +187,11 @@ class Page {
 
   // --- choosing
 
-  /** The hints for new users, until they are followed. */
+  /** What to try, until something is tried. */
   welcome() {
-    const narrow = isNarrow();
-    by('welcome').textContent = `${narrow ? 'Tap' : 'Click'} a lamp, door, person or room${narrow || !this.view ? '' : ' · drag turns the 3D view'}`;
+    const { home } = this, tap = isNarrow() ? 'Tap' : 'Click', robot = home.movers.some((e) => home.isRobot(e)) && !home.status.replay;
+    const dark = (sunAt(home.described, home.stats.time)?.[2] ?? 1) < DUSK && home.entities.some((e) => e.kind === 'lamp');
+    by('welcome').textContent = home.status.replay ? `${tap} a person or a room, or the line below` : `${tap} ${dark ? 'a lamp and switch it on: it is dark' : 'a door, lamp, person or room'}${robot ? ' · drag the robot to another room' : ''}`;
     by('welcome').hidden = localStorage.getItem('welcome') === 'seen';
     const seen = () => { by('welcome').hidden = true; localStorage.setItem('welcome', 'seen'); };
     by('stage').addEventListener('pointerdown', seen, { once: true, capture: true }); // also one that sets a goal
@@ -273,10 +286,7 @@ class Page {
 
   async save() {
     const answer = await this.home.order({ do: 'save' });
-    if (!answer.ok) return;
-    const link = el('a', { href: URL.createObjectURL(new Blob([answer.xml ?? ''], { type: 'application/xml' })), download: 'saved.world' });
-    link.click();
-    URL.revokeObjectURL(link.href);
+    if (answer.ok) download('saved.world', answer.xml ?? '', 'application/xml');
   }
 
   // --- keys

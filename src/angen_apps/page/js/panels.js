@@ -6,6 +6,7 @@ import { RobotPanel } from './robot.js';
 import { roomText } from './labels.js';
 
 const PERIOD = 200; // ms
+const SMALL = new Set(['changed', 'changes', 'steady']); // events of light and surfaces, which come often
 const MANY = 60; // rooms: more are listed by floor, those of a floor once it is opened
 
 /** @typedef {{id: string, text: string, build: () => any[], update: () => void, topics: string[]}} Panel */
@@ -19,6 +20,8 @@ export class Panels {
     this.filter = null;
     /** @type {any} */
     this.eventFilter = null;
+    /** @type {any} whether events of small changes are listed */
+    this.small = null;
     /** @type {Map<string, any>} */
     this.lines = new Map();
     this.count = 0;
@@ -175,7 +178,7 @@ export class Panels {
   rebuildRows() {
     const { home } = this, word = this.filter.value.trim().toLowerCase();
     this.lines.clear();
-    const rows = [...home.rows.values()].filter((row) => !word || `${row.kind} ${row.name}`.toLowerCase().includes(word))
+    const rows = [...home.rows.values()].filter((row) => home.kinds[row.kind]?.role === 'sensor' && (!word || `${row.kind} ${row.name}`.toLowerCase().includes(word)))
       .sort((a, b) => a.kind.localeCompare(b.kind) || a.name.localeCompare(b.name, undefined, { numeric: true })).slice(0, 400);
     this.table.replaceChildren(...rows.map((row) => {
       const e = home.entities.find((one) => one.kind === row.kind && one.name === row.name);
@@ -204,13 +207,14 @@ export class Panels {
 
   events() {
     this.eventFilter ??= el('input', { type: 'search', placeholder: 'Filter', 'aria-label': 'Filter', oninput: () => this.refreshEvents() });
+    this.small ??= el('input', { type: 'checkbox', onchange: () => this.refreshEvents() });
     this.list = el('ol', { class: 'events', reversed: true });
-    return [el('div', { class: 'tools' }, this.eventFilter), this.list];
+    return [el('div', { class: 'tools' }, this.eventFilter, el('label', { title: 'Light that changes, surfaces that warm' }, this.small, ' Small changes')), this.list];
   }
 
   refreshEvents() {
     const word = this.eventFilter.value.trim().toLowerCase();
-    const shown = this.home.events.filter(([, ...texts]) => !word || texts.join(' ').toLowerCase().includes(word)).slice(-200).reverse();
+    const shown = this.home.events.filter(([, ...texts]) => (this.small.checked || !SMALL.has(texts[2])) && (!word || texts.join(' ').toLowerCase().includes(word))).slice(-200).reverse();
     this.list.replaceChildren(...shown.map(([time, kind, source, event, detail]) => el('li', {}, el('time', { class: 'soft number' }, this.home.clock(time)),
       el('span', { class: event }, el('b', {}, source), ` ${kind} ${event}`, detail ? el('span', { class: 'soft' }, ` ${detail}`) : ''))));
     if (!shown.length) this.list.append(el('li', {}, '', el('span', { class: 'soft' }, 'No events.')));

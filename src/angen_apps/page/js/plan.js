@@ -1,16 +1,21 @@
-/** The plan of one floor, as SVG: large targets, and each item reached by the keyboard. */
-import { by, svg } from './dom.js';
+/** The plan of one floor, as SVG: a tap finds the nearest mark, and the keyboard reaches each. */
+import { by, el, glyph, isNarrow, svg, words } from './dom.js';
 import { fieldShape, yawOf } from './fields.js';
 import { roomText } from './labels.js';
 import { MOVES, scanPoints } from './overlays.js';
 import { Taken, around, nameOf } from './places.js';
+import { bytes } from './shapes.js';
 
 const SHOWN = new Set(['lamp', 'door', 'window', 'elevator', 'stove', 'heater', 'appliance', 'cabinet']);
 const LETTER = 0.66; // of a text's height: the width of a letter
 const WIDER = 1.5, LETTERS = 8; // limits of a room's name: its width over that of the room, its letters
-const LEAST = 11, FACE = 4, TOUCH = 12; // px of a text's height, of the radius of a mark and of its target
+const LEAST = 11, FACE = 6, DOT = 4; // px of a text's height, of the radius of a device's mark, of a sensor's
+const REACH = 22, LATER = 14; // px around a tap: half of a target; by which sensors, small and on doors, come after others
 const MARGIN = 0.6; // m around all that is shown
-const BODY = 0.22; // m: half of a person's mark
+const BODY = 0.22, SIGN = 0.17, SPOT = 0.1; // m: half of the mark of a person, a device, a sensor
+const TOP = 1.8, HUNG = 1.3, PANE = 0.07, LEAST_PART = 0.03; // m over the floor to which furniture is drawn, over which it hangs; beside a pane; m²
+const MESH = 3; // type of a shape
+const LEAVES = ['door', 'window'], LEAST_LEAF = 0.2; // m
 const EMPTY = 5; // m: half of the ground that is drawn where there are no models
 const HEIGHT = 0.9; // m of walls over their floor that are drawn where the home has no rooms
 
@@ -28,9 +33,13 @@ export class Plan {
     this.text = 0; // m of height
     /** @type {number[][]} */
     this.names = []; // boxes of the rooms' names
+    /** @type {boolean | undefined} as one has set it */
+    this.legendOpen = undefined;
     this.element = by('plan');
     /** @type {Map<string, any>} */
     this.items = new Map();
+    /** @type {Map<any, number[][]>} by entity: where its mark is, from one end to the other */
+    this.lines = new Map();
     for (const topic of ['scene', 'home', 'entities']) home.on(topic, () => { this.stale = true; this.draw(); });
     home.on('rows', () => this.update());
     home.on('poses', () => this.later());
@@ -59,6 +68,7 @@ export class Plan {
     if (this.hidden || !this.stale || !this.home.scene) return;
     this.stale = false;
     this.items.clear();
+    this.lines.clear();
     const { home } = this, number = this.number();
     const rooms = home.rooms.filter((room) => room.storey === number), shown = home.entities.filter((e) => this.isShown(e, number));
     const walls = rooms.length ? [] : this.walls(number);
@@ -72,7 +82,7 @@ export class Plan {
     this.scale = Math.min(this.element.clientWidth / width, this.element.clientHeight / height) || 1;
     this.text = Math.max(Math.min(0.42, width / 30), LEAST / this.scale);
     this.root = svg('svg', { viewBox: `${left} ${top} ${width} ${height}`, role: 'group', 'aria-label': `Plan of floor ${number}` });
-    this.root.addEventListener('click', (/** @type {MouseEvent} */ e) => this.click(e));
+    this.root.addEventListener('click', (/** @type {MouseEvent} */ e) => this.onPick(this.hit(e.clientX, e.clientY)));
     const path = (/** @type {number[][]} */ p) => `M${p.map(([x, y]) => `${x.toFixed(3)} ${(-y).toFixed(3)}`).join('L')}Z`;
     for (const room of rooms) {
       const shape = svg('path', { class: 'room-shape', d: [room.polygon, ...(room.holes ?? [])].map(path).join(''), 'fill-rule': 'evenodd', 'stroke-width': 0.1 });
@@ -86,13 +96,15 @@ export class Plan {
     for (const door of home.described?.doors ?? []) {
       const [x, y, z, yaw] = door.pose;
       if (home.storeyAt(z + 0.2) !== number) continue;
-      const [dx, dy] = [(door.width / 2) * Math.cos(yaw), (door.width / 2) * Math.sin(yaw)];
-      this.root.append(svg('line', { class: 'gap', x1: x - dx, y1: -(y - dy), x2: x + dx, y2: -(y + dy) }));
+      const [c, s] = [Math.cos(yaw), Math.sin(yaw)], half = door.width / 2;
+      const along = (/** @type {number} */ away) => `M${x - half * c - away * s} ${-(y - half * s + away * c)}L${x + half * c - away * s} ${-(y + half * s + away * c)}`;
+      this.root.append(svg('path', { class: 'gap', d: along(0) }));
+      if (door.kind === 'window') this.root.append(svg('path', { class: 'pane', d: [-PANE, 0, PANE].map(along).join('') }));
     }
     this.name(rooms, shown);
     for (const e of [...shown].sort((a, b) => Number(home.isMover(a)) - Number(home.isMover(b)))) this.addItem(e); // people over lamps
     this.root.append(this.scan);
-    this.element.replaceChildren(this.root);
+    this.element.replaceChildren(this.root, this.legend(shown));
     this.showGoal(this.goal);
     this.update();
   }
@@ -105,7 +117,8 @@ export class Plan {
     const { home, text } = this;
     const taken = new Taken();
     for (const e of shown) {
-      if (!home.isMover(e)) taken.boxes.push([home.place(e)[0], home.place(e)[1], 0.2, 0.2]);
+      const half = this.half(e);
+      if (!home.isMover(e)) taken.boxes.push([home.place(e)[0], home.place(e)[1], half, half]);
     }
     const written = new Taken();
     for (const room of rooms) {
@@ -163,13 +176,41 @@ export class Plan {
   furniture(number) {
     const { home } = this, group = svg('g');
     for (const thing of home.described?.things ?? []) {
-      if (home.storeyAt(thing.pose[2] + 0.2) !== number || thing.type === 'window' || thing.type === 'lamp') continue;
-      const links = home.linksOf(thing.name);
-      for (const shape of home.scene.shapes) {
-        if (shape.type === 0 && links.includes(shape.link) && shape.size[0] * shape.size[1] >= 0.03) group.append(this.rect(shape, 'furniture'));
-      }
+      if (home.storeyAt(thing.pose[2] + 0.2) === number && thing.type !== 'window' && thing.type !== 'lamp') group.append(...this.thing(thing));
     }
     return group;
+  }
+
+  /**
+   * The outline and the symbol of a thing, as angen plan draws it.
+   * @param {any} thing @returns {any[]}
+   */
+  thing(thing) {
+    const { home } = this, links = home.linksOf(thing.name), [tx, ty, , , , qz, qw] = thing.pose, turn = 2 * Math.atan2(qz, qw), [c, s] = [Math.cos(turn), Math.sin(turn)];
+    const floor = home.storeys.find((one) => one.number === home.storeyAt(thing.pose[2] + 0.2))?.elevation ?? 0;
+    const low = (/** @type {any} */ part) => home.scene.links[part.link].pose[2] + part.pose[2] - part.size[2] / 2 - floor;
+    const parts = home.scene.shapes.filter((/** @type {any} */ part) => links.includes(part.link)).map((/** @type {any} */ part) => this.boxOf(part)).filter((/** @type {any} */ part) => low(part) < TOP);
+    if (!parts.some((/** @type {any} */ part) => part.size[0] * part.size[1] >= LEAST_PART)) return [];
+    const own = parts.flatMap((/** @type {any} */ part) => this.corners(part)).map((/** @type {number[]} */ [x, y]) => [(x - tx) * c + (y - ty) * s, (y - ty) * c - (x - tx) * s]);
+    const [xs, ys] = [own.map((/** @type {number[]} */ [x]) => x), own.map((/** @type {number[]} */ [, y]) => y)];
+    const [left, right, back, front] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
+    const line = (/** @type {number[][]} */ points) => `M${points.map(([u, v]) => {
+      const [x, y] = [(left + right) / 2 + (u * (right - left)) / 2, (back + front) / 2 + (v * (front - back)) / 2];
+      return `${(tx + x * c - y * s).toFixed(3)} ${(-(ty + x * s + y * c)).toFixed(3)}`;
+    }).join('L')}`;
+    const round = parts.length === 1 && parts[0].type ? Array.from({ length: 24 }, (_, i) => [Math.cos((i * Math.PI) / 12), Math.sin((i * Math.PI) / 12)]) : [[-1, -1], [1, -1], [1, 1], [-1, 1]];
+    const hung = parts.every((/** @type {any} */ part) => low(part) > HUNG) ? ' hung' : '';
+    return [svg('path', { class: `furniture${hung}`, d: `${line(round)}Z` }), svg('path', { class: `symbol${hung}`, d: (home.symbols[thing.type] ?? []).map(line).join('') })];
+  }
+
+  /** @param {any} shape @returns {any} the box around a mesh; another shape as it is */
+  boxOf(shape) {
+    if (shape.type < MESH) return shape;
+    const mesh = this.home.scene.meshes[shape.mesh];
+    mesh.box ??= extents(new Float32Array(bytes(mesh.vertices)));
+    const [x, y, z] = mesh.box.map((/** @type {number[]} */ [least, most]) => (least + most) / 2), [px, py, pz, ...turn] = shape.pose;
+    const yaw = 2 * Math.atan2(turn[2], turn[3]), [c, s] = [Math.cos(yaw), Math.sin(yaw)];
+    return { type: 0, link: shape.link, size: mesh.box.map((/** @type {number[]} */ [least, most]) => most - least), pose: [px + c * x - s * y, py + s * x + c * y, pz + z, ...turn] };
   }
 
   /** @param {any} e @param {number} number */
@@ -183,22 +224,39 @@ export class Plan {
     return moves || home.storeyAt(home.place(e)[2]) === number;
   }
 
+  /**
+   * What the marks of a floor mean.
+   * @param {any[]} shown @returns {any}
+   */
+  legend(shown) {
+    const { home } = this, sensor = (/** @type {any} */ e) => home.kinds[e.kind]?.role === 'sensor';
+    const kinds = new Map(shown.map((e) => [home.isRobot(e) ? 'robot' : sensor(e) ? 'sensor' : e.kind, e]));
+    const rows = [...kinds].sort((a, b) => Number(sensor(a[1])) - Number(sensor(b[1]))).map(([name, e]) => {
+      const sign = svg('g', { class: classOf(home, e) }, ...mark(home, e, 7));
+      sign.querySelector('.leaf')?.setAttribute('d', 'M-8 0H8');
+      return el('span', {}, svg('svg', { viewBox: '-11 -9 22 18', width: 22, height: 18, 'aria-hidden': true }, sign), words(name));
+    });
+    /** @type {any} */
+    const legend = el('details', { class: 'legend', open: this.legendOpen ?? !isNarrow() }, el('summary', { onclick: () => { this.legendOpen = !legend.open; } }, 'Legend'), el('div', {}, ...rows));
+    return legend;
+  }
+
+  /** @param {any} e @returns {number} m: half of the width of its mark */
+  half(e) {
+    const sensor = this.home.kinds[e.kind]?.role === 'sensor';
+    return Math.max((sensor ? DOT : FACE) / this.scale, this.home.isMover(e) ? BODY : sensor ? SPOT : SIGN);
+  }
+
   /** @param {any} e */
   addItem(e) {
-    const { home } = this, moves = home.isMover(e), sensor = home.kinds[e.kind]?.role === 'sensor';
-    const size = Math.max(FACE / this.scale, moves ? BODY : e.kind === 'lamp' ? 0.2 : sensor ? 0.1 : 0.14);
-    const item = svg('g', { class: `item ${e.kind}${home.isRobot(e) ? ' robot' : ''}${MOVES.has(e.kind) ? ' moves' : ''}`, tabindex: 0, role: 'button' },
-      e.kind === 'door' ? svg('line', { class: 'leaf' }) : null,
-      svg('circle', { class: 'face', r: size, visibility: e.kind === 'door' ? 'hidden' : null }),
-      moves ? svg('path', { class: 'face', d: `M${size * 1.5} 0L${size * 0.7} ${-size * 0.5}V${size * 0.5}Z` }) : null,
-      moves ? svg('text', { class: 'who', 'font-size': this.text * 0.8 }, e.name) : null,
-      svg('circle', { class: 'touch', r: Math.max(0.4, TOUCH / this.scale) }));
-    const pick = (/** @type {Event} */ event, point = /** @type {number[] | undefined} */ (undefined)) => { event.stopPropagation(); this.onPick({ entity: e, point }); };
-    item.addEventListener('click', (/** @type {MouseEvent} */ event) => pick(event, this.ground(event.clientX, event.clientY)));
+    const { home } = this, size = this.half(e);
+    const item = svg('g', { class: classOf(home, e), tabindex: 0, role: 'button' }, ...mark(home, e, size),
+      home.isMover(e) ? svg('text', { class: 'who', 'font-size': this.text * 0.8 }, e.name) : null);
     item.addEventListener('keydown', (/** @type {KeyboardEvent} */ event) => {
       if (event.key !== 'Enter' && event.key !== ' ') return;
       event.preventDefault();
-      pick(event);
+      event.stopPropagation();
+      this.onPick({ entity: e });
     });
     this.items.set(`${e.kind}/${e.name}`, item);
     this.root.append(item);
@@ -208,9 +266,9 @@ export class Plan {
     if (this.hidden || !this.root || this.stale) return;
     const { home } = this, number = this.number(), taken = new Taken(), high = 0.4 * this.text;
     taken.boxes.push(...this.names);
-    for (const e of home.movers) {
-      const [x, y, z] = Array.from(home.place(e));
-      if (home.storeyAt(z + 0.2) === number) taken.boxes.push([x, y, BODY, BODY]);
+    for (const [e] of this.lines) {
+      const [x, y, z] = Array.from(home.place(e)), half = this.half(e);
+      if (home.storeyAt(z + 0.2) === number) taken.boxes.push([x, y, half, half]);
     }
     for (const e of home.entities) {
       const item = this.items.get(`${e.kind}/${e.name}`);
@@ -218,18 +276,15 @@ export class Plan {
       const row = home.row(e), pose = home.place(e);
       const moves = home.isMover(e);
       if (moves) item.style.display = home.storeyAt(pose[2] + 0.2) === number ? '' : 'none';
-      const yaw = yawOf(pose);
-      const door = e.kind === 'door' ? this.door(e) : null;
-      item.setAttribute('transform', door ? `translate(${door.x} ${-door.y})` : `translate(${pose[0]} ${-pose[1]})`);
+      const leaves = LEAVES.includes(e.kind) ? this.leaves(e) : null;
+      this.lines.set(e, leaves ? [...leaves.now, ...leaves.shut] : item.style.display ? [] : [[pose[0], pose[1], pose[0], pose[1]]]);
+      if (leaves) item.querySelector('.leaf').setAttribute('d', leaves.now.map(([x, y, u, v]) => `M${x} ${-y}L${u} ${-v}`).join(''));
+      else item.setAttribute('transform', `translate(${pose[0]} ${-pose[1]})`);
       if (moves) {
-        item.querySelector('path').setAttribute('transform', `rotate(${(-yaw * 180) / Math.PI})`);
-        const wide = high * LETTER * e.name.length, shifts = around(BODY, wide, high);
+        item.querySelector('path').setAttribute('transform', `rotate(${(-yawOf(pose) * 180) / Math.PI})`);
+        const wide = high * LETTER * e.name.length, shifts = around(this.half(e), wide, high);
         const [dx, dy] = (item.style.display ? null : taken.put([pose[0], pose[1], wide, high], shifts)) ?? shifts[0];
         item.querySelector('text').setAttribute('transform', `translate(${dx} ${0.7 * high - dy})`);
-      }
-      if (door) {
-        const leaf = item.querySelector('.leaf');
-        for (const [name, value] of Object.entries({ x1: door.ends[0], y1: -door.ends[1], x2: door.ends[2], y2: -door.ends[3] })) leaf.setAttribute(name, value);
       }
       item.classList.toggle('on', home.isOn(row));
       item.classList.toggle('alarm', Boolean(row?.alarm));
@@ -241,25 +296,23 @@ export class Plan {
   }
 
   /**
-   * A door's middle, and the ends of its leaf around it.
+   * The lines of a door's or window's leaves, and of the opening.
    * @param {any} e
+   * @returns {{now: number[][], shut: number[][]}} x y x y
    */
-  door(e) {
+  leaves(e) {
     const { home } = this, described = home.described?.doors?.find((/** @type {any} */ d) => d.name === e.name && d.kind === e.kind);
-    const links = home.linksOf(e.model).filter((link) => home.scene.links[link].moves);
-    if (!described || !links.length) {
-      const [x, y] = Array.from(e.pose);
-      return { x, y, ends: [-0.4, 0, 0.4, 0] };
-    }
-    const [x, y, , yaw] = described.pose, half = described.width / 2;
-    const box = home.scene.shapes.filter((/** @type {any} */ s) => links.includes(s.link) && s.type === 0)
-      .sort((/** @type {any} */ a, /** @type {any} */ b) => b.size[0] * b.size[1] * b.size[2] - a.size[0] * a.size[1] * a.size[2])[0];
-    if (!box) return { x, y, ends: [-half * Math.cos(yaw), -half * Math.sin(yaw), half * Math.cos(yaw), half * Math.sin(yaw)] };
-    const p = home.pose(box.link), turn = 2 * Math.atan2(p[5], p[6]), [c, s] = [Math.cos(turn), Math.sin(turn)];
-    const along = box.size[0] > box.size[1] ? [box.size[0] / 2, 0] : [0, box.size[1] / 2];
-    const mx = p[0] + c * box.pose[0] - s * box.pose[1] - x, my = p[1] + s * box.pose[0] + c * box.pose[1] - y;
-    const [dx, dy] = [c * along[0] - s * along[1], s * along[0] + c * along[1]];
-    return { x, y, ends: [mx - dx, my - dy, mx + dx, my + dy] };
+    const across = (/** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ yaw, /** @type {number} */ half) => [
+      x - half * Math.cos(yaw), y - half * Math.sin(yaw), x + half * Math.cos(yaw), y + half * Math.sin(yaw)];
+    const shut = described ? [across(described.pose[0], described.pose[1], described.pose[3], described.width / 2)] : [];
+    const volume = (/** @type {any} */ s) => s.size[0] * s.size[1] * s.size[2];
+    const now = home.linksOf(e.model).filter((link) => home.scene.links[link].moves).flatMap((link) => {
+      const box = home.scene.shapes.filter((/** @type {any} */ s) => s.link === link && s.type === 0).sort((/** @type {any} */ a, /** @type {any} */ b) => volume(b) - volume(a))[0];
+      if (!box || Math.max(box.size[0], box.size[1]) < LEAST_LEAF) return [];
+      const p = home.pose(link), turn = 2 * Math.atan2(p[5], p[6]), [c, s] = [Math.cos(turn), Math.sin(turn)], upright = box.size[0] < box.size[1];
+      return [across(p[0] + c * box.pose[0] - s * box.pose[1], p[1] + s * box.pose[0] + c * box.pose[1], turn + (upright ? Math.PI / 2 : 0), (upright ? box.size[1] : box.size[0]) / 2)];
+    });
+    return { now: now.length ? now : shut.length ? shut : [across(e.pose[0], e.pose[1], 0, 0.4)], shut };
   }
 
   /** @param {number} number */
@@ -285,9 +338,19 @@ export class Plan {
     this.scan.replaceChildren(...points.filter((_, i) => i % 2 === 0).map(([x, y]) => svg('circle', { r: 0.05, cx: x.toFixed(2), cy: (-y).toFixed(2) })));
   }
 
-  /** @param {MouseEvent} e */
-  click(e) {
-    this.onPick({ point: this.ground(e.clientX, e.clientY), cls: 'floor' });
+  /**
+   * What a tap means: the nearest mark in its reach, else the floor.
+   * @param {number} x @param {number} y px
+   * @returns {{entity?: any, model?: string, cls?: string, point: number[]}}
+   */
+  hit(x, y) {
+    const point = this.ground(x, y), { kinds } = this.home;
+    let entity = null, least = Infinity;
+    for (const [e, lines] of this.lines) {
+      const far = Math.min(...lines.map((line) => this.scale * away(point, line))), cost = far + (kinds[e.kind]?.role === 'sensor' ? LATER : 0);
+      if (far <= REACH && cost < least) { least = cost; entity = e; }
+    }
+    return entity ? { entity, model: entity.model, point } : { point, cls: 'floor' };
   }
 
   /** @param {number} x @param {number} y px @returns {number[]} the place of the floor there */
@@ -307,5 +370,35 @@ export class Plan {
   }
 }
 
+/** @param {Float32Array} corners x y z of each @returns {number[][]} the least and the most x, y and z */
+function extents(corners) {
+  const found = [[Infinity, -Infinity], [Infinity, -Infinity], [Infinity, -Infinity]];
+  corners.forEach((value, i) => { found[i % 3] = [Math.min(found[i % 3][0], value), Math.max(found[i % 3][1], value)]; });
+  return found;
+}
+
 /** @param {string} text @param {number} most letters */
 const shortened = (text, most) => (text.length > most ? `${text.slice(0, most - 1)}…` : text);
+
+/** @param {number[]} point @param {number[]} line x y x y @returns {number} m between them */
+function away([x, y], [u, v, s, t]) {
+  const [dx, dy] = [s - u, t - v], part = Math.min(1, Math.max(0, ((x - u) * dx + (y - v) * dy) / (dx * dx + dy * dy || 1)));
+  return Math.hypot(u + part * dx - x, v + part * dy - y);
+}
+
+/** @param {import('./home.js').Home} home @param {any} e @returns {string} */
+const classOf = (home, e) => `item ${e.kind}${home.isRobot(e) ? ' robot' : ''}${home.kinds[e.kind]?.role === 'sensor' ? ' sensor' : ''}${MOVES.has(e.kind) ? ' moves' : ''}`;
+
+/**
+ * The mark of a kind: a circle for people, robots and lamps, a square for other devices, a diamond for sensors.
+ * @param {import('./home.js').Home} home @param {any} e @param {number} size half of its width
+ * @returns {any[]}
+ */
+function mark(home, e, size) {
+  if (LEAVES.includes(e.kind)) return [svg('path', { class: 'leaf' })];
+  if (home.kinds[e.kind]?.role === 'sensor') return [svg('path', { class: 'face', d: `M${size} 0L0 ${size}L${-size} 0L0 ${-size}Z` })];
+  if (home.isMover(e)) return [svg('path', { class: 'face', d: `M${size * 1.7} 0L${size * 0.5} ${-size * 0.85}V${size * 0.85}Z` }), svg('circle', { class: 'face', r: size })];
+  const part = size * Math.SQRT1_2;
+  if (e.kind === 'lamp') return [svg('circle', { class: 'face', r: size }), svg('path', { class: 'sign', d: `M${-part} ${-part}L${part} ${part}M${-part} ${part}L${part} ${-part}` })];
+  return [svg('rect', { class: 'face', x: -size, y: -size, width: 2 * size, height: 2 * size, rx: 0.3 * size }), svg('text', { class: 'sign', y: 0.55 * size, 'font-size': 1.6 * size }, glyph(e.kind))];
+}

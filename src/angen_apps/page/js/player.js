@@ -42,7 +42,9 @@ export class Player {
   /** @param {import('./home.js').Home} home */
   constructor(home) {
     this.home = home;
-    this.time = Number(new URLSearchParams(location.search).get('t')) || 0;
+    const given = new URLSearchParams(location.search).get('t');
+    this.time = Number(given) || 0;
+    this.begun = given !== null;
     this.playing = true;
     this.speed = 1;
     this.end = 0;
@@ -66,12 +68,18 @@ export class Player {
   }
 
   onLine() {
-    const { end, loaded } = this.home.line, before = this.loaded;
+    const { begin, end, loaded, speed } = this.home.line, before = this.loaded;
     this.end = end;
     this.loaded = loaded;
     if (before < this.time && loaded >= this.time) this.seek(this.time);
     if (!this.bar) this.build();
     this.slider.max = String(end);
+    if (!this.begun && begin !== undefined) {
+      this.begun = true;
+      this.speed = speed;
+      this.rate.value = String(speed);
+      if (this.time < begin) this.seek(begin);
+    }
     this.ribbonStale = true;
   }
 
@@ -102,7 +110,7 @@ export class Player {
 
   build() {
     this.play = el('button', { type: 'button', class: 'icon main', id: 'replay', 'aria-label': 'Play or pause', onclick: () => this.toggle() });
-    const speed = el('select', { 'aria-label': 'Speed', onchange: () => { this.speed = Number(speed.value); } }, ...SPEEDS.map((s) => el('option', { value: s, selected: s === 1 }, `${s}×`)));
+    this.rate = el('select', { 'aria-label': 'Speed', onchange: () => { this.speed = Number(this.rate.value); } }, ...SPEEDS.map((s) => el('option', { value: s, selected: s === 1 }, `${s}×`)));
     this.slider = el('input', { type: 'range', id: 'moment', min: 0, step: 'any', value: 0, 'aria-label': 'Time', oninput: () => this.seek(Number(this.slider.value)) });
     this.label = el('span', { class: 'number' });
     this.ribbon = el('canvas', { role: 'img', 'aria-label': 'What each person did, or the room that each was in' });
@@ -117,7 +125,7 @@ export class Player {
       (navigator.clipboard?.writeText(url.href) ?? Promise.reject()).then(copied, shown);
     } }, 'Link');
     this.bar = el('section', { id: 'player', 'aria-label': 'Recording' }, el('div', { class: 'line' }, this.ribbon, this.slider),
-      el('div', { class: 'tools' }, this.play, el('button', { type: 'button', title: 'To the next event (N)', onclick: () => this.next() }, 'Next event'), speed, this.label, el('span', { class: 'grow' }), share));
+      el('div', { class: 'tools' }, this.play, el('button', { type: 'button', title: 'To the next event (N)', onclick: () => this.next() }, 'Next event'), this.rate, this.label, el('span', { class: 'grow' }), share));
     by('side').before(this.bar);
     new ResizeObserver(() => { this.ribbonStale = true; }).observe(this.bar);
     const frame = () => { requestAnimationFrame(frame); this.frame(); };
@@ -132,7 +140,7 @@ export class Player {
     if (playing && next > this.time) this.seek(next, true); // it waits for the rows
     this.play.textContent = playing ? '❚❚' : '▶';
     this.slider.value = String(this.time);
-    const text = `${clockText(this.time)} / ${clockText(this.end)}${this.loaded < this.end ? `, read ${Math.round((100 * this.loaded) / this.end)} %` : ''}`;
+    const text = `${clockText(this.time)} / ${clockText(this.end)}${this.end ? '' : ', one moment: it has no duration'}${this.loaded < this.end ? `, read ${Math.round((100 * this.loaded) / this.end)} %` : ''}`;
     if (this.label.textContent !== text) this.label.textContent = text;
     if (this.ribbonStale && now - (this.ribbonAt ?? 0) > 1000) {
       this.ribbonStale = false;

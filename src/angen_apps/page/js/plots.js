@@ -1,6 +1,6 @@
-/** Plots of readings over the last five minutes. */
+/** Plots of readings over the last five minutes, or since the page was opened. */
 import uPlot from '../vendor/uplot/uPlot.esm.js';
-import { el, notice } from './dom.js';
+import { download, el, notice } from './dom.js';
 import { HISTORY } from './home.js';
 
 const MOST = 6;
@@ -16,7 +16,11 @@ export class Plots {
     this.shown = [];
     this.holder = el('div');
     this.pause = el('button', { type: 'button', 'aria-pressed': 'false', onclick: () => this.setPaused(!this.paused) }, 'Pause plots');
-    this.tools = el('div', { class: 'tools', hidden: true }, this.pause, el('span', { class: 'soft' }, 'Drag to zoom, double click to reset'));
+    this.whole = el('button', { type: 'button', 'aria-pressed': 'false', title: 'All since this page was opened', onclick: () => {
+      this.whole.setAttribute('aria-pressed', String(!this.isWhole()));
+      this.update();
+    } }, 'Whole run');
+    this.tools = el('div', { class: 'tools', hidden: true }, this.pause, this.whole, el('button', { type: 'button', title: 'All readings since this page was opened', onclick: () => this.save() }, 'CSV'), el('span', { class: 'soft' }, 'Drag to zoom, double click to reset'));
     this.element = el('div', {}, this.tools, this.holder);
     setInterval(() => this.update(), PERIOD);
   }
@@ -76,6 +80,18 @@ export class Plots {
     }, [[], []], entry.box);
   }
 
+  isWhole() {
+    return this.whole.getAttribute('aria-pressed') === 'true';
+  }
+
+  save() {
+    const lines = [...this.home.series].flatMap(([key, { t, v }]) => {
+      const [, kind, name, field] = /^([^/]*)\/(.*)\/([^/]*)$/.exec(key) ?? [], unit = this.home.fields(kind).find((one) => one.name === field)?.unit ?? '';
+      return t.map((time, i) => `${time},${kind},"${name.replaceAll('"', '""')}",${field},${v[i]},${unit}`);
+    });
+    download('readings.csv', ['time,kind,name,field,value,unit', ...lines, ''].join('\n'), 'text/csv');
+  }
+
   now() {
     return this.home.stats.time;
   }
@@ -101,7 +117,7 @@ export class Plots {
     for (const entry of this.shown) {
       const series = this.home.series.get(entry.key);
       if (!series || !entry.box.isConnected) continue;
-      const to = Math.max(this.now(), series.t[series.t.length - 1] ?? 0), from = Math.max(to - HISTORY, Math.min(series.t[0] ?? to, to - 10));
+      const to = Math.max(this.now(), series.t[series.t.length - 1] ?? 0), from = Math.max(this.isWhole() ? -Infinity : to - HISTORY, Math.min(series.t[0] ?? to, to - 10));
       const times = [...series.t], values = [...series.v];
       if (times.length && times[times.length - 1] < to) { times.push(to); values.push(values[values.length - 1]); }
       entry.plot.setData([times, values], !entry.zoomed);

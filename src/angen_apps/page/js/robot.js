@@ -1,6 +1,6 @@
 /** Robots: drive by keys or a stick, the camera's picture, a goal. */
 import { el, isForOthers } from './dom.js';
-import { thingRow } from './card.js';
+import { thingRow, trip } from './card.js';
 import { RobotMap } from './robotmap.js';
 
 const SPEED = 0.35, TURN = 1.4; // m/s, rad/s, at the end of the stick
@@ -20,6 +20,7 @@ export class RobotPanel {
     this.keys = new Set();
     this.camera = false;
     this.map = new RobotMap(home, page.goal);
+    home.on('trips', () => page.refreshThings());
     home.on('picture', ({ name, content }) => this.onPicture(name, content));
     addEventListener('keydown', (e) => this.key(e, true));
     addEventListener('keyup', (e) => this.key(e, false));
@@ -52,8 +53,7 @@ export class RobotPanel {
     this.stick.addEventListener('pointermove', (/** @type {PointerEvent} */ e) => { if (this.stick.hasPointerCapture(e.pointerId)) this.drag(e); });
     for (const end of ['pointerup', 'pointercancel']) this.stick.addEventListener(end, () => this.steer(0, 0));
     this.subscribe();
-    return [el('div', { class: 'tools' }, choose, this.cameras.length && !home.status.replay ? shown : null,
-      !home.status.replay && el('button', { type: 'button', onclick: () => this.page.goal.begin(robot) }, 'Set goal …')),
+    return [el('div', { class: 'tools' }, choose, this.cameras.length && !home.status.replay ? shown : null), ...trip(home, this.page, robot),
     thingRow(home, robot, () => this.page.show(robot)), this.picture, this.map.show(robot, this.lidar ? `scan:${this.lidar.name}` : ''),
     ...(home.status.replay ? [] : [el('p', { class: 'soft', style: 'text-align: center' }, 'Drag on the map: a goal and its heading. Or drag the robot itself in the home.'),
       this.stick, el('p', { class: 'soft', style: 'text-align: center' }, 'Drag the stick, or hold W A S D.')])];

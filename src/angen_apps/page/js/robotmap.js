@@ -37,7 +37,7 @@ export class RobotMap {
       const [x, y, z] = goal.pose, to = this.at(e), [dx, dy] = [to[0] - x, to[1] - y];
       if (Math.hypot(dx, dy) > TURNS) goal.put([x, y, z, Math.atan2(dy, dx)]);
     });
-    canvas.addEventListener('pointerup', () => goal.send());
+    canvas.addEventListener('pointerup', () => goal.send(this.robot));
     canvas.addEventListener('wheel', (/** @type {WheelEvent} */ e) => {
       e.preventDefault();
       this.span = Math.min(40, Math.max(3, this.span * Math.exp(0.001 * e.deltaY)));

@@ -1,6 +1,8 @@
 /** The shapes of a scene as instanced meshes: one draw call for all boxes of a class. */
 import * as THREE from '../vendor/three/three.module.min.js';
 
+/** @param {string} text base64 */
+export const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
 const BOX = 0, CYLINDER = 2; // types of shapes; above the latter: meshes
 export const CUT = 1.15; // m over the floor, where walls are cut
 const FINE = 1e-5, COARSE = 0.035; // m: corners of a mesh that are nearer are one; coarse where the processor draws
@@ -43,7 +45,6 @@ function plainGeometry(mesh, copies) {
  * @param {any} mesh of the scene: arrays in base64 @param {number} cell m: corners in one become one
  */
 function meshGeometry(mesh, cell) {
-  const bytes = (/** @type {string} */ text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
   const all = new Float32Array(bytes(mesh.vertices)), triangles = new Uint32Array(bytes(mesh.triangles));
   /** @type {Map<string, number>} */
   const known = new Map();

@@ -16,7 +16,6 @@ const matrix = new THREE.Matrix4();
 const EASE = 12; // 1/s, with which shown poses follow those that were sent
 const PLAIN_PERIOD = 80; // ms between frames where the processor draws
 const SHARE = 1.3; // of the time that a frame took, until the next one: buttons need some too
-const PLAIN_PIXELS = 4.5e5;
 const TOWER = 3; // floors: of more, those below the top one are closed while all are shown
 const GROUND = new THREE.Box3(new THREE.Vector3(-5, -5, 0), new THREE.Vector3(5, 5, 1)); // where there are no models
 const LEAF = 1.2; // m: moving leaves in their walls are higher
@@ -38,6 +37,7 @@ export class View3d {
     this.top = 0;
     this.frames = 0;
     this.drawnAt = 0;
+    this.turnedAt = -Infinity;
     this.pause = PLAIN_PERIOD; // ms
     this.hidden = false;
     this.element = by('scene');
@@ -48,7 +48,7 @@ export class View3d {
     this.renderer.shadowMap.autoUpdate = false;
     this.element.append(this.renderer.domElement);
     this.scene = new THREE.Scene();
-    this.viewpoint = new Viewpoint(this.element, this.renderer.domElement, () => { this.dirty = true; });
+    this.viewpoint = new Viewpoint(this.element, this.renderer.domElement, () => { this.dirty = true; this.turnedAt = performance.now(); });
     this.sharpness = new Sharpness();
     this.sky = new Sky();
     this.scene.add(this.sky.group);
@@ -251,7 +251,7 @@ export class View3d {
     this.last = now;
     if (this.hidden || !this.shapes) return;
     this.move(dt);
-    if (this.plain && this.sharpness.rest(this.dirty, now - this.drawnAt)) this.resize();
+    if (this.plain && this.sharpness.rest(now - this.turnedAt)) this.resize();
     if (!this.dirty && this.relabel) this.labels.place(this);
     this.relabel = false;
     if (!this.dirty || (this.plain && now - this.drawnAt < this.pause)) return;
@@ -295,7 +295,7 @@ export class View3d {
   resize() {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (!width || !height) return;
-    this.renderer.setPixelRatio(this.plain ? this.sharpness.share() * Math.min(1, Math.sqrt(PLAIN_PIXELS / (width * height))) : Math.min(2, devicePixelRatio));
+    this.renderer.setPixelRatio(this.plain ? this.sharpness.share(width * height) : Math.min(2, devicePixelRatio));
     this.renderer.setSize(width, height);
     this.viewpoint.resize(width, height);
     if (!this.framed) this.look();

@@ -11,12 +11,13 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from angen_apps.plan.symbols import SYMBOLS
 from angen_apps.web.guard import Guard, is_loopback, url_host
 from angen_apps.web.server import Server, Source, listen
 from angen_tools.common.catalog import kinds
 from angen_tools.common.port import not_served, require_free
 
-KEYS = ('kind', 'doc', 'role', 'verbs', 'values', 'fields', 'models')  # that the page reads
+KEYS = ('kind', 'doc', 'role', 'verbs', 'values', 'fields', 'models')  # keys that the page reads
 
 
 def page() -> Path:
@@ -60,6 +61,8 @@ async def _serve(source: Source, host: str, port: int, as_json: bool) -> None:
         query = f'?token={guard.token}' if guard.token else ''
         show_address(f'http://{url_host(shown)}:{port}/{query}', bool(guard.token), as_json)
 
+    source.store.put('symbols', {name: [[[round(x, 3), round(y, 3)] for x, y in line]
+                                        for line in lines] for name, lines in SYMBOLS.items()})
     work = asyncio.ensure_future(
         listen(Server(source, guard, page(), described_kinds()), host, port, started))
     loop = asyncio.get_running_loop()
@@ -100,5 +103,5 @@ def web_live(host: str, port: int, as_json: bool) -> None:
     from angen_apps.web.feed import Feed
     from angen_apps.web.node import start_node
     require_free(host, port)
-    start_node()
+    start_node('web')
     serve(Feed(), host, port, as_json)

@@ -12,7 +12,7 @@ import numpy as np
 
 from angen_apps.data.generate import CABINS, HOME, LOADS, sha256
 from angen_apps.data.site import Site, apartment
-from angen_apps.data.validate import homes, rows
+from angen_apps.data.validate import EVENTS, POWER, SLIDES, TRACK, TRUTH, homes, rows
 from angen_apps.residents.figures import walker
 from angen_apps.web.feed import row_of
 from angen_apps.web.played import Played
@@ -23,14 +23,15 @@ from angen_tools.common.files import write_text
 from angen_tools.common.wait import wait
 
 DAY = 86400.0  # s
-STANDBY = 0.05  # of the most W of an appliance: with less it is off
+STANDBY = 0.05  # share of the most W of an appliance: with less it is off
 LEAST = 1.0  # W of an appliance that is on: the maximum of an unused one is its standby power
 RATE = 20.0  # simulated s per s, while leaves are measured
+BEFORE, SPEED = 30.0, 20.0  # s before the first gets up, where a page begins to play, and how fast
 LIMIT = 120.0  # s of wall time, for the node to answer
 POSTURES = {'stand': 'standing', 'sit': 'sitting', 'lie': 'lying'}
 LEAVES = ('door', 'window', 'cabinet')
 WORDS = {'motion': ('MOTION', 'still'), 'area': ('MOTION', 'still'), 'door': ('open', 'closed'),
-         'item': ('pressed', 'free'), 'power': ('on', 'off')}  # as summaries have them
+         'item': ('pressed', 'free'), 'power': ('on', 'off')}  # words of summaries
 SHOWN = (*LEAVES, 'lamp', 'appliance', 'person')  # devices whose states the files have
 FIRST = ('ON', 'OPEN', 'PRESENT')
 UNITS = {'temperature': ('temperature', '°C'), 'light': ('illuminance', 'lx')}
@@ -102,7 +103,7 @@ class Day(Played):
         if not expected:
             apartment(path)
         elif given is None or sha256(given) != expected:
-            raise Failure(f'{self._data}: is of a world of your own; give the same file by --world')
+            raise Failure(f'{self._data}: is of a world of your own; give the same file, too')
         site = Site(given if expected and given else path, self._settings['seed'],
                     not self._settings['own_sensors'], self._settings['light'])
         for resident in self._layout['residents']:
@@ -117,7 +118,7 @@ class Day(Played):
         write_text(path, site.world.save())
 
     def _truth(self) -> Iterator[dict[str, str]]:
-        return rows(self._data / 'truth.csv.gz')
+        return rows(self._data / 'truth.csv.gz', TRUTH)
 
     # --- from the node: the scene, and the angles of open leaves
 
@@ -193,6 +194,8 @@ class Day(Played):
                           for r in self._truth() if r['resident'] == name]]
                   for name in self._people]
         self._line['ribbon'] = ribbon
+        wakes = [spans[0][1] for _, spans in ribbon if spans and spans[0][2] == 'sleep']
+        self._line.update(begin=max(0.0, min(wakes, default=0.0) - BEFORE), speed=SPEED)
 
     def _place(self, time: float, link: int, pose: Any) -> None:
         none = np.zeros(0, np.uint32)
@@ -206,7 +209,7 @@ class Day(Played):
             moments[row['resident']].append(moment_of(row, things, self._floors))
             self.store.add_event([float(row['start']), 'resident', row['resident'], row['phase'],
                                   ' '.join(filter(None, (row['activity'], row['room'])))])
-        for step in rows(self._data / 'track.csv.gz'):
+        for step in rows(self._data / 'track.csv.gz', TRACK):
             moments[step['resident']].append(
                 Moment(float(step['time']), 1, float(step['x']), float(step['y']),
                        floor=self._elevations.get(int(step.get('storey') or 0))))
@@ -217,7 +220,7 @@ class Day(Played):
         """Poses and texts of a resident; who walks faces ahead."""
         link = self._links[name][0]
         floor = next((m.floor for m in moments if m.floor is not None), 0.0)
-        above = float(self._closed[link][2]) - floor  # of the body's origin
+        above = float(self._closed[link][2]) - floor  # height of the body's origin
         rider = Rider([*self._cabins.values()], floor)
         at, yaw = (0.0, 0.0), 0.0
         ends = [*(m.time for m in moments[1:]), self._line['end']]
@@ -242,7 +245,7 @@ class Day(Played):
         leaves = {e['model']: e for e in entities if e['kind'] in LEAVES}
         names = {(e['kind'], e['model']): e['name'] for e in entities}
         names.update({(e['kind'], e['name']): e['name'] for e in entities})
-        for event in rows(self._data / 'events.csv.gz'):
+        for event in rows(self._data / 'events.csv.gz', EVENTS):
             time = (datetime.datetime.fromisoformat(event['time']) - self._start).total_seconds()
             sensor = sensors[event['sensor']]
             kind, (source, model) = sensor['kind'], self._sources.get(sensor['name'], ('', ''))
@@ -280,7 +283,7 @@ class Day(Played):
         if not path.is_file():
             return  # data of an earlier version
         loads = [(float(row['time']), row['kind'], row['device'], float(row['watts']))
-                 for row in rows(path)]
+                 for row in rows(path, POWER)]
         most: dict[str, float] = defaultdict(float)
         for _, kind, name, watts in loads:
             most[f'{kind}/{name}'] = max(most[f'{kind}/{name}'], watts)
@@ -296,7 +299,7 @@ class Day(Played):
 
     def _slides(self) -> list[dict[str, str]]:
         path = self._data / CABINS
-        return list(rows(path)) if path.is_file() else []  # no elevator, or data of before
+        return list(rows(path, SLIDES)) if path.is_file() else []  # no elevator, or data of before
 
     def _play_cabins(self) -> None:
         links = self.store.scene['links'] if self.store.scene else []

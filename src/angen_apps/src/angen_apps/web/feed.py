@@ -17,7 +17,7 @@ from angen_apps.web.store import PICTURE, SCAN, Row, Store
 from angen_apps.web.threads import in_thread
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home
-from angen_tools.live.client import Client
+from angen_tools.session.live import Live
 
 WATCH = 0.5  # s between looks at the master and the node
 LINGER = 5.0  # s for which topics stay subscribed after the last browser has left
@@ -34,7 +34,7 @@ class Feed:
         self._requested: set[str] | None = None
         self._idle_since: float | None = None
         self._subscribers: dict[str, Any] = {}
-        self._lock = threading.Lock()  # of the subscribers
+        self._lock = threading.Lock()  # guards the subscribers
         self._master = 0  # its process
         self._listed = -1  # the scene of the last survey
         self.store.put('status', {'node': False, 'replay': False})
@@ -47,6 +47,7 @@ class Feed:
         return answer
 
     def close(self) -> None:
+        self._orders.trips.close()
         self._unsubscribe_all()
 
     async def serve(self) -> None:
@@ -92,13 +93,13 @@ class Feed:
     def _survey(self) -> None:
         """The answer of /angen/list, after models were spawned or deleted."""
         try:
-            entities = Client().entities()
+            entities = Live().entities()
         except Failure:
             self._listed = -1
             return
         self.store.put('entities', [
             {'kind': e.kind, 'name': e.name, 'model': e.model, 'topic': e.topic, 'type': e.type,
-             'room': e.room, 'pose': scene.pose(e.pose)} for e in entities])
+             'room': e.room, 'pose': scene.rounded(e.pose, 5)} for e in entities])
 
     def _subscribe(self, key: str, topic: str, kind: Any, handle: Any, queue: int = 50) -> None:
         import rospy
@@ -122,19 +123,19 @@ class Feed:
         from angen_msgs.msg import Event, Scene, SceneChanges, Stats, Summary
         from angen_msgs.msg import Home as HomeMessage
         from rospy.numpy_msg import numpy_msg
-        self._subscribe('scene', '/angen/scene', Scene, self._on_scene)
-        self._subscribe('changes', '/angen/scene_changes', numpy_msg(SceneChanges),
+        self._subscribe('scene', 'angen/scene', Scene, self._on_scene)
+        self._subscribe('changes', 'angen/scene_changes', numpy_msg(SceneChanges),
                         self._on_changes)
-        self._subscribe('summary', '/angen/summary', Summary, self._on_summary)
-        self._subscribe('stats', '/angen/stats', Stats, self._on_stats)
-        self._subscribe('events', '/angen/events', Event, self._on_event)
-        self._subscribe('home', '/angen/home', HomeMessage, self._on_home)
+        self._subscribe('summary', 'angen/summary', Summary, self._on_summary)
+        self._subscribe('stats', 'angen/stats', Stats, self._on_stats)
+        self._subscribe('events', 'angen/events', Event, self._on_event)
+        self._subscribe('home', 'angen/home', HomeMessage, self._on_home)
 
     def _subscribe_requested(self, topic: str) -> None:
         from sensor_msgs.msg import Image, LaserScan
         if topic == COST:
             from angen_msgs.msg import Cost
-            self._subscribe(COST, '/angen/cost', Cost, self._on_cost)
+            self._subscribe(COST, 'angen/cost', Cost, self._on_cost)
             return
         kind, _, name = topic.partition(':')
         entity = next((e for e in self.store.part('entities') or []
@@ -171,7 +172,7 @@ class Feed:
                               event.detail])
 
     def _on_home(self, message: Any) -> None:
-        self.store.put('home', dataclasses.asdict(Home.of_message(message)))
+        self.store.put('home', dataclasses.asdict(Home.of(message)))
 
     def _on_cost(self, cost: Any) -> None:
         parts = ('process', 'physics', 'devices', 'sensors', 'commands', 'snapshots', 'publishing')
@@ -212,11 +213,11 @@ def row_of(entry: Any) -> Row:
 def seed() -> int:
     """The seed of the noise of the run."""
     import rospy
-    return int(rospy.get_param('/angen/seed', 1))
+    return int(rospy.get_param('angen/seed', 1))
 
 
 def master_process() -> int:
-    """The process of the ROS master, 0 where there is none."""
+    """The process of the ROS master, 0 if there is none."""
     import rosgraph
     try:
         return int(rosgraph.Master('/angen_web').getPid())

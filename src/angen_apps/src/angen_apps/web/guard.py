@@ -9,7 +9,7 @@ from typing import Awaitable, Callable
 
 from aiohttp import web
 
-COOKIE = 'angen_token'
+COOKIE = 'angen_token_{}'  # by port: browsers send cookies to all ports of a host
 Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 HEADERS = {
     'Content-Security-Policy': "default-src 'self'; img-src 'self' blob: data:; "
@@ -41,12 +41,23 @@ class Guard:
     def __init__(self, host: str, port: int, names: set[str]) -> None:
         """`names`: of this machine, where others may reach it."""
         self.token = '' if is_loopback(host) else secrets.token_urlsafe(24)
+        self._cookie = COOKIE.format(port)
         everyone = {'localhost', '127.0.0.1', '[::1]', url_host(host), *map(url_host, names)}
         self._hosts = {f'{name}:{port}'.lower() for name in everyone}
 
     @web.middleware
     async def middleware(self, request: web.Request, handler: Handler) -> web.StreamResponse:
-        """Rejects requests that are not from a page of this server."""
+        """Rejects requests that are not from a page of this server; adds HEADERS to answers."""
+        try:
+            response = await self._answer(request, handler)
+        except web.HTTPException as answer:
+            answer.headers.update(HEADERS)
+            raise
+        if not response.prepared:
+            response.headers.update(HEADERS)
+        return response
+
+    async def _answer(self, request: web.Request, handler: Handler) -> web.StreamResponse:
         host = request.headers.get('Host', '').lower()
         if host not in self._hosts:
             raise web.HTTPForbidden(text='This server does not have that name.\n')
@@ -58,15 +69,12 @@ class Guard:
             if given is not None and self._fits(given) and request.path == '/':
                 rest = [(key, value) for key, value in request.query.items() if key != 'token']
                 answer = web.HTTPFound(request.rel_url.with_query(rest))
-                answer.set_cookie(COOKIE, self.token, httponly=True, samesite='Strict')
+                answer.set_cookie(self._cookie, self.token, httponly=True, samesite='Strict')
                 raise answer
-            if not self._fits(given or request.cookies.get(COOKIE) or ''):
+            if not self._fits(given or request.cookies.get(self._cookie) or ''):
                 raise web.HTTPUnauthorized(
                     text='Open the address that angen web has printed, with its token.\n')
-        response = await handler(request)
-        if not response.prepared:
-            response.headers.update(HEADERS)
-        return response
+        return await handler(request)
 
     def _fits(self, token: str) -> bool:
         return hmac.compare_digest(token.encode(), self.token.encode())

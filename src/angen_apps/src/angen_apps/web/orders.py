@@ -5,18 +5,20 @@ import math
 import threading
 from typing import Any, Callable
 
-from angen_apps.navigation.goal import TOPIC, is_robot, publish_goal
+from angen_apps.controls.places import Taken, place, things
+from angen_apps.navigation.goal import TOPIC, publish_goal
 from angen_apps.web.store import Store
-from angen_tools.common.catalog import kinds
+from angen_apps.web.trips import Trips
+from angen_tools.common.catalog import is_robot, kinds
 from angen_tools.common.failure import Failure
-from angen_tools.live.client import Client
+from angen_tools.common.home import Home
+from angen_tools.session.live import Live
 
 LONGEST = 4096  # bytes of a text, as the simulator's own limit
 MOST_STEPS = 10_000_000
 MOST_RATE = 1000.0
 HOLD = 0.7  # s after the last order, and a robot stops
 LIMIT = 15.0  # s that a service may take
-PAUSE, UNPAUSE = '/gazebo/pause_physics', '/gazebo/unpause_physics'
 
 
 class Orders:
@@ -24,13 +26,15 @@ class Orders:
 
     def __init__(self, store: Store) -> None:
         self._store = store
+        self.trips = Trips(store)
         self._publishers: dict[str, Any] = {}
         self._stops: dict[str, threading.Timer] = {}
-        self._lock = threading.Lock()  # of these two
+        self._lock = threading.Lock()  # guards these two
         self._known: dict[str, Callable[[dict[str, Any]], dict[str, Any]]] = {
             'command': self._command, 'pause': self._pause, 'resume': self._resume,
             'step': self._step, 'reset': self._reset, 'rate': self._rate, 'spawn': self._spawn,
-            'delete': self._delete, 'save': self._save, 'drive': self._drive, 'goal': self._goal}
+            'delete': self._delete, 'save': self._save, 'drive': self._drive, 'goal': self._goal,
+            'halt': self._halt}
 
     def execute(self, order: dict[str, Any]) -> dict[str, Any]:
         """The answer; ValueError where the simulator rejects it."""
@@ -45,21 +49,19 @@ class Orders:
     def _command(self, order: dict[str, Any]) -> dict[str, Any]:
         from angen_msgs.srv import SendCommand
         target, words = text(order, 'target'), text(order, 'text')
-        answer = Client().call('/angen/command', SendCommand, LIMIT, target=target, text=words)
+        answer = Live().call('angen/command', SendCommand, LIMIT, target=target, text=words)
         return {'text': answer.state}
 
     def _pause(self, _: dict[str, Any]) -> dict[str, Any]:
-        return self._empty(PAUSE)
+        Live().pause()
+        return {}
 
     def _resume(self, _: dict[str, Any]) -> dict[str, Any]:
-        return self._empty(UNPAUSE)
+        Live().resume()
+        return {}
 
     def _reset(self, _: dict[str, Any]) -> dict[str, Any]:
-        return self._empty('/gazebo/reset_simulation')
-
-    def _empty(self, service: str) -> dict[str, Any]:
-        from std_srvs.srv import Empty
-        Client().call(service, Empty, LIMIT)
+        Live().reset()
         return {}
 
     def _step(self, order: dict[str, Any]) -> dict[str, Any]:
@@ -67,21 +69,14 @@ class Orders:
         stats = self._store.part('stats') or {}
         step = float(stats.get('step') or 0.001)
         ticks = round(number(order, 'seconds', step, MOST_STEPS * step) / step)
-        taken = Client().call('/angen/step', Step, 120.0, ticks=ticks).taken
+        taken = Live().call('angen/step', Step, 120.0, ticks=ticks).taken
         return {'text': f'{taken * step:g} s'}
 
     def _rate(self, order: dict[str, Any]) -> dict[str, Any]:
-        from gazebo_msgs.srv import GetPhysicsProperties, SetPhysicsProperties
-        rate = number(order, 'rate', 0.0, MOST_RATE)
-        client = Client()
-        now = client.call('/gazebo/get_physics_properties', GetPhysicsProperties, LIMIT)
-        client.call('/gazebo/set_physics_properties', SetPhysicsProperties, LIMIT,
-                    time_step=now.time_step, max_update_rate=rate / now.time_step,
-                    gravity=now.gravity, ode_config=now.ode_config)
+        Live().rate = number(order, 'rate', 0.0, MOST_RATE)
         return {}
 
     def _spawn(self, order: dict[str, Any]) -> dict[str, Any]:
-        from angen_tools.live.spawn import call_spawn
         from angen_tools.world import sdf, sensor
         kind, name = text(order, 'kind'), text(order, 'name')
         if kind not in kinds('sensor'):
@@ -89,17 +84,16 @@ class Orders:
         place = [number(order.get('pose', {}), key, -1e6, 1e6)
                  for key in ('x', 'y', 'z', 'roll', 'pitch', 'yaw')]
         element = sensor.build(kind, name, [], False)
-        call_spawn(Client(), name, sdf.text(element), '', place)
+        Live().spawn(name, sdf.text(element), place)
         return {'text': f'spawned the {kind} {name}'}
 
     def _delete(self, order: dict[str, Any]) -> dict[str, Any]:
         from angen_msgs.srv import Delete
         name = text(order, 'name')
-        return {'text': Client().call('/angen/delete', Delete, LIMIT, name=name).message}
+        return {'text': Live().call('angen/delete', Delete, LIMIT, name=name).message}
 
     def _save(self, _: dict[str, Any]) -> dict[str, Any]:
-        from angen_msgs.srv import Save
-        return {'xml': Client().call('/angen/save', Save).xml}
+        return {'xml': Live().save()}
 
     def _drive(self, order: dict[str, Any]) -> dict[str, Any]:
         from geometry_msgs.msg import Twist
@@ -107,7 +101,8 @@ class Orders:
         twist = Twist()
         twist.linear.x = number(order, 'speed', -2.0, 2.0)
         twist.angular.z = number(order, 'turn', -6.0, 6.0)
-        self._publisher(f'/{name}/cmd_vel', Twist).publish(twist)
+        self.trips.stop(name)
+        self._publisher(f'{name}/cmd_vel', Twist).publish(twist)
         with self._lock:
             timer = self._stops.pop(name, None)
             if timer is not None:
@@ -120,22 +115,57 @@ class Orders:
 
     def _stop(self, name: str) -> None:
         from geometry_msgs.msg import Twist
-        self._publisher(f'/{name}/cmd_vel', Twist).publish(Twist())
+        self._publisher(f'{name}/cmd_vel', Twist).publish(Twist())
 
     def _robot(self, order: dict[str, Any]) -> str:
         name = text(order, 'name')
-        robots = {kind['kind'] for kind in kinds('device').values() if is_robot(kind)}
-        if not any(e['kind'] in robots and e['name'] == name
-                   for e in self._store.part('entities') or []):
+        if name not in {robot['name'] for robot in self._robots()}:
             raise Failure(f"no robot is named '{name}'")
         return name
 
+    def _robots(self) -> list[dict[str, Any]]:
+        kinds_of = {kind['kind'] for kind in kinds('device').values() if is_robot(kind)}
+        return [e for e in self._store.part('entities') or [] if e['kind'] in kinds_of]
+
     def _goal(self, order: dict[str, Any]) -> dict[str, Any]:
+        """A robot drives to a room, or to a place and its floor."""
         from geometry_msgs.msg import PoseStamped
-        place = [number(order, 'x', -1e6, 1e6), number(order, 'y', -1e6, 1e6),
-                 number(order, 'yaw', -math.tau, math.tau)]
-        publish_goal(self._publisher(TOPIC, PoseStamped), *place)
+        room = text(order, 'room') if 'room' in order else ''
+        x, y, yaw = (number(order, 'x', -1e6, 1e6), number(order, 'y', -1e6, 1e6),
+                     number(order, 'yaw', -math.tau, math.tau))
+        floor = round(number(order, 'floor', -1000.0, 1000.0))
+        name = self._robot(order)
+        known = (self._store.part('home') or {'rooms': []})['rooms']
+        if room and all(one['name'] != room for one in known):
+            raise Failure(f"no room is named '{room}'")
+        publisher = self._publisher(TOPIC, PoseStamped)
+        goal = room or f'{x:.2f}, {y:.2f}'
+        if not publisher.get_num_connections():
+            words = [room] if room else [f'{x:.3f}', f'{y:.3f}', str(floor)]
+            self.trips.go(name, goal, words)
+            return {'text': f'{name} drives to {goal}'}
+        if room:
+            x, y, yaw = self._free_place(room)
+        self.trips.follow(name, goal)
+        publish_goal(publisher, x, y, yaw)
         return {'text': 'the goal is published'}
+
+    def _free_place(self, room: str) -> tuple[float, float, float]:
+        """x y yaw."""
+        import rospy
+        from angen_msgs.msg import Home as HomeMessage
+        from angen_msgs.msg import Scene
+        home = Home.of(rospy.wait_for_message('angen/home', HomeMessage, LIMIT))
+        scene, found = rospy.wait_for_message('angen/scene', Scene, LIMIT), home.room(room)
+        robots = {robot['model'] for robot in self._robots()}
+        at = place(home, found, Taken(things(scene, found.floor, robots))) if found else None
+        if at is None:
+            raise Failure(f'no place is free in {room}')
+        return at[0], at[1], at[3]
+
+    def _halt(self, order: dict[str, Any]) -> dict[str, Any]:
+        self.trips.stop(self._robot(order))
+        return {}
 
     def _publisher(self, topic: str, kind: type) -> Any:
         import rospy
@@ -155,7 +185,7 @@ def wait_for_subscriber(publisher: Any, limit: float = 1.0) -> None:
 
 
 def text(order: dict[str, Any], key: str) -> str:
-    """A text of an order; Failure where it is none, or too long."""
+    """A text of an order; Failure if it is none, or too long."""
     value = order.get(key)
     if not isinstance(value, str) or not 0 < len(value.encode(errors='replace')) <= LONGEST \
             or any('\ud800' <= c <= '\udfff' for c in value):
@@ -164,7 +194,7 @@ def text(order: dict[str, Any], key: str) -> str:
 
 
 def number(order: Any, key: str, low: float, high: float) -> float:
-    """A number of an order within limits; Failure where it is none."""
+    """A number of an order within limits; Failure if it is none."""
     value = order.get(key, 0.0) if isinstance(order, dict) else None
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
         raise Failure(f"'{key}' must be a number from {low:g} to {high:g}")

@@ -34,7 +34,7 @@ class Played(Feed):
 
     def __enter__(self) -> Played:
         from angen_apps.web.node import start_node
-        start_node()
+        start_node('web')
         self._subscribe_usual()
         threading.Thread(target=self._work, daemon=True).start()
         return self

@@ -11,6 +11,7 @@ from angen_tools.common.catalog import simulator
 LOADING = 60.0  # s of wall time in which a run is read, where the machine is fast enough
 LEAST_RATE = 4.0  # simulated seconds per second: positions are some tenths of a second apart
 TURN = 0.1
+PARTS = ('scene', 'home', 'entities')  # what a run without duration has, too
 
 
 class Recording(Played):
@@ -27,7 +28,7 @@ class Recording(Played):
         rate = max(LEAST_RATE, self._line['end'] / LOADING)
         self._node = self._sandbox.node(None, rate, replay=self._log)
         listed = -1
-        while self._now < self._line['end']:
+        while self._now < self._line['end'] or not all(map(self.store.part, PARTS)):
             number = self.store.part('scene') or 0
             if number != listed:
                 listed = number

@@ -5,13 +5,14 @@ import asyncio
 import gzip
 import json
 import logging
+from math import isfinite
 from pathlib import Path
 from typing import Any, Awaitable, Callable, Protocol
 
 from aiohttp import WSMsgType, web
 
 from angen_apps.web.files import Files
-from angen_apps.web.guard import Budget, Guard
+from angen_apps.web.guard import Budget, Guard, Handler
 from angen_apps.web.store import Store
 from angen_apps.web.threads import in_thread
 
@@ -20,6 +21,8 @@ LARGEST_MESSAGE = 16 * 1024  # bytes, of a browser
 RATE, BURST = 40.0, 80.0  # messages per second of a browser
 MOST_PENDING = 20  # orders of a browser
 PERIOD = 0.05  # s between updates of a browser
+MOST_ANSWERS = 1000  # waiting for a browser, or to messages that are no orders
+HEADERS_LIMIT = 10.0  # s in which a connection has sent its first request
 PULSE = 60.0  # s between pings, which notice a browser that went away; one may draw for half of it
 COST = 'cost'
 PACKED = {'Content-Encoding': 'gzip'}
@@ -51,6 +54,7 @@ class Browser:
         self.socket = socket
         self.requested: set[str] = set()
         self.pending = 0  # orders without an answer
+        self.errors = 0  # messages that are no orders
         self.news = asyncio.Event()
         self.news.set()
         self.answers: list[dict[str, Any]] = []
@@ -58,6 +62,11 @@ class Browser:
     def answer(self, answer: dict[str, Any]) -> None:
         self.answers.append(answer)
         self.news.set()
+
+    @property
+    def is_broken(self) -> bool:
+        """Whether it reads no answers, or sends what no page sends."""
+        return max(len(self.answers), self.errors) > MOST_ANSWERS
 
     async def feed(self, store: Store) -> None:
         """Sends what changed, as fast as the browser takes it."""
@@ -72,7 +81,7 @@ class Browser:
             if self.answers:
                 update.parts['answers'], self.answers = self.answers, []
             if update.parts:
-                await self.socket.send_str(json.dumps(update.parts, separators=(',', ':')))
+                await self.socket.send_str(json_text(update.parts))
             for blob in update.blobs:
                 await self.socket.send_bytes(blob)
             if update:
@@ -85,11 +94,12 @@ class Server:
     def __init__(self, source: Source, guard: Guard, page: Path, kinds: dict[str, Any]) -> None:
         self._source = source
         self._files = Files(page)
-        self._kinds = gzip.compress(json.dumps(kinds).encode())
+        self._kinds = gzip.compress(json_text(kinds).encode())
         self._browsers: set[Browser] = set()
         self._scene: tuple[int, bytes] = (0, b'')
         self._tasks: set[asyncio.Task[None]] = set()
-        self.app = web.Application(middlewares=[guard.middleware],
+        self.clients: set[Any] = set()  # protocols of connections that sent a request
+        self.app = web.Application(middlewares=[self._count_client, guard.middleware],
                                    client_max_size=LARGEST_MESSAGE)
         self.app.add_routes([web.get('/', self._index), web.get('/socket', self._socket),
                              web.get('/scene.json', self._get_scene),
@@ -97,6 +107,11 @@ class Server:
                              web.get('/page/{name:.+}', self._files.get)])
         self.app.on_startup.append(self._start)
         self.app.on_shutdown.append(self._stop)
+
+    @web.middleware
+    async def _count_client(self, request: web.Request, handler: Handler) -> web.StreamResponse:
+        self.clients.add(request.protocol)
+        return await handler(request)
 
     async def _start(self, _: web.Application) -> None:
         loop = asyncio.get_running_loop()
@@ -177,13 +192,14 @@ class Server:
     async def _listen(self, browser: Browser) -> None:
         budget = Budget(RATE, BURST)
         async for message in browser.socket:
-            if message.type != WSMsgType.TEXT:
+            if message.type != WSMsgType.TEXT or browser.is_broken:
                 break
             try:
                 order = json.loads(message.data)
             except (ValueError, RecursionError):
                 order = None
             if not isinstance(order, dict) or not isinstance(order.get('id', 0), int):
+                browser.errors += 1
                 browser.answer({'id': 0, 'ok': False,
                                 'text': 'not a JSON object whose id is an integer'})
             elif not budget.take():
@@ -218,8 +234,39 @@ def requested(topics: list[Any]) -> set[str]:
     return {topic for topic in topics[:8] if isinstance(topic, str) and len(topic) < 300}
 
 
+def json_text(data: Any) -> str:
+    """JSON as browsers read it: a number that is not finite is null."""
+    try:
+        return json.dumps(data, separators=(',', ':'), allow_nan=False)
+    except ValueError:
+        return json.dumps(_finite(data), separators=(',', ':'), allow_nan=False)
+
+
+def _finite(data: Any) -> Any:
+    if isinstance(data, dict):
+        return {key: _finite(value) for key, value in data.items()}
+    if isinstance(data, (list, tuple)):
+        return [_finite(value) for value in data]
+    return None if isinstance(data, float) and not isfinite(data) else data
+
+
 def pack(scene: dict[str, Any]) -> bytes:
-    return gzip.compress(json.dumps(scene, separators=(',', ':')).encode(), 5)
+    return gzip.compress(json_text(scene).encode(), 5)
+
+
+async def close_idle(server: Server, runner: web.AppRunner) -> None:
+    """Closes connections without a request in time, which would use up those of others."""
+    began: dict[Any, float] = {}
+    while True:
+        await asyncio.sleep(HEADERS_LIMIT / 4)
+        now = asyncio.get_running_loop().time()
+        assert runner.server is not None
+        server.clients.intersection_update(runner.server.connections)
+        began = {protocol: began.get(protocol, now) for protocol in runner.server.connections
+                 if protocol not in server.clients}
+        for protocol, since in began.items():
+            if now - since > HEADERS_LIMIT:
+                protocol.force_close()
 
 
 async def listen(server: Server, host: str, port: int,
@@ -231,6 +278,6 @@ async def listen(server: Server, host: str, port: int,
         site = web.TCPSite(runner, host, port, shutdown_timeout=1.0)
         await site.start()
         await started(port)
-        await asyncio.Event().wait()
+        await close_idle(server, runner)
     finally:
         await runner.cleanup()

@@ -80,7 +80,7 @@ class Store:
         self._named: dict[str, tuple[int, bytes]] = {}  # pictures and scans
         self._scene: dict[str, Any] | None = None
         self._scene_number = 0
-        self._revision = -1  # of the poses and levels
+        self._revision = -1  # revision of the poses and levels
         self._poses = Slots(7)
         self._levels = Slots(1)
 

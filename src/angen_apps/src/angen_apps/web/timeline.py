@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from angen_apps.web.store import Row, Store, Update
 
 CHUNK = 3000  # entries of a message
-PARTS = ('status', 'scene', 'home', 'entities', 'line', 'token')  # of the last state
+PARTS = ('status', 'scene', 'home', 'entities', 'line', 'token', 'symbols')  # sent without time
 
 
 class Timeline(Store):

@@ -1,0 +1,267 @@
+"""The plan of the page of angen web, touched as people do: real events at real places."""
+from __future__ import annotations
+
+import io
+import random
+from collections import Counter
+from typing import Any
+
+import numpy as np
+import pytest
+from actionlib_msgs.msg import GoalID, GoalStatus, GoalStatusArray
+from angen_msgs.srv import SendCommand
+from browser import LIMIT, Page
+from geometry_msgs.msg import PoseStamped
+from harness import Angen, Inbox, publisher_of, until
+from PIL import Image
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.actions.action_builder import ActionBuilder
+from selenium.webdriver.common.actions.interaction import POINTER_MOUSE, POINTER_TOUCH
+from selenium.webdriver.common.actions.pointer_input import PointerInput
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.select import Select
+from std_srvs.srv import Empty
+
+from angen_apps.plan.symbols import SYMBOLS
+
+TAPS = 200
+SIZES = {POINTER_MOUSE: (1100, 800), POINTER_TOUCH: (390, 844)}
+AT = '''const m = angen.plan.root.getScreenCTM(), at = (x, y) => {
+    const p = new DOMPoint(x, -y).matrixTransform(m); return [p.x, p.y]; };'''
+
+
+@pytest.fixture(scope='module', autouse=True)
+def first(page: Page) -> dict[str, Any]:
+    """The first view; then the plan."""
+    page.run('localStorage.clear()')
+    page.driver.refresh()
+    page.until('return window.angen?.begun && angen.view.frames > 2')
+    seen: dict[str, Any] = page.run('''const view = angen.view; return {
+        storey: angen.storey, says: document.querySelector("#welcome").textContent,
+        ratio: view.renderer.getPixelRatio(),
+        people: angen.home.movers.filter((e) => e.kind === "person").length}''')
+    ActionChains(page.driver, duration=0).send_keys(Keys.TAB, Keys.ENTER, Keys.TAB).perform()
+    seen['skips'] = page.run('return !!document.activeElement.closest("#panel")')
+    page.press('#view-plan')
+    page.run('angen.setStorey(0)')
+    return seen
+
+
+def tap(page: Page, kind: str, places: list[list[float]]) -> None:
+    """Presses and releases at places of the window, by mouse or touch."""
+    pointer = PointerInput(kind, kind)
+    builder = ActionBuilder(page.driver, mouse=pointer, duration=0)
+    for x, y in places:
+        pointer.create_pointer_move(0, round(x), round(y))
+        pointer.create_pointer_down(button=0)
+        pointer.create_pointer_up(0)
+    builder.perform()
+
+
+def drag(page: Page, kind: str, begin: list[float], end: list[float]) -> None:
+    """Drags from a place of the window to another, by mouse or touch."""
+    pointer = PointerInput(kind, kind)
+    builder = ActionBuilder(page.driver, mouse=pointer, duration=20)
+    pointer.create_pointer_move(0, *map(round, begin))
+    pointer.create_pointer_down(button=0)
+    for part in (0.3, 0.6, 1.0):
+        pointer.create_pointer_move(20, *(round(a + part * (b - a)) for a, b in zip(begin, end)))
+    pointer.create_pointer_up(0)
+    builder.perform()
+
+
+def picture(page: Page) -> np.ndarray:
+    return np.asarray(Image.open(io.BytesIO(page.driver.get_screenshot_as_png())).convert('L'))
+
+
+def test_the_first_view_is_sharp_and_on_the_floor_with_people(first: dict[str, Any]) -> None:
+    assert first['people'] == 1 and first['storey'] == 0
+    assert first['ratio'] == 1  # all pixels, while the person walks
+    assert 'lamp' in first['says'] and 'drag the robot to another room' in first['says']
+
+
+def test_the_lists_are_two_tabs_away(first: dict[str, Any]) -> None:
+    assert first['skips']
+
+
+def test_sensors_are_listed_and_small_changes_are_not(page: Page) -> None:
+    page.press('#tab-sensors')
+    kinds = page.until('''return [...document.querySelectorAll("#panel tbody tr")].length
+        && [...new Set([...angen.panels.lines.keys()].map((key) => angen.home.kinds[
+            key.split("/")[0]].role))]''')
+    assert kinds == ['sensor']
+    page.press('#tab-events')
+    page.run('angen.home.take({events: [[1, "luminosity", "lux0", "changed", "5 lx"], '
+             '[2, "pir", "eye", "motion", ""]]}); angen.panels.refreshEvents()')
+    assert 'eye' in page.text('.events') and 'lux0' not in page.text('.events')
+    page.press('#panel .tools input[type=checkbox]')
+    assert 'lux0' in page.text('.events')
+
+
+def test_the_plan_has_the_symbols_of_angen_plan_and_a_legend(page: Page) -> None:
+    drawn = page.run('''
+        const at = (name) => angen.home.described.things.find((t) => t.type === name);
+        return ["bed", "sofa", "stove"].map((name) => at(name)
+            && angen.plan.thing(at(name))[1].getAttribute("d").split("M").length - 1)''')
+    assert drawn == [len(SYMBOLS[name]) for name in ('bed', 'sofa', 'stove')]
+    legend = page.text('#plan .legend')
+    assert all(word in legend for word in ('Door', 'Lamp', 'Cabinet', 'Person', 'Robot', 'Sensor'))
+    shapes = page.run('''return ["lamp", "cabinet", "sensor"].map((name) =>
+        document.querySelector(`#plan > svg g.${name} .face`).tagName)''')
+    assert len(set(shapes)) == 3
+
+
+def test_a_click_leaves_the_rest_of_the_plan_as_it_was(home: Angen, page: Page) -> None:
+    home.call('/gazebo/pause_physics', Empty)
+    page.until('return angen.home.stats.paused')
+    x, y = page.run(f'''{AT} const e = angen.home.entities.find((e) => e.kind === "lamp"
+        && e.name === "livingroom0"); return at(...angen.home.place(e).slice(0, 2))''')
+    before = picture(page)
+    tap(page, POINTER_MOUSE, [[x, y]])
+    page.until('return document.querySelector("#card h2")?.textContent === "livingroom0"')
+    assert page.run('const e = document.activeElement; return [e.getAttribute("class"), '
+                    'getComputedStyle(e).outlineStyle]') == ['item lamp', 'none']
+    left, right, top, bottom = page.run('''const p = angen.plan.element.getBoundingClientRect();
+        const c = document.querySelector("#card").getBoundingClientRect();
+        return [p.left, c.left, p.top, p.bottom].map(Math.round)''')
+    changed = np.abs(picture(page).astype(int) - before) > 40
+    around = changed[top:bottom, left:right].copy()
+    around[max(0, round(y) - top - 30):round(y) - top + 30, round(x) - left - 30:round(x) - left
+           + 30] = False
+    assert around.mean() < 0.02  # but for the mark itself, and a field that fades
+    home.call('/gazebo/unpause_physics', Empty)
+    page.run('angen.card.close()')
+
+
+@pytest.mark.parametrize('kind', SIZES)
+def test_taps_on_doors_hit_doors(home: Angen, page: Page, kind: str) -> None:
+    page.driver.set_window_size(*SIZES[kind])
+    rng = random.Random(kind)
+    hits: Counter[str] = Counter()
+    for state in ('Close', 'Open'):
+        home.call('/angen/command', SendCommand, target='door/all', text=state)
+        page.until('''return angen.home.entities.filter((e) => e.kind === "door"
+            && angen.home.row(e).text.startsWith(arguments[0])).length > 7''', state.upper())
+        home.call('/gazebo/pause_physics', Empty)
+        page.until('return angen.home.stats.paused')
+        page.run('angen.plan.update()')
+        for floor in (0, 1):
+            page.run('angen.setStorey(arguments[0])', floor)
+            places = page.run('''
+                const all = [...document.querySelectorAll("#plan > svg .door .leaf")];
+                return arguments[0].map(([i, part]) => {
+                    const l = all[Math.floor(i * all.length)];
+                    const p = l.getPointAtLength(part * l.getTotalLength());
+                    const at = p.matrixTransform(l.getScreenCTM()); return [at.x, at.y]; })''',
+                              [[rng.random(), rng.random()] for _ in range(TAPS // 4)])
+            page.run('angen.hits = []; angen.show = (e) => angen.hits.push(e.kind); '
+                     'angen.place = () => angen.hits.push("floor")')
+            tap(page, kind, places)
+            hits.update(page.run('return angen.hits'))
+            page.run('delete angen.show; delete angen.place')
+        home.call('/gazebo/unpause_physics', Empty)
+    assert hits == {'door': TAPS}
+
+
+@pytest.mark.parametrize('kind', SIZES)
+def test_what_is_near_a_tap_is_found_and_a_room_in_the_open(page: Page, kind: str) -> None:
+    page.driver.set_window_size(*SIZES[kind])
+    page.run('angen.setStorey(0); angen.card.close()')
+    x, y = page.run(f'''{AT} const e = angen.home.entities.find((e) => e.kind === "lamp"
+        && e.name === "bedroom0"); return at(...angen.home.place(e).slice(0, 2))''')
+    found = []
+    for away in (0, 15):
+        tap(page, kind, [[x + away, y]])
+        found.append(page.until('return document.querySelector("#card h2")?.textContent'))
+        page.run('angen.card.close()')
+    assert found == ['bedroom0', 'bedroom0']
+    free = page.run(f'''{AT} for (const r of angen.home.rooms.filter((r) => r.storey === 0))
+        for (let x = r.polygon[0][0] - 6; x < r.polygon[0][0] + 6; x += 0.1)
+            for (let y = r.polygon[0][1] - 6; y < r.polygon[0][1] + 6; y += 0.1)
+                if ([-0.1, 0.1].every((d) => angen.home.roomAt(x + d, y + d, 0.1) === r)
+                    && !angen.plan.hit(...at(x, y)).entity)
+                    return [r.name, ...at(x, y)]''')
+    tap(page, kind, [free[1:]])
+    assert page.run('return angen.card.shown.room.name') == free[0]
+    page.run('angen.card.close()')
+
+
+@pytest.mark.parametrize('kind', SIZES)
+def test_a_robot_is_dragged_to_its_goal_on_the_plan(page: Page, kind: str) -> None:
+    page.driver.set_window_size(*SIZES[kind])
+    page.run('angen.setStorey(0); angen.card.close()')
+    begin, end = page.run(f'''{AT} const e = angen.home.entities.find((e) => e.kind === "drive");
+        const [x, y] = angen.home.place(e); return [at(x, y), at(x + 1, y)]''')
+    to = page.run('return angen.plan.ground(...arguments)', *map(round, end))
+    with Inbox('/move_base_simple/goal', PoseStamped) as goals:
+        page.until('return angen.home.entities.length > 0')
+        drag(page, kind, begin, end)
+        goal = goals.wait(lambda goal: True, 'a goal', LIMIT).pose
+    assert (goal.position.x, goal.position.y) == pytest.approx(to[:2], abs=0.1)
+    assert page.text('#card h2') == 'turtlebot'
+    assert page.text('.trip [role=status]').startswith('To ')
+    page.run('angen.card.close()')
+
+
+def test_move_base_says_what_becomes_of_a_goal(page: Page) -> None:
+    status = publisher_of('/move_base/status', GoalStatusArray)
+
+    def told(goal: str, state: int, text: str = '') -> str:
+        """What the card says once a status of the goal has come."""
+        before = page.text('.trip [role=status]')
+        message = GoalStatusArray(status_list=[
+            GoalStatus(goal_id=GoalID(id=goal), status=state, text=text)])
+        return str(until(lambda: (status.publish(message), page.text('.trip [role=status]'))[1]
+                         != before and page.text('.trip [role=status]'), 'another text', LIMIT))
+
+    with Inbox('/move_base_simple/goal', PoseStamped) as goals:
+        page.run('angen.show(angen.home.entities.find((e) => e.kind === "drive"));'
+                 'angen.home.order({do: "goal", name: "turtlebot", x: 2, y: 5, floor: 0, yaw: 0})')
+        goals.wait(lambda goal: goal.pose.position.x == 2, 'a goal', LIMIT)
+        page.until('return angen.home.trips.turtlebot.goal === "2.00, 5.00"')
+        assert told('first', GoalStatus.ACTIVE) == 'To 2.00, 5.00: drives'
+        with Inbox('/move_base/cancel', GoalID) as cancels:
+            page.press('#card .trip button', 'Stop')
+            cancels.wait(lambda goal: True, 'a cancel', LIMIT)
+        page.until('return !angen.home.trips.turtlebot.drives')
+        page.run('angen.home.order({do: "goal", name: "turtlebot", room: "kitchen0"})')
+        goal = goals.wait(lambda goal: goal.pose.position.x != 2, 'a goal in the room', LIMIT)
+        assert page.run('return angen.home.roomAt(...arguments, 0.5).name', goal.pose.position.x,
+                        goal.pose.position.y) == 'kitchen0'
+        page.until('return angen.home.trips.turtlebot.goal === "kitchen0"')
+        said = told('second', GoalStatus.ABORTED, 'no valid plan')
+        assert said == 'To kitchen0: gave up: no valid plan'
+    page.run('angen.card.close()')
+
+
+def ended(page: Page) -> str:
+    """What became of a drive."""
+    page.until('return !angen.home.trips.turtlebot.drives')
+    return page.text('.trip [role=status]')
+
+
+def test_a_robot_is_dragged_and_arrives_or_says_why_not(page: Page) -> None:
+    page.driver.set_window_size(*SIZES[POINTER_MOUSE])
+    begin, end = page.run(f'''{AT} const e = angen.home.entities.find((e) => e.kind === "drive");
+        const [x, y] = angen.home.place(e); angen.card.close(); return [at(x, y), at(2.5, 5)]''')
+    drag(page, POINTER_MOUSE, begin, end)
+    goal = page.until('return angen.home.trips.turtlebot?.goal.includes(",") '
+                      '&& angen.home.trips.turtlebot.goal')
+    assert ended(page).startswith(f'To {goal}: turtlebot is in ')
+    x, y = page.run('return [...angen.home.place(angen.card.shown.entity)].slice(0, 2)')
+    assert (x, y) == pytest.approx([float(word) for word in goal.split(',')], abs=0.2)
+    page.run('angen.home.order({do: "goal", name: "turtlebot", x: 50, y: 50, floor: 0, yaw: 0})')
+    page.until('return angen.home.trips.turtlebot.goal.startsWith("50")')
+    assert 'no floor there' in ended(page)
+
+
+def test_a_robot_is_sent_to_a_room_and_stopped(page: Page) -> None:
+    page.run('angen.show(angen.home.entities.find((e) => e.kind === "drive"))')
+    menu = Select(page.driver.find_element('css selector', '#card .goals'))
+    menu.select_by_value('kitchen0')
+    page.until('return angen.home.trips.turtlebot?.share > 0')
+    assert page.run('return document.querySelector("#card .bar i").getBoundingClientRect().width')
+    page.press('#card .trip button', 'Stop')
+    assert ended(page) == 'To kitchen0: stopped'
+    page.until('return Math.abs(angen.home.row(angen.card.shown.entity).values[3]) < 0.02')
+    assert page.run('return document.querySelector("#card .trip button").hidden')
