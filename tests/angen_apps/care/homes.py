@@ -5,7 +5,7 @@ from pathlib import Path
 
 from angen_apps.care.engine import Change, Engine
 from angen_apps.care.rules_file import read_rules
-from angen_apps.care.signals import Event
+from angen_tools.session import Event
 
 MIN, H = 60.0, 3600.0
 EXISTING = ('plug/stove0', 'pir/kitchen_a', 'pir/kitchen_b', 'pir/bath', 'door/entrance0',

@@ -14,7 +14,7 @@ from angen_tools.offline.day import read_day
 from angen_apps.care.offline import Watched
 from angen_apps.care.report import warnings_of
 from angen_apps.care.rules_file import read_rules
-from angen_apps.care.signals import Event
+from angen_tools.session import Event
 
 ROOT = Path(__file__).resolve().parents[3]
 MINUTE = 60.0

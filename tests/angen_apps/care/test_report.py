@@ -8,7 +8,7 @@ import pytest
 
 from angen_tools.offline.day import read_day
 from angen_apps.care.report import line_of, warnings_of, write, write_events
-from angen_apps.care.signals import Event
+from angen_tools.session import Event
 from angen_tools.common.failure import Failure
 from tests.angen_apps.care.homes import H, Home, rule
 

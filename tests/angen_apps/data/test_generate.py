@@ -18,6 +18,7 @@ from typing import Any, Callable, Iterator
 import pytest
 
 from angen_apps.data.generate import MANIFEST, Job, generate, make
+from angen_apps.data.part_folder import MARKER
 from angen_apps.data.site import apartment
 from angen_apps.data.validate import homes, validate
 from angen_apps.residents.profiles import FOLDER
@@ -53,8 +54,8 @@ def made(tmp_path_factory, world) -> Path:
     given = job(folder, world)
     subprocess.run([sys.executable, str(SCRIPT), 'generate', '--homes', str(HOMES), '--days', '1',
                     '--residents', *given.residents, '--seed', str(given.seed), '--processes',
-                    '1', '--format', ','.join(given.formats), '--world', str(world),
-                    '--own-sensors', '-o', str(folder)], check=True)
+                    '1', '--format', ','.join(given.formats), str(world),
+                    '--own-sensors', '--out', str(folder)], check=True)
     return folder
 
 
@@ -110,6 +111,9 @@ def test_a_torn_home_is_made_again_and_a_finished_one_is_not(made, world, tmp_pa
     torn, kept = folder / 'home_00001', folder / 'home_00002'
     torn.rename(folder / 'home_00001.part')
     (folder / 'home_00001.part' / 'events.csv.gz').write_bytes(b'torn')
+    with pytest.raises(Failure, match=r'home_00001.part: was not made by angen generate; move it'):
+        generate(job(folder, world), HOMES, 1)
+    (folder / 'home_00001.part' / MARKER).touch()
     before = (kept / 'home.json').stat().st_mtime_ns
     generate(job(folder, world), HOMES, 1)
     assert hashes(folder) == hashes(made)

@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
+import angen
 import pytest
 
 from angen_apps.data.formats import FORMATS
@@ -163,12 +164,20 @@ def test_homes_differ_by_seed_and_are_the_same_again(tmp_path):
     assert len({j.seed for j in made}) == 5 and made[0].name == 'home_00001'
 
 
-def test_what_is_finished_is_not_made_again_and_other_settings_are_rejected(tmp_path):
+def test_what_is_finished_and_whole_is_not_made_again(tmp_path, capsys):
     one = job(tmp_path)
     assert finished(one) is None
-    entry = {'name': 'home', 'settings': one.settings, 'files': {}}
+    entry = {'name': 'home', 'version': angen.__version__, 'settings': one.settings, 'files': {}}
     (tmp_path / 'home.json').write_text(json.dumps(entry))
     assert finished(one) == entry
+    assert capsys.readouterr().err == ''
+    for change, why in (({'version': '0.0.1'}, 'was made by another version of Angen'),
+                        ({'files': {'events.csv.gz': 64 * '0'}}, 'events.csv.gz was changed'),
+                        ({'files': {'casas.txt': 64 * '0'}}, 'casas.txt is missing')):
+        (tmp_path / 'events.csv.gz').write_bytes(b'')
+        (tmp_path / 'home.json').write_text(json.dumps({**entry, **change}))
+        assert finished(one) is None
+        assert f'{tmp_path}: {why}; the home is made again' in capsys.readouterr().err
     with pytest.raises(Failure, match='was made with other settings'):
         finished(job(tmp_path, light=True))
     (tmp_path / 'home.json').write_text('{"name": ')  # torn

@@ -8,10 +8,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from angen import Grid
 
 from angen_apps.go import command
 from angen_apps.go.command import goal_of, loaded, without
-from angen_apps.maps.gridmap import GridMap
 from angen_apps.robot.planner import Planner
 from angen_apps.robot.rooms_route import lift_of
 from angen_tools.common.failure import Failure, WrongWords
@@ -29,7 +29,7 @@ def room(name: str, x: float) -> Room:
 def planners() -> dict[int, Planner]:
     cells = np.zeros((80, 80), np.int8)
     cells[TABLE] = WALL
-    return {0: Planner(GridMap(cells, (0.0, 0.0), 0.05, 0), 0.22)}
+    return {0: Planner(Grid(cells, (0.0, 0.0), 0.05, 0), 0.22)}
 
 
 HOME = Home(rooms=[room('kitchen0', 0.0), room('hall0', 2.0)], elevators=[
@@ -64,7 +64,8 @@ def test_a_wrong_goal_is_named(words: list[str], part: str, planners: dict[int, 
     (['hall0'], '', 'it is surveyed')])
 def test_wrong_words_are_named_before_the_building_is_surveyed(
         words: list[str], robot: str, part: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    class Client:
+    class Simulator:
+        @property
         def home(self) -> Home:
             return replace(HOME, storeys=[Storey(0, 'Floor 0', 0.0, 2.8)])
 
@@ -74,14 +75,14 @@ def test_wrong_words_are_named_before_the_building_is_surveyed(
     def survey(*_: object) -> None:
         raise Failure('it is surveyed')
 
-    monkeypatch.setattr(command, 'Client', Client)
+    monkeypatch.setattr(command, 'Live', Simulator)
     monkeypatch.setattr(command, 'Surveyed', survey)
     with pytest.raises(Failure, match=part):
         command.go(words, robot, False)
 
 
 def test_it_waits_before_the_doors_of_the_elevator_on_its_own_floor() -> None:
-    planner = Planner(GridMap(np.zeros((80, 120), np.int8), (-5.0, 3.0), 0.05, 0), 0.22)
+    planner = Planner(Grid(np.zeros((80, 120), np.int8), (-5.0, 3.0), 0.05, 0), 0.22)
     for floor, x in ((0, -1.7), (1, -1.6)):
         lift = lift_of(HOME, planner, floor)
         assert lift is not None and math.dist(lift.cabin, (-3.0, 5.0)) < 0.1
@@ -91,7 +92,7 @@ def test_it_waits_before_the_doors_of_the_elevator_on_its_own_floor() -> None:
 
 def test_an_elevator_that_the_robot_cannot_enter_is_none() -> None:
     cells = np.full((80, 120), WALL, np.int8)
-    assert lift_of(HOME, Planner(GridMap(cells, (-5.0, 3.0), 0.05, 0), 0.22), 0) is None
+    assert lift_of(HOME, Planner(Grid(cells, (-5.0, 3.0), 0.05, 0), 0.22), 0) is None
 
 
 def test_a_plug_in_of_the_world_that_only_the_node_has_is_left_out(tmp_path: Path) -> None:

@@ -8,10 +8,12 @@ from typing import Any, Callable
 
 import numpy as np
 import pytest
+from angen import Grid
 
 from angen_apps.go.trip import TRIES, Goal, Trip
-from angen_apps.maps.gridmap import FREE, OCCUPIED, GridMap
-from angen_apps.robot.interface import CYCLE, DoorState, Event, LiftState
+from angen_apps.maps.gridmap import FREE, OCCUPIED
+from angen_apps.robot.door_client import DoorState
+from angen_apps.robot.interface import CYCLE, Event, LiftState
 from angen_apps.robot.pilot import Pose
 from angen_apps.robot.route_file import NUMBERS, Route, Waypoint
 from angen_tools.common.failure import Failure
@@ -32,7 +34,7 @@ class Person:
 class MappedRobot:
     """Sees the map and a person, and does not get through them: its wheels slip then."""
 
-    def __init__(self, grid: GridMap, start: Pose, person: Person) -> None:
+    def __init__(self, grid: Grid, start: Pose, person: Person) -> None:
         self.grid, self.pose, self.wheels, self.person = grid, start, Pose(0, 0, 0), person
         self.now, self.scanned = 0.0, -1.0
         self.touched = 0
@@ -87,12 +89,12 @@ class MappedRobot:
         return self.pose.x, self.pose.y, 0.0, self.pose.yaw
 
 
-def hall(width: float) -> GridMap:
+def hall(width: float) -> Grid:
     """6 m long, with a niche at its end, so that it looks different everywhere."""
     cells = np.full((int(width / 0.05) + 2, 122), FREE, np.int8)
     cells[[0, -1]] = cells[:, [0, -1]] = OCCUPIED
     cells[1:5, 30:34] = cells[-6:, 100:104] = OCCUPIED
-    return GridMap(cells, (0.0, 0.0), 0.05, 0)
+    return Grid(cells, (0.0, 0.0), 0.05, 0)
 
 
 def drive(width: float, person: Person, believed: Pose | None = None, goal: Goal | None = None

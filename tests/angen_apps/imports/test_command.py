@@ -9,10 +9,13 @@ from pathlib import Path
 
 import pytest
 
+from angen_apps.imports import things
 from angen_bench import homes
 from angen_tools.cli import main as cli
+from tests.angen_apps.imports.measured import import_measured
 
 COUNT = 200
+MEMORY, SECONDS = 200 << 20, 2.0  # bytes and s of CPU time
 HUGE = 40 << 20  # bytes of a bomb's text
 BUILDING = '''levels:
   L1:
@@ -87,6 +90,7 @@ def test_damaged_files_end_with_one_line_and_leave_nothing(
         tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / 'out' / 'home.world'
     wrong = []
+    things.table()  # once, not in each of the processes that read
     for i, (ending, data) in enumerate(cases(homes.examples()['Studio'])):
         path = tmp_path / f'case{i}.{ending}'
         path.write_bytes(data)
@@ -98,6 +102,18 @@ def test_damaged_files_end_with_one_line_and_leave_nothing(
         path.unlink()
     assert not wrong
     assert not out.parent.exists()
+
+
+@pytest.mark.parametrize('xml, what', [
+    (b'<home ' + b' '.join(b'a%d="1"' % i for i in range(80_000)) + b'/>', '100 attributes'),
+    (b'<home ' + b' '.join(b'a%d="1"' % i for i in range(2_000_000)) + b'/>', '100 attributes'),
+    (b'<home>' + b'<a/>' * 8_000_000 + b'</home>', '400000 elements')], ids=len)
+def test_a_large_file_costs_little(xml: bytes, what: str, tmp_path: Path) -> None:
+    (tmp_path / 'home.sh3d').write_bytes(zipped('Home.xml', xml))
+    done = import_measured(tmp_path / 'home.sh3d')
+    assert done.code == 1 and done.memory < MEMORY and done.cpu < SECONDS
+    assert 'home.sh3d/Home.xml:1: has ' in done.said and what in done.said
+    assert len(done.said.splitlines()) == 1
 
 
 def test_a_room_that_crosses_itself_is_rejected(tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -28,7 +28,7 @@ HOME = ('<home>\n<wall xStart="0" yStart="0" xEnd="400" yEnd="0" thickness="10"/
 
 
 def imported(folder: Path, data: bytes, more: str = '', model: str = '1/seat.obj') -> int:
-    with zipfile.ZipFile(folder / 'home.sh3d', 'w') as archive:
+    with zipfile.ZipFile(folder / 'home.sh3d', 'w', zipfile.ZIP_DEFLATED) as archive:
         archive.writestr('Home.xml', HOME.format(model=model, more=more))
         archive.writestr('1/seat.obj', data)
     return cli.run(['import', str(folder / 'home.sh3d'), '--meshes', '--sensors', 'none', '-o',
@@ -75,13 +75,27 @@ def test_other_formats_and_missing_files_are_reported(data: bytes, model: str, t
     assert not (tmp_path / 'home_meshes').exists()
 
 
-@pytest.mark.parametrize('data, more, what', [
-    (OBJ.replace('3 2 -1', 'nan 2 -1'), '', 'the mesh 1/seat.obj'),
-    (OBJ.replace('3 2 -1', 'a b c'), '', 'the mesh 1/seat.obj'),
-    (OBJ, 'modelRotation="1 2"', 'modelRotation must be')])
-def test_damaged_meshes_are_rejected(data: str, more: str, what: str, tmp_path: Path,
-                                     capsys: pytest.CaptureFixture[str]) -> None:
-    assert imported(tmp_path, data.encode(), more) == 1
+def test_a_rotation_that_is_none_is_rejected(tmp_path: Path,
+                                             capsys: pytest.CaptureFixture[str]) -> None:
+    assert imported(tmp_path, OBJ.encode(), 'modelRotation="1 2"') == 1
     said = capsys.readouterr().err
-    assert what in said and 'Home.xml:3' in said and len(said.splitlines()) == 1
+    assert 'modelRotation must be' in said and 'Home.xml:3' in said and len(said.splitlines()) == 1
     assert not list(tmp_path.glob('home[._]*world')) and not (tmp_path / 'home_meshes').exists()
+
+
+@pytest.mark.parametrize('text, more, why', [
+    (OBJ.replace('3 2 -1', 'nan 2 -1'), '', 'finite numbers'),
+    (OBJ.replace('3 2 -1', 'a b c'), '', 'could not convert'),
+    (OBJ.replace('f 1 3 4', 'f 1 3 5'), '', 'vertex index out of range'),
+    (OBJ.replace('f', '#'), '', 'cannot be read'),
+    (OBJ, 'v 0 0 0\n', 'has more than 1000000 lines'),
+    (OBJ, 'f 1 2 3\n', 'has more than 1000000 lines'),
+    (OBJ + 'f', ' 1', 'has a line of more than 10000 characters'),
+    (OBJ, '#' * 64, 'more than 64 MB')])
+def test_a_damaged_or_large_mesh_is_a_box(text: str, more: str, why: str, tmp_path: Path,
+                                          capsys: pytest.CaptureFixture[str]) -> None:
+    assert imported(tmp_path, text.encode() + more.encode() * 1_100_000) == 0
+    remarks = [line for line in capsys.readouterr().out.splitlines() if '1/seat.obj' in line]
+    assert len(remarks) == 1 and why in remarks[0] and 'Home.xml:3' in remarks[0]
+    assert not (tmp_path / 'home_meshes').exists()
+    assert 'thing0' in angen.World(str(tmp_path / 'home.world')).models

@@ -19,7 +19,10 @@ from angen_apps.plan.writer import write_world
 from angen_bench import plans
 from angen_tools.common.failure import Failure
 from angen_tools.cli import main as cli
+from tests.angen_apps.imports.measured import import_measured
 
+MEMORY = 90 << 20  # bytes of the program
+BYTES = 16  # bytes a pixel: a picture of 20 million pixels takes less than 400 MB
 SCALE = 0.025  # m a pixel
 # inner faces of the rooms in m, from the lower left: walls of 0.2 m around and 0.15 m between
 ROOMS = ((0.2, 0.2, 4.2, 3.2), (4.35, 0.2, 8.0, 3.2), (0.2, 3.35, 8.0, 5.35))
@@ -302,3 +305,39 @@ def test_a_scan_of_a_home_by_seed_has_its_rooms_and_doors(tmp_path: Path) -> Non
         assert made == pytest.approx(sorted(case.areas or []), rel=0.05), case.name
         doors = [opening for opening in plan.all_openings() if opening.kind == 'door']
         assert len(doors) == case.said['door'], case.name
+
+
+def test_a_large_picture_takes_little_memory(tmp_path: Path) -> None:
+    side, walls = 2000, slice(100, -100, 600)
+    gray = np.full((side, side), 65535, np.uint16)
+    for k in range(8):
+        gray[walls.start + k::walls.step, 100:-100] = gray[100:-100, walls.start + k::600] = 0
+    Image.fromarray(gray).save(tmp_path / 'plan.png')
+    done = import_measured(tmp_path / 'plan.png', '--scale', '0.03')
+    assert done.code == 0 and done.memory < MEMORY + BYTES * side ** 2
+
+
+def test_other_formats_start_no_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+                                        capsys: pytest.CaptureFixture[str]) -> None:
+    """Pillow gives PostScript to Ghostscript, whatever the name of the file is."""
+    program = tmp_path / 'gs'
+    program.write_text(f'#!/bin/sh\ntouch {tmp_path}/started\nexit 1\n')
+    program.chmod(0o755)
+    monkeypatch.setenv('PATH', str(tmp_path), prepend=':')
+    (tmp_path / 'plan.png').write_text('%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 100 100\n'
+                                       '%%EndComments\nshowpage\n%%EOF\n')
+    (tmp_path / 'map.yaml').write_text('image: plan.png\nresolution: 0.05\norigin: [0, 0, 0]\n')
+    for words in (['plan.png', '--scale', '0.05'], ['map.yaml']):
+        assert cli.run(['import', str(tmp_path / words[0]), *words[1:], '-o',
+                        str(tmp_path / 'home.world')]) == 1
+        assert 'plan.png: is not a picture that can be read; known are PNG, JPEG, PPM, BMP, GIF' \
+            in capsys.readouterr().err
+    assert not (tmp_path / 'started').exists()
+
+
+@pytest.mark.parametrize('ending, format', [('png', 'GIF'), ('png', 'BMP'), ('jpg', 'JPEG'),
+                                            ('pgm', 'PPM')])
+def test_known_formats(ending: str, format: str, tmp_path: Path) -> None:
+    path = tmp_path / f'scan.{ending}'
+    Image.fromarray(picture(0.0)).save(path, format)
+    assert len(read_picture(path, SCALE, True).all_rooms()) == len(ROOMS)

@@ -6,8 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
+from angen import Grid
 
-from angen_apps.maps.gridmap import FREE, OCCUPIED, UNKNOWN, GridMap, load_world, make_map
+from angen_apps.maps.gridmap import FREE, OCCUPIED, UNKNOWN, load_world, make_map
 from angen_tools.cli import main as cli
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -27,7 +28,7 @@ def sdf(*models: str) -> str:
             f'{solid("slab", "0 0 -0.1 0 0 0", "4 4 0.2")}{"".join(models)}</world></sdf>')
 
 
-def read_as_map_server(path: Path) -> GridMap:
+def read_as_map_server(path: Path) -> Grid:
     """The map that map_server publishes for a yaml file (its rules: wiki.ros.org/map_server)."""
     written = yaml.safe_load(path.read_text())
     assert written['negate'] == 0
@@ -38,7 +39,7 @@ def read_as_map_server(path: Path) -> GridMap:
     cells = np.where(dark > written['occupied_thresh'], OCCUPIED,
                      np.where(dark < written['free_thresh'], FREE, UNKNOWN))
     assert written['origin'][2] == 0
-    return GridMap(cells, tuple(written['origin'][:2]), written['resolution'], 0)
+    return Grid(cells, tuple(written['origin'][:2]), written['resolution'], 0)
 
 
 def test_the_files_have_the_map(tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -48,7 +49,7 @@ def test_the_files_have_the_map(tmp_path: Path, capsys: pytest.CaptureFixture[st
                          solid('box', '1 -0.5 4.5 0 0 0', '0.5 2 1'),
                          solid('wall', '-2 0 4.5 0 0 0', '0.1 4 1')))
     stem = tmp_path / 'up.1'
-    assert cli.run(['map', '--world', str(world), '--floor', '0', '-o', str(stem)]) == 0
+    assert cli.run(['map', str(world), '--floor', '0', '-o', str(stem)]) == 0
     grid = make_map(load_world(str(world)), 0)
     assert capsys.readouterr().out == (
         f'wrote {stem}.pgm and {stem}.yaml: floor 0, '
@@ -61,9 +62,9 @@ def test_the_files_have_the_map(tmp_path: Path, capsys: pytest.CaptureFixture[st
 
 @pytest.mark.parametrize('words, part', [
     (['--floor', '2'], 'worlds/angen.world: there is no floor 2; known are 0, 1'),
-    (['--world', f'{ROOT}/worlds/empty.world'],
+    ([f'{ROOT}/worlds/empty.world'],
      'empty.world: there is no floor 0; it has no floor'),
-    (['--world', 'none.world'], 'none.world'),
+    (['none.world'], 'none.world'),
     (['-o', 'no/such/folder/map'], 'no/such/folder/map: cannot be written')])
 def test_what_is_wrong_is_one_line(words: list[str], part: str, tmp_path: Path,
                                    monkeypatch: pytest.MonkeyPatch,

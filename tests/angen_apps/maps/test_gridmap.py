@@ -6,8 +6,9 @@ from pathlib import Path
 import angen
 import numpy as np
 import pytest
+from angen import Grid
 
-from angen_apps.maps.gridmap import FREE, OCCUPIED, UNKNOWN, GridMap, load_world, make_map, reached
+from angen_apps.maps.gridmap import FREE, OCCUPIED, UNKNOWN, load_world, make_map, reached
 
 ROOT = Path(__file__).resolve().parents[3]
 BUILDING = str(ROOT / 'worlds/angen.world')
@@ -34,12 +35,12 @@ def small_world(*models: str) -> angen.World:
     return angen.World.from_text(sdf(*models))
 
 
-def occupied(grid: GridMap) -> set[tuple[float, float]]:
+def occupied(grid: Grid) -> set[tuple[float, float]]:
     """The middles of the occupied cells, m."""
     return {tuple(np.round(grid.point(*cell), 3)) for cell in np.argwhere(grid.cells == OCCUPIED)}
 
 
-def value(grid: GridMap, point: tuple[float, float]) -> int:
+def value(grid: Grid, point: tuple[float, float]) -> int:
     return int(grid.cells[grid.cell(*point)])
 
 

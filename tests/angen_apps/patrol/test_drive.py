@@ -4,55 +4,55 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
-from angen_msgs.msg import DoorState
-
 from angen_apps.patrol.drive import Patrol, RosRobot
-from angen_apps.robot.interface import Event
 from angen_apps.robot.planner import Door
+from angen_tools.session import Event, State
 
-TICK, CYCLE = 0.001, 0.1
-
-
-def state(mode: int) -> Any:
-    message = DoorState()
-    message.mode = mode
-    return message
+TICK = 0.001
 
 
-class Lockstep:
+class Node:
     """A door that is shut at 0.1 s, the end of the first cycle: its state says so a tick later."""
 
     def __init__(self) -> None:
         self.now, self.tick = 0.0, TICK
-        self.events: list[Event] = []
-        self.states = [(0.1, DoorState.CLOSING), (0.101, DoorState.CLOSED)]
+        self.happened = [Event(0.1, 'hall0', 'door', 'closed', '')]
 
-    def send(self, topic: str, message: Any) -> None:
+    def send(self, topic: str, message: object) -> None:
         pass
 
-    def run(self) -> None:
-        self.now += CYCLE
-        if len(self.events) == 0:
-            self.events.append(Event(0.1, 'hall0', 'door', 'closed', ''))
+    def run(self, seconds: float) -> None:
+        self.now += seconds
 
-    def latest(self, topic: str, since: float = -1.0) -> Any:
-        time, mode = [state for state in self.states if state[0] <= self.now + 1e-9][-1]
-        assert time >= since - 1e-6, 'it would wait for ever'
-        return state(mode)
+    def events(self) -> list[Event]:
+        happened, self.happened = self.happened, []
+        return happened
+
+    def states(self, kind: str) -> list[State]:
+        return [state(self.now, 'CLOSING'), State('door', 'other', self.now, {'position': 1.0})]
+
+    def state(self, kind: str, name: str, since: float = -1.0) -> State:
+        found = [state(0.1, 'CLOSING'), state(0.101, 'CLOSED')]
+        latest = [each for each in found if each.time <= self.now + 1e-9][-1]
+        assert latest.time >= since - 1e-6, 'it would wait for ever'
+        return latest
+
+
+def state(time: float, mode: str) -> State:
+    return State('door', 'hall0', time, {'mode': mode, 'position': 0.5})
 
 
 def test_the_state_after_an_event_at_the_end_of_a_cycle_is_read_in_the_next() -> None:
-    lockstep = Lockstep()
     scene = SimpleNamespace(doors={0: [Door('hall0', (0.0, 0.0), 0.0, 1.5, 0.9)]},
-                            start=SimpleNamespace(robot=SimpleNamespace(topic='/odom'),
-                                                  laser=SimpleNamespace(topic='/scan')))
+                            start=SimpleNamespace(laser=SimpleNamespace(name='scan')))
     route: Any = SimpleNamespace(robot='turtlebot', elevator=None)
-    robot = RosRobot(route, scene, lockstep)  # type: ignore[arg-type]
-    robot._states['door', 'hall0'] = state(DoorState.CLOSING)
+    robot = RosRobot(route, scene, Node())  # type: ignore[arg-type]
+    robot._states['door', 'hall0'] = state(0.0, 'CLOSING')
     robot.cycle(0.0, 0.0)
     assert robot.door('hall0').mode == 'CLOSING'
     robot.cycle(0.0, 0.0)
     assert robot.door('hall0').mode == 'CLOSED'
+    assert robot.door_angles == {'hall0': [(0.1, 0.5), (0.2, 0.5)]}
 
 
 def test_the_progress_names_the_items_of_the_table() -> None:

@@ -13,6 +13,7 @@ from angen_apps.robot.building import Survey
 from angen_apps.robot.entities import Entity, entities_of
 from angen_apps.robot.planner import Door
 from angen_apps.robot.views import View
+from angen_tools.session.in_process import InProcess
 
 
 def test_a_leaf_hides_things_behind_it_and_not_above_or_on_a_lower_floor() -> None:
@@ -47,7 +48,7 @@ def test_a_switch_belongs_to_the_door_under_it() -> None:
 def test_a_beam_comes_free_at_the_same_angle_of_all_doors_alike() -> None:
     path = str(Path(__file__).resolve().parents[3] / 'worlds/angen.world')
     world, shut = load_world(path), load_world(path)
-    switches = [e for e in entities_of(shut) if e.kind == 'switch' and e.floor == 0]
+    switches = [e for e in entities_of(InProcess(shut)) if e.kind == 'switch' and e.floor == 0]
     survey = Survey(world, shut, {0})
     rooms = {e.name: door_beside(e, survey.doors[0]) for e in switches}
     angles = beam_angles(shut, survey.doors, switches, rooms)

@@ -2,17 +2,21 @@
 from __future__ import annotations
 
 import gzip
+import itertools
 from pathlib import Path
 
 import numpy as np
 import pytest
 from matplotlib.image import imread
+from matplotlib.text import Annotation, Text
 
 from angen_apps.plan import overlays
 from angen_apps.plan.apartment import apartment
-from angen_apps.plan.draw import draw
+from angen_apps.plan.draw import draw, read_scene, sheet
 from angen_apps.plan.writer import write_world
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import pyplot
+from angen_tools.world.models import building
 
 ENTITIES = [('pir', 'hall_pir0_a', 'hall_pir0_a', (0.0,) * 7)]
 
@@ -57,6 +61,19 @@ def test_a_storey_shows_its_own_events_and_tracks(tmp_path: Path) -> None:
     assert np.array_equal(plain, picture(overlays.What()))
     changed = (plain != picture(overlays.What(events=tmp_path / 'events.csv'))).any(axis=2)
     assert 0.001 < changed.mean() < 0.1
+
+
+def test_names_of_sensors_can_be_read(tmp_path: Path) -> None:
+    scene = read_scene(building())
+    with pyplot().rc_context({'font.size': 8}):
+        figure, axes = sheet(scene, scene.drawn())
+        for axis, storey in axes:
+            overlays.draw(axis, scene, storey, overlays.Data(), overlays.What(sensors=True))
+            figure.canvas.draw()
+            names = [text for text in axis.texts if isinstance(text, Annotation)]
+            assert len(names) > 4 and all(text.get_fontsize() >= 6 for text in names)
+            boxes = [Text.get_window_extent(text) for text in axis.texts]
+            assert not [1 for a, b in itertools.combinations(boxes, 2) if a.overlaps(b)]
 
 
 def test_an_hour_in_which_only_people_came_has_no_events_to_show(tmp_path: Path) -> None:

@@ -2,11 +2,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
+from angen import Grid
 
-from angen_apps.maps.gridmap import FREE, OCCUPIED, RESOLUTION, GridMap
+from angen_apps.maps.gridmap import FREE, OCCUPIED, RESOLUTION
 from angen_apps.plan.apartment import apartment
 from angen_apps.plan.writer import write_world
 from angen_apps.residents import ground
@@ -19,11 +19,11 @@ from angen_tools.common.home import Door, Home
 from tests.angen_apps.residents.test_mover import home_of, narrow
 
 
-def floor(rows: int, columns: int) -> GridMap:
-    return GridMap(np.full((rows, columns), FREE, np.int8), (-1.0, -2.0), RESOLUTION, 0)
+def floor(rows: int, columns: int) -> Grid:
+    return Grid(np.full((rows, columns), FREE, np.int8), (-1.0, -2.0), RESOLUTION, 0)
 
 
-def row_of_doors() -> tuple[GridMap, GridMap, list[Door]]:
+def row_of_doors() -> tuple[Grid, Grid, list[Door]]:
     """A corridor along the edges of a map, without and with the leaves of doors of many widths."""
     grid, opened, doors = floor(40, 200), floor(40, 200), []
     for number, at in enumerate(range(10, 200, 23)):
@@ -59,10 +59,10 @@ def test_the_ways_of_a_storey_are_computed_once_for_all_of_its_doors(tmp_path, m
     write_world(apartment(3, 1, 7), tmp_path / 'home.world')
     world = angen_module().World(str(tmp_path / 'home.world'))
     home = Home.of_world(world)
-    made: list[GridMap] = []
+    made: list[Grid] = []
 
     class Counted(Planner):
-        def __init__(self, grid: GridMap, radius: float) -> None:
+        def __init__(self, grid: Grid, radius: float) -> None:
             made.append(grid)
             super().__init__(grid, radius)
 
@@ -80,4 +80,4 @@ def test_a_leaf_before_the_entrance_closes_off_the_outside(tmp_path):
     assert reach.rooms(Planner(grid, BODY).passable) == rooms | {''}
     leaf = (abs(x - 0.3) < 0.1) & (abs(y + 3.0) < 0.4)
     cells = np.where(leaf, OCCUPIED, grid.cells).astype(np.int8)
-    assert reach.rooms(Planner(replace(grid, cells=cells), BODY).passable) == rooms
+    assert reach.rooms(Planner(grid.with_cells(cells), BODY).passable) == rooms

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import pytest
 from angen_apps.rmf.lifts import Lift
-from angen_msgs.msg import ElevatorState as State
+from angen_tools.session import State
 from genpy import Time
 from rmf_lift_msgs.msg import LiftRequest, LiftState
 
@@ -16,9 +16,13 @@ def request(session: str, floor: str = '', kind: int = AGV) -> LiftRequest:
                        destination_floor=floor, door_state=LiftRequest.DOOR_OPEN)
 
 
+def state(**fields: object) -> State:
+    return State('elevator', 'lift', 0.0, {'mode': 'IDLE', 'target_floor': 0, **fields})
+
+
 def standing(floor: int) -> State:
-    return State(mode=State.IDLE, floor=floor, target_floor=floor, floors=3,
-                 door_mode=State.DOOR_OPEN)
+    return state(mode='IDLE', floor=floor, target_floor=floor, floors=3,
+                 door_mode='OPEN')
 
 
 @pytest.fixture
@@ -39,19 +43,19 @@ def test_it_reports_its_place(lift: Lift) -> None:
 
 def test_on_its_way_the_current_floor_is_the_one_it_left(lift: Lift) -> None:
     assert lift.request(request('robot', 'Floor2')) == 'Floor2'
-    assert lift.take(State(mode=State.UP, floor=-1, target_floor=2, floors=3,
-                           door_mode=State.DOOR_CLOSED))
+    assert lift.take(state(mode='UP', floor=-1, target_floor=2, floors=3,
+                           door_mode='CLOSED'))
     shown = lift.report(Time())
     assert (shown.current_floor, shown.destination_floor) == ('Floor0', 'Floor2')
     assert (shown.motion_state, shown.door_state) == (LiftState.MOTION_UP, LiftState.DOOR_CLOSED)
     assert (shown.current_mode, shown.session_id) == (LiftState.MODE_AGV, 'robot')
-    assert not lift.take(State(mode=State.UP, floor=-1, position=1.0, target_floor=2, floors=3,
-                               door_mode=State.DOOR_CLOSED))
+    assert not lift.take(state(mode='UP', floor=-1, position=1.0, target_floor=2, floors=3,
+                               door_mode='CLOSED'))
 
 
-@pytest.mark.parametrize('door', [State.DOOR_OPENING, State.DOOR_CLOSING, State.DOOR_BLOCKED])
-def test_a_door_in_between_moves(lift: Lift, door: int) -> None:
-    lift.take(State(floor=0, floors=3, door_mode=door))
+@pytest.mark.parametrize('door', ['OPENING', 'CLOSING', 'BLOCKED'])
+def test_a_door_in_between_moves(lift: Lift, door: str) -> None:
+    lift.take(state(floor=0, floors=3, door_mode=door))
     assert lift.report(Time()).door_state == LiftState.DOOR_MOVING
 
 
@@ -71,8 +75,8 @@ def test_one_session_at_a_time(lift: Lift) -> None:
 
 def test_a_repeated_request_is_one_command(lift: Lift) -> None:
     assert lift.request(request('robot', 'Floor1')) == 'Floor1'
-    lift.take(State(mode=State.IDLE, floor=0, target_floor=1, floors=3,
-                    door_mode=State.DOOR_CLOSING))
+    lift.take(state(mode='IDLE', floor=0, target_floor=1, floors=3,
+                    door_mode='CLOSING'))
     assert lift.request(request('robot', 'Floor1')) == ''
     assert lift.request(request('robot', 'Floor2')) == 'Floor2'
     assert lift.request(request('robot', 'Floor1')) == 'Floor1'  # cancels the waiting request

@@ -8,10 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from angen import Grid
 
-from angen_apps.maps.gridmap import FREE, GridMap
+from angen_apps.maps.gridmap import FREE
 from angen_apps.robot.driver import DEVICE_LIMIT, Driver, Stuck
-from angen_apps.robot.interface import (BUMPER, CYCLE, DoorState, Event, LiftState, bumper_of,
+from angen_apps.robot.door_client import DoorState
+from angen_apps.robot.interface import (BUMPER, CYCLE, Event, LiftState, bumper_of,
                                         collisions)
 from angen_apps.robot.pilot import Pose
 from angen_apps.robot.route import Drive, Ride, Turn
@@ -64,8 +66,7 @@ class IdealRobot:
 
 
 def driver(robot: IdealRobot, **more: Any) -> Driver:
-    grids = {floor: GridMap(np.full((40, 60), FREE, np.int8), (-0.5, -1.0), 0.05, floor,
-                            4.0 * floor)
+    grids = {floor: Grid(np.full((40, 60), FREE), (-0.5, -1.0), 0.05, floor, 4.0 * floor)
              for floor in (0, 1)}
     made = Driver(robot, ROUTE, grids, Pose(0, 0, 0), lambda: None, **more)
     made.begin(Pose(0.0, 0.0, 0.0), 0)

@@ -5,21 +5,22 @@ import math
 
 import numpy as np
 import pytest
+from angen import Grid
 
-from angen_apps.maps.gridmap import FREE, OCCUPIED, GridMap
+from angen_apps.maps.gridmap import FREE, OCCUPIED
 from angen_apps.robot.localizer import Localizer
 from angen_apps.robot.pilot import Pose
 
 
-def box(width: int = 80, height: int = 60) -> GridMap:
+def box(width: int = 80, height: int = 60) -> Grid:
     """A room with a pillar; 0.05 m a cell."""
     cells = np.full((height, width), FREE, np.int8)
     cells[[0, -1]] = cells[:, [0, -1]] = OCCUPIED
     cells[10:16, 50:54] = OCCUPIED
-    return GridMap(cells, (0.0, 0.0), 0.05, 0)
+    return Grid(cells, (0.0, 0.0), 0.05, 0)
 
 
-def scan_from(grid: GridMap, pose: Pose) -> np.ndarray:
+def scan_from(grid: Grid, pose: Pose) -> np.ndarray:
     """A laser's scan there: the middles of the cells that rays hit, in its frame."""
     found = []
     for angle in np.arange(0, 2 * math.pi, math.radians(2)):

@@ -5,17 +5,18 @@ import math
 
 import numpy as np
 import pytest
+from angen import Grid
 
-from angen_apps.maps.gridmap import FREE, OCCUPIED, GridMap
+from angen_apps.maps.gridmap import FREE, OCCUPIED
 from angen_apps.robot.planner import Door, Planner, distances, passages
 
 
-def two_rooms(floor: int = 0) -> GridMap:
+def two_rooms(floor: int = 0) -> Grid:
     """4 m x 2 m, with walls all round and one at x = 2 that has a doorway from y = 0.5 to 1.5."""
     cells = np.full((40, 80), FREE, np.int8)
     cells[[0, -1]] = cells[:, [0, -1]] = OCCUPIED
     cells[:10, 40] = cells[30:, 40] = OCCUPIED
-    return GridMap(cells, (0.0, 0.0), 0.05, floor)
+    return Grid(cells, (0.0, 0.0), 0.05, floor)
 
 
 # shut across the doorway; opens into the right room
@@ -50,7 +51,7 @@ def test_distances_are_those_to_the_nearest_edge_that_is_not_free() -> None:
     blocked = [(y, x) for y in range(-1, 14) for x in range(-1, 18)
                if not (0 <= y < 13 and 0 <= x < 17) or cells[y, x] != FREE]
     for reach in (0.12, 10.0):
-        found = distances(GridMap(cells, (0.0, 0.0), 0.05, 0), reach)
+        found = distances(Grid(cells, (0.0, 0.0), 0.05, 0), reach)
         for row, column in np.ndindex(cells.shape):
             nearest = min(math.hypot(max(abs(row - y) - 0.5, 0), max(abs(column - x) - 0.5, 0))
                           for y, x in blocked)

@@ -5,8 +5,9 @@ import math
 from itertools import permutations
 
 import numpy as np
+from angen import Grid
 
-from angen_apps.maps.gridmap import FREE, OCCUPIED, GridMap
+from angen_apps.maps.gridmap import FREE, OCCUPIED
 from angen_apps.robot.planner import Planner, Point
 from angen_apps.robot.tour import in_order
 
@@ -16,7 +17,7 @@ def planner(*walls: slice) -> Planner:
     cells = np.full((80, 400), FREE, np.int8)
     for wall in walls:
         cells[40, wall] = OCCUPIED
-    return Planner(GridMap(cells, (0.0, 0.0), 0.05, 0), 0.22)
+    return Planner(Grid(cells, (0.0, 0.0), 0.05, 0), 0.22)
 
 
 def test_a_corridor_is_driven_to_one_end_and_then_to_the_other() -> None:

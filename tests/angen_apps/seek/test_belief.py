@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from angen import Grid
 
-from angen_apps.maps.gridmap import FREE, GridMap
+from angen_apps.maps.gridmap import FREE
 from angen_apps.robot.building import Start
 from angen_apps.robot.entities import Entity
-from angen_apps.robot.interface import Event
+from angen_tools.session import Event
 from angen_apps.robot.pilot import Pose
 from angen_apps.robot.planner import Door
 from angen_apps.seek.ambient import Ambient, RobotNow
@@ -28,7 +29,7 @@ def home() -> Home:
     at = np.array([(0.25 + 0.5 * i, 0.5) for i in range(COUNT)])
     room = (np.arange(COUNT) >= COUNT // 2).astype(int)
     edges = np.array([(i, i + 1) for i in range(COUNT - 1)])
-    grid = GridMap(np.full((20, 200), FREE, np.int8), (0.0, 0.0), 0.05, 0)
+    grid = Grid(np.full((20, 200), FREE, np.int8), (0.0, 0.0), 0.05, 0)
     still = (0.0, 0.0, 0.0, 1.0)
     robot = Entity('drive', 'robot', 'robot', (0.25, 0.5, 0.0, *still))
     entities = [robot, Entity('luminosity', 'kitchen_lux0', 'l', (9.0, 0.5, 2.0, *still)),

@@ -7,8 +7,9 @@ from typing import Callable
 
 import numpy as np
 import pytest
+from angen import Grid
 
-from angen_apps.maps.gridmap import FREE, OCCUPIED, GridMap
+from angen_apps.maps.gridmap import FREE, OCCUPIED
 from angen_apps.robot.localizer import Field
 from angen_apps.robot.pilot import Pose
 from angen_apps.seek.detector import Arc, find_arcs, find_figure
@@ -47,7 +48,7 @@ def room() -> Field:
     cells = np.full((122, 162), FREE, np.int8)
     cells[0:2, :] = cells[-2:, :] = OCCUPIED
     cells[:, 0:2] = cells[:, -2:] = OCCUPIED
-    return Field(GridMap(cells, (-0.05, -0.05), 0.05, 0))
+    return Field(Grid(cells, (-0.05, -0.05), 0.05, 0))
 
 
 def scan(pose: Pose, *shapes: Shape, seed: int = 1) -> SimpleNamespace:
@@ -102,7 +103,7 @@ def test_other_things_are_none(shape: Shape) -> None:
 
 def test_what_the_map_has_is_none() -> None:
     field = room()
-    grid = GridMap(np.full((122, 162), FREE, np.int8), (-0.05, -0.05), 0.05, 0)
+    grid = Grid(np.full((122, 162), FREE, np.int8), (-0.05, -0.05), 0.05, 0)
     angles = np.linspace(0, 2 * math.pi, 400)
     for x, y in zip(3.0 + 0.25 * np.cos(angles), 3.0 + 0.25 * np.sin(angles)):
         grid.cells[grid.cell(x, y)] = OCCUPIED

@@ -85,7 +85,7 @@ def test_namespaces_and_maps_are_those_of_the_floors() -> None:
     assert {'ground', 'ceilings -1', 'windows south 0', 'readings 1'} <= off
     assert not any(name.endswith(' 2') for name in off)
     assert [display['Topic'] for display in displays if display['Class'] == 'rviz/Map'] == [
-        '/floor-1/map', '/floor0/map', '/floor1/map']
+        'floor-1/map', 'floor0/map', 'floor1/map']
 
 
 def test_a_world_without_floors_is_seen_from_above() -> None:

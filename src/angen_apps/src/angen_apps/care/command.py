@@ -18,20 +18,20 @@ from angen_tools.common.output import as_json, show
 
 def care_live(path: Path | None, out: Path) -> int:
     """Follows the running simulator until Ctrl-C, and writes what happened then."""
-    from angen_apps.care.live import Live
+    from angen_apps.care.live import Watch
     from angen_tools.live.spawn import save
     rules = read_rules(path or shipped('care.yaml'))
-    live = Live(rules, lambda change, starts: print(line_of(change, starts), flush=True))
-    for why in live.left_out:
+    live = Watch(rules, lambda change, starts: print(line_of(change, starts), flush=True))
+    for why in live.rules.left_out:
         print(f'angen: {why}', file=sys.stderr)
-    print(f'angen: {len(rules.rules) - len(live.left_out)} rules of {rules.path}; warnings are on '
-          '/angen/warnings; Ctrl-C ends', file=sys.stderr)
+    print(f'angen: {len(live.rules.rules)} rules of {rules.path}; warnings are on /angen/warnings; '
+          'Ctrl-C ends', file=sys.stderr)
     copy = out / 'care.world'
     make_folder(out)
     save(copy)  # when the simulator has ended it is too late
     with suppress(KeyboardInterrupt):
         while True:
-            live.follow()
+            live.watch()
     write(live.engine, out)
     print(f'\nangen: wrote {out}/warnings.csv', file=sys.stderr)
     _draw(live.engine, copy, out / 'care.png')

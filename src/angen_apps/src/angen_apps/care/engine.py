@@ -7,13 +7,14 @@ from typing import Collection, Iterable, Mapping
 
 from angen_tools.common.clock import DAY, show_duration, show_time
 from angen_apps.care.rules import Condition, Rule, Rules
-from angen_apps.care.signals import Event, LiveSignal
+from angen_apps.care.signals import LiveSignal
 from angen_apps.care.sources import place_of
+from angen_tools.session import Event
 
 STEP = 1.0      # s of simulated time between two looks at the clock
 ROUNDING = 1e-6  # s, more than that of a time
 RELEASE = 0.5   # a warning ends when its degree falls below this share of the threshold
-RESOLUTION = 0.005  # of the degrees that are recorded
+RESOLUTION = 0.005  # resolution of the recorded degrees
 
 RAISED, ACKNOWLEDGED, ENDED = 'raised', 'acknowledged', 'ended'
 
@@ -116,7 +117,7 @@ class Engine:
                         heappush(self._corners, since + corner)
 
     def acknowledge(self, name: str) -> list[Change]:
-        """A user has seen the warning of a rule, or of 'all'; none where it is not active."""
+        """A user has seen the warning of a rule, or of 'all'; none if it is not active."""
         changes = []
         for rule, warning in self.active.items():
             if name in ('all', rule) and warning.acknowledged is None:

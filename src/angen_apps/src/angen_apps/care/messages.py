@@ -6,10 +6,11 @@ from typing import Any, Sequence
 
 from angen_apps.care.engine import ACKNOWLEDGED, ENDED, RAISED, CareWarning, Change, Engine
 from angen_apps.care.report import event_of
-from angen_tools.live.client import Client
+from angen_tools.session import Entity
+from angen_tools.session.live import Live
 
-WARNINGS, ACTIVE = '/angen/warnings', '/angen/warnings/active'
-MARKERS, LOG = '/angen/warnings/markers', '/angen/events/add'
+WARNINGS, ACTIVE = 'angen/warnings', 'angen/warnings/active'
+MARKERS, LOG = 'angen/warnings/markers', 'angen/events/add'
 RED, AMBER = (1.0, 0.2, 0.15), (1.0, 0.7, 0.1)  # before and after it is acknowledged
 RADIUS, THICK, POLE, LETTERS = 0.6, 0.06, 3.0, 0.2  # m
 LINE = 18  # letters
@@ -18,18 +19,19 @@ LINE = 18  # letters
 class WarningPublisher:
     """Publishes changes of warnings."""
 
-    def __init__(self, client: Client, engine: Engine, entities: Sequence[Any]) -> None:
+    def __init__(self, world: Live, engine: Engine, entities: Sequence[Entity]) -> None:
         import rospy
         from angen_msgs.msg import CareWarning as Message
         from angen_msgs.msg import CareWarningArray, Event
+        from geometry_msgs.msg import Point
         from visualization_msgs.msg import MarkerArray
-        client.join()
-        places = {entity.name: entity.pose.position for entity in reversed(entities)}
+        world.join()
+        places = {entity.name: Point(*entity.pose[:3]) for entity in reversed(entities)}
         self._places = {rule: places.get(name) for rule, name in engine.places.items()}
         self._one = rospy.Publisher(WARNINGS, Message, queue_size=100)
         self._all = rospy.Publisher(ACTIVE, CareWarningArray, queue_size=10, latch=True)
         self._markers = rospy.Publisher(MARKERS, MarkerArray, queue_size=10, latch=True)
-        self._log = client.publisher(LOG, Event)
+        self._log = world.publisher(LOG, Event)
 
     def publish(self, engine: Engine, changes: Sequence[Change]) -> None:
         """Publishes changes, and the warnings that are active after them."""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
 from angen_tools.common.clock import show_time
 from angen_apps.care.engine import RAISED, CareWarning, Change, Engine
-from angen_apps.care.signals import Event
+from angen_tools.session import Event
 from angen_tools.common.files import write_csv
 from angen_tools.common.output import table
 from angen_tools.offline.events import COLUMNS, row
@@ -14,7 +14,7 @@ from angen_tools.offline.events import COLUMNS, row
 if TYPE_CHECKING:
     from rich.table import Table
 
-KIND = 'care'  # of its events
+KIND = 'care'  # kind of its events
 LOGGED = {RAISED: 'warning'}  # its name in the event log, where that differs
 
 

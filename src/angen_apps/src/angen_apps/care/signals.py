@@ -1,27 +1,12 @@
 """The state of signals: events in; whether each is true, and since when, out."""
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Collection, Mapping
 
 from angen_apps.care.rules import Signal
 from angen_apps.care.sources import chosen
 from angen_apps.care.states import STATES
-
-
-@dataclass(frozen=True)
-class Event:
-    """One of angen_msgs/Event; time in s of simulated time."""
-
-    time: float
-    source: str
-    kind: str
-    event: str
-    detail: str = ''
-
-    @property
-    def key(self) -> str:
-        return f'{self.kind}/{self.source}'
+from angen_tools.session import Event
 
 
 class LiveSignal:

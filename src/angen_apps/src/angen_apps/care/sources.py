@@ -27,7 +27,7 @@ def at_home(rules: Rules, home: Home, rooms: Mapping[str, str], existing: Collec
     """The rules with their sources and places in a home, and with the home's start.
 
     `rooms`: the room of each KIND/NAME that is in one. Signals chosen by kind, use or the entrance
-    may be missing: rules that ask for it are left out. Failure where something named is missing.
+    may be missing: rules that ask for it are left out. Failure if something named is missing.
     """
     signals: dict[str, Signal] = {}
     missing: dict[str, str] = {}
@@ -62,14 +62,14 @@ def at_home(rules: Rules, home: Home, rooms: Mapping[str, str], existing: Collec
 
 
 def _entrance(patterns: Iterable[str], home: Home) -> tuple[str, ...]:
-    """The patterns with the name of the main entrance; none where the home has none."""
+    """The patterns with the name of the main entrance; none if the home has none."""
     if not home.entrance:
         return tuple(pattern for pattern in patterns if ENTRANCE not in pattern)
     return tuple(pattern.replace(ENTRANCE, home.entrance) for pattern in patterns)
 
 
 def _check_rooms(path: Path, signal: Signal, home: Home) -> str:
-    """Why no room of a known use is there; Failure where a room is not known at all."""
+    """Why no room of a known use is there; Failure if a room is not known at all."""
     known = {name for room in home.rooms for name in (room.use, room.name)}
     for room in signal.rooms:
         if room not in known | set(USES):
@@ -90,7 +90,7 @@ def _place(at: str, home: Home) -> str:
 
 
 def check_sources(rules: Rules, existing: Collection[str], places: Collection[str]) -> None:
-    """Failure where a signal names an unknown source, or a rule an unknown place.
+    """Failure if a signal names an unknown source, or a rule an unknown place.
 
     `existing`: each KIND/NAME of a sensor or device; `places`: names of models, sensors, devices.
     """

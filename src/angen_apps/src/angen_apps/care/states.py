@@ -18,7 +18,7 @@ class State:
         return re.search(self.shown, summary) is not None
 
 
-POWER = r'(?<![\d.])(?!0+(\.0+)? W)\d+(\.\d+)? W'  # that is not 0
+POWER = r'(?<![\d.])(?!0+(\.0+)? W)\d+(\.\d+)? W'  # a power above 0
 LEAF = {'open': State(('opening', 'opened', 'ajar', 'closing', 'blocked'), ('closed',),
                       r'^(OPEN|AJAR|OPENING|CLOSING|BLOCKED)'),
         'closed': State(('closed',), ('opening', 'opened', 'ajar', 'blocked'), r'^CLOSED')}

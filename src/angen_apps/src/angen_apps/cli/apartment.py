@@ -2,12 +2,11 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import Any
 
 from angen_apps.cli.imports import SENSORS
 from angen_tools.cli.arguments import between, checked
-from angen_tools.cli.parser import add_json, add_seed, command
+from angen_tools.cli.parser import add_file, add_json, add_seed, command, former
 from angen_tools.common.files import check_output
 from angen_tools.common.output import show_done
 
@@ -16,7 +15,7 @@ def run_home(args: argparse.Namespace) -> int:
     from angen_apps.plan.tower import building
     from angen_apps.plan.writer import write_world, written
     check_output(args.output)
-    counts = write_world(building(args.rooms, args.storeys, args.apartments, args.seed),
+    counts = write_world(building(args.rooms, args.floors, args.apartments, args.seed),
                          args.output, args.sensors)
     show_done(written(args.output, counts), args.json)
     return 0
@@ -26,15 +25,16 @@ def add_home(commands: Any) -> None:
     """angen world home."""
     home = command(commands.choices['world'].kinds, 'home', run_home,
                    'writes a home or building of one of many plans, with furniture and sensors',
-                   'world home --rooms 3 --storeys 2 --seed 7 -o home.world')
+                   'world home --rooms 3 --floors 2 --seed 7 -o home.world')
     home.add_argument('--rooms', metavar='N', type=checked(between(1, 5)), default=2,
                       help='1 to 5, besides kitchen, bathroom and hall, in each apartment (2)')
-    home.add_argument('--storeys', metavar='N', type=checked(between(1, 10)), default=1,
+    home.add_argument('--floors', metavar='N', type=checked(between(1, 10)), default=1,
                       help='1 to 10; an elevator serves all of several (1)')
+    former(home, '--storeys', '--floors', 'floors', checked(between(1, 10)))
     home.add_argument('--apartments', metavar='N', type=checked(between(1, 6)), default=1,
-                      help='1 to 6 on each storey; a corridor joins several (1)')
+                      help='1 to 6 on each floor; a corridor joins several (1)')
     home.add_argument('--sensors', choices=SENSORS, default='seed',
                       help='as of angen import (seed)')
     add_seed(home, 'of the plan and of its contents')
     add_json(home)
-    home.add_argument('-o', '--output', metavar='FILE', type=Path, required=True)
+    add_file(home)

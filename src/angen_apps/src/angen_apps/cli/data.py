@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked
-from angen_tools.cli.parser import add_json, add_out, add_seed, command
+from angen_tools.cli.parser import add_json, add_out, add_seed, add_world_file, command
 
 NAMES = ('casas', 'casas-columns', 'aras', 'kasteren', 'openshs', 'csv', 'parquet', 'xes', 'power')
-YEARS = 1900, 2900  # of the first day
+YEARS = 1900, 2900  # range of the first day's year
 
 
 def formats(text: str) -> tuple[str, ...]:
@@ -114,19 +114,18 @@ def add_generate(commands: Any) -> None:
     made = command(commands, 'generate', run_generate,
                    'has residents live in homes and writes labeled data of their sensors; needs '
                    'no simulator', 'generate --days 2 --residents 2 --seed 7 --format casas',
-                   'generate --homes 20 --days 30 --residents 3 --format casas,csv -o homes')
+                   'generate --homes 20 --days 30 --residents 3 --format casas,csv --out homes')
     made.add_argument('--days', metavar='N', type=checked(at_least(1, 36525)), default=1,
                       help='days of each home (1)')
     made.add_argument('--residents', metavar='WHO', type=checked(residents), default=('2',),
                       help='a number, or profiles between commas: retired, worker, student, … or '
                       'YAML files, as docs/data.md describes them (2)')
-    add_seed(made, 'of everything')
+    add_seed(made, 'of the habits of residents and of all noise')
     made.add_argument('--format', metavar='LIST', type=checked(formats), default=('casas',),
                       help=f'formats between commas: {", ".join(NAMES)} (casas)')
     made.add_argument('--start', metavar='DATE', type=checked(date),
                       help="the first day (that of the home's description)")
-    made.add_argument('--world', metavar='FILE', type=Path,
-                      help='a home of your own that describes its rooms')
+    add_world_file(made, 'a home of your own that describes its rooms')
     made.add_argument('--own-sensors', action='store_true',
                       help="uses the world's sensors and adds none")
     made.add_argument('--light', action='store_true', help='adds a light sensor to each room; slow')

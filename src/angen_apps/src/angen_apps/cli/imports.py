@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from angen_tools.cli.arguments import checked
-from angen_tools.cli.parser import add_json, command
+from angen_tools.cli.parser import add_file, add_json, command
 from angen_tools.common.files import check_output
 from angen_tools.common.output import show_done
 from angen_tools.common.verbs import comma_hint
@@ -48,12 +48,11 @@ def add_import(commands: Any) -> None:
                         'of a picture or map are doors')
     parser.add_argument('--sensors', choices=SENSORS, default='seed', help='seed: two PIRs and a '
                         'luminosity sensor a room, a reed contact a door and window, contacts in '
-                        'seats; casas: a PIR of the CASAS flats on each ceiling and reed contacts '
-                        '(seed)')
+                        'seats; casas: a PIR on each ceiling, as in the CASAS apartments, and reed '
+                        'contacts (seed)')
     parser.add_argument('--things', metavar='FILE', type=Path,
                         help='a table of furniture that precedes the built-in one')
     parser.add_argument('--meshes', action='store_true', help='furniture of a .sh3d file looks '
                         'like its OBJ meshes; boxes stay for contacts and rays')
-    parser.add_argument('-o', '--output', metavar='FILE', type=Path, required=True,
-                        help='the world that is written')
+    add_file(parser)
     add_json(parser)

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked
-from angen_tools.cli.parser import add_allow_paths, add_json, command
+from angen_tools.cli.parser import add_allow_paths, add_file, add_json, add_world_file, command
 from angen_tools.common.files import check_output
 from angen_tools.common.output import show_done
 
@@ -23,14 +23,12 @@ def add_map(commands: Any) -> None:
     """angen map."""
     parser = command(commands, 'map', run_map,
                      "writes a floor's map for map_server; needs no simulator",
-                     'map --floor 0 -o map', 'map --world my.world --floor 1 --doors open -o upper')
+                     'map --floor 0 -o map', 'map my.world --floor 1 --doors open -o upper')
     parser.add_argument('--floor', metavar='N', type=checked(at_least(0)), default=0,
                         help='which floor, counted from 0 (0)')
-    parser.add_argument('--world', metavar='FILE', type=Path, help='of a world '
-                        '(worlds/angen.world)')
+    add_world_file(parser, 'the SDF file of the building (worlds/angen.world)')
     parser.add_argument('--doors', choices=['away', 'open', 'shut'], default='away',
                         help='away: doorways are free; otherwise as the leaves are (away)')
-    parser.add_argument('-o', '--output', metavar='NAME', type=Path, default=Path('map'),
-                        help='writes NAME.pgm and NAME.yaml (map)')
+    add_file(parser, 'writes NAME.pgm and NAME.yaml (map)', 'NAME', Path('map'))
     add_allow_paths(parser)
     add_json(parser)

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked, duration, rate
-from angen_tools.cli.parser import add_json, add_out, add_seed, command
+from angen_tools.cli.parser import add_json, add_out, add_seed, add_world_file, command
 from angen_tools.common.files import check_folder
 
 
@@ -14,8 +14,8 @@ def run_patrol(args: argparse.Namespace) -> int:
     check_folder(args.out)
     if args.seeds > 1:
         from angen_apps.patrol.seeds import patrols
-        words = [word for name in ('route', 'world') if getattr(args, name)
-                 for word in (f'--{name}', str(getattr(args, name)))]
+        words = [str(args.world)] * bool(args.world) + (
+            ['--route', str(args.route)] if args.route else [])
         return patrols([*words, '--rate', f'{args.rate:g}'],
                        range(args.seed, args.seed + args.seeds), args.out, args.json)
     from angen_apps.patrol.command import patrol
@@ -33,8 +33,7 @@ def add_task(commands: Any) -> None:
                      'task patrol --route my.yaml --out my_run', 'task patrol --seeds 20')
     patrol.add_argument('--route', metavar='FILE', type=Path,
                         help='where to go and how fast (config/patrol.yaml of angen_apps)')
-    patrol.add_argument('--world', metavar='FILE', type=Path, help='the building '
-                        '(worlds/angen.world)')
+    add_world_file(patrol, 'the building (worlds/angen.world)')
     add_seed(patrol, 'of start, noise and timing')
     patrol.add_argument('--seeds', metavar='N', type=checked(at_least(1)), default=1,
                         help='this many patrols, with this seed and the next ones, each in a '
@@ -43,7 +42,7 @@ def add_task(commands: Any) -> None:
                         help='simulated seconds per second, with rviz where there is a display; '
                         '0: as fast as possible, without rviz (0)')
     add_json(patrol)
-    add_out(patrol, 'everything that it writes')
+    add_out(patrol, 'all files that it writes')
     add_seek(kinds)
 
 
@@ -64,8 +63,7 @@ def add_seek(kinds: Any) -> None:
                    'task seek --seed 7 --own-sensors', 'task seek --seeds 20')
     seek.add_argument('--route', metavar='FILE', type=Path, help='robot, speed and elevator as '
                       'for patrol; its waypoints do not matter (config/patrol.yaml of angen_apps)')
-    seek.add_argument('--world', metavar='FILE', type=Path, help='the building; its first actor '
-                      'is the person (worlds/angen.world)')
+    add_world_file(seek, 'the building; its first actor is the person (worlds/angen.world)')
     add_seed(seek, 'of start, noise, and the places and habits of the person')
     seek.add_argument('--seeds', metavar='N', type=checked(at_least(1)), default=1,
                       help='this many searches with, and as many without ambient sensors, on all '
@@ -75,4 +73,4 @@ def add_seek(kinds: Any) -> None:
     seek.add_argument('--limit', metavar='S', type=checked(duration), default=600.0,
                       help='simulated seconds after which it gives up (600)')
     add_json(seek)
-    add_out(seek, 'everything that it writes')
+    add_out(seek, 'all files that it writes')

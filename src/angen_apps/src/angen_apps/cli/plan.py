@@ -5,7 +5,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from angen_tools.cli.parser import add_allow_paths, add_json, command
+from angen_tools.cli.parser import add_allow_paths, add_file, add_json, add_world_file, command
 from angen_tools.common.files import check_output
 from angen_tools.common.output import show_done
 
@@ -25,7 +25,7 @@ def add_plan(commands: Any) -> None:
                      'plan home.world -o plan.svg', 'plan home.world --sensors -o plan.png',
                      'plan worlds/angen.world --events out/events.csv -o plan.png',
                      'plan worlds/angen.world --track out/track.csv -o plan.png')
-    parser.add_argument('world', metavar='WORLD', type=Path, help='the SDF file of the building')
+    add_world_file(parser, 'the SDF file of the building', required=True)
     parser.add_argument('--sensors', action='store_true',
                         help='with sensors, their names and fields of view')
     parser.add_argument('--events', metavar='FILE', type=Path, help='with how often each sensor '
@@ -34,7 +34,6 @@ def add_plan(commands: Any) -> None:
     parser.add_argument('--track', metavar='FILE', type=Path, help='with ways: track.csv of '
                         'angen demo or task seek, track.csv.gz of angen generate, or a CSV file '
                         'with the columns x, y and, if it has them, z, storey and name')
-    parser.add_argument('-o', '--output', metavar='FILE', type=Path, required=True,
-                        help='a file .svg or .png')
+    add_file(parser, 'a file .svg or .png')
     add_allow_paths(parser)
     add_json(parser)

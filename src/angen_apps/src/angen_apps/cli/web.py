@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from angen_tools.cli.arguments import checked
-from angen_tools.cli.parser import command
+from angen_tools.cli.parser import add_world_file, command
 from angen_tools.common.port import port
 
 PORT = 8080
@@ -15,7 +15,7 @@ PORT = 8080
 def run_web(args: argparse.Namespace) -> int:
     from angen_apps.web.command import web_live, web_recording
     if args.world is not None and args.replay is None:
-        args.parser.error('--world needs --replay; the world of a run is that of ./angen run')
+        args.parser.error('WORLD needs --replay; the world of a run is that of ./angen run')
     if args.replay is not None:
         web_recording(args.replay, args.world, args.host, args.port, args.json)
     else:
@@ -33,8 +33,7 @@ def add_web(commands: Any) -> None:
     web.add_argument('--replay', metavar='FILE', type=Path,
                      help='plays a run that record:= of ./angen run has recorded, or a home of '
                      'angen generate, with a time line')
-    web.add_argument('--world', metavar='FILE', type=Path,
-                     help='the world of --replay, where a home of your own was generated')
+    add_world_file(web, 'the world of --replay, if it is of a home of your own')
     web.add_argument('--port', metavar='N', type=checked(port), default=PORT,
                      help=f'port of the page ({PORT})')
     web.add_argument('--host', metavar='ADDRESS', default='127.0.0.1',

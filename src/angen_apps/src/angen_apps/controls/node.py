@@ -18,11 +18,11 @@ from visualization_msgs.msg import InteractiveMarker, InteractiveMarkerControl, 
 
 from angen_apps.controls.offers import SEND, Offer, offers, pair, toggled, walk
 from angen_apps.controls.places import Taken, place, rooms, things
-from angen_apps.navigation.goal import TOPIC, is_robot, publish_goal
-from angen_tools.common.catalog import kinds
+from angen_apps.navigation.goal import TOPIC, publish_goal
+from angen_tools.common.catalog import is_robot, kinds
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home
-from angen_tools.live.states import states_by_name
+from angen_tools.session.messages import states_by_name
 
 SERVER = 'angen_controls'
 HANDLE = 0.2  # m, diameter of a button
@@ -63,11 +63,11 @@ class Controls:
         self._doors: dict[str, Any] = {}
         self._home = Home()
         self._goal = rospy.Publisher(TOPIC, PoseStamped, queue_size=1)
-        self._list = rospy.ServiceProxy('/angen/list', List)
-        self._command = rospy.ServiceProxy('/angen/command', SendCommand)
+        self._list = rospy.ServiceProxy('angen/list', List)
+        self._command = rospy.ServiceProxy('angen/command', SendCommand)
         self._list.wait_for_service()
-        rospy.Subscriber('/angen/events', Event, self._on_event)
-        rospy.Subscriber('/angen/home', HomeMessage, self._on_home)
+        rospy.Subscriber('angen/events', Event, self._on_event)
+        rospy.Subscriber('angen/home', HomeMessage, self._on_home)
         self._is_stale = True
 
     def spin(self) -> None:
@@ -86,7 +86,7 @@ class Controls:
 
     def _on_home(self, home: Any) -> None:
         self._doors = {f'{door.kind}/{door.name}': door.pose for door in home.doors}
-        self._home = Home.of_message(home)
+        self._home = Home.of(home)
         self._is_stale = True
 
     def make(self) -> None:
@@ -114,7 +114,7 @@ class Controls:
 
     @staticmethod
     def _scene() -> Any:
-        return rospy.wait_for_message('/angen/scene', Scene, SCENE_LIMIT)
+        return rospy.wait_for_message('angen/scene', Scene, SCENE_LIMIT)
 
     def _moving_frames(self) -> dict[str, str]:
         """The frame of each model's first link that moves: a marker in it follows the model."""
@@ -175,7 +175,7 @@ class Controls:
     def _menu(self, entity: Any, offered: list[Offer]) -> MenuHandler:
         menu = MenuHandler()
         menu.insert(f'{entity.kind} {entity.name}')
-        lines: dict[str, Any] = {'': None}  # that have a submenu
+        lines: dict[str, Any] = {'': None}  # lines with a submenu
         for offer in offered:
             if offer.under not in lines:
                 lines[offer.under] = menu.insert(offer.under)

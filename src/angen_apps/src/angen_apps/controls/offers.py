@@ -4,8 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Sequence
 
-from angen_apps.navigation.goal import is_robot
-from angen_tools.common.catalog import Plugin
+from angen_tools.common.catalog import Plugin, is_robot
 
 PAIRS = (('On', 'Off'), ('Open', 'Close'))
 PARTS = 5  # choices of a number with limits
@@ -65,5 +64,5 @@ def toggled(verbs: tuple[str, str], state: Any) -> str:
         return off if state.values[list(state.names).index('on')] else on
     if hasattr(state, 'on'):
         return off if state.on else on
-    target = getattr(state, 'target', None)  # of a door, rad: 0 is shut
+    target = getattr(state, 'target', None)  # a door's, rad: 0 is shut
     return off if target is not None and abs(target) > 0.1 else on

@@ -14,7 +14,7 @@ STEP = 0.4  # m between places of a room that are tried last
 AROUND = 0.3  # m from obstacles that a mover needs
 APART = 0.7  # m between the middles of two who stand
 LOW, HIGH = 0.1, 1.5  # m over the floor: shapes between these are obstacles
-BOX, CYLINDER = 0, 2  # as angen_msgs/SceneShape
+BOX, CYLINDER = 0, 2  # types of angen_msgs/SceneShape
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ def rooms(home: Home, z: float) -> list[Room]:
 
 def place(home: Home, room: Room, taken: Taken) -> FloorPose | None:
     """A place to use a thing, or inside a door, or in the middle, or anywhere in the room;
-    None where no place is free."""
+    None if no place is free."""
     at_things = (at for at in _at_things(home, room) if taken.apart(*at[:2]))
     others = (at for at in _others(home, room) if taken.is_free(*at[:2]))
     return next((at for places in (at_things, others) for at in places

@@ -8,6 +8,7 @@ import json
 import multiprocessing
 import os
 import shutil
+import sys
 import tempfile
 import time
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
@@ -20,9 +21,11 @@ from angen_apps.data import faults, run, site
 from angen_apps.data.formats import FORMATS
 from angen_apps.data.formats.periods import zipped
 from angen_apps.data.formats.table import pyarrow
+from angen_apps.data.part_folder import MARKER, part_folder
 from angen_apps.residents import truth
 from angen_apps.residents.chance import chance
 from angen_apps.residents.profiles import is_file, names
+from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import check_folder, make_folder, write_csv, write_text
 from angen_tools.common.progress import Progress
@@ -111,27 +114,25 @@ def make(job: Job, progress: Callable[[float], None] = lambda _: None) -> dict[s
     made = finished(job)
     if made is not None:
         return made
-    part = folder.with_name(folder.name + '.part')
-    if part.is_dir():
-        shutil.rmtree(part)  # torn
-    make_folder(part)
-    data = _live(job, progress)
-    paths = [path for name in dict.fromkeys((*job.formats, 'csv'))
-             for path in FORMATS[name](part, data)]
-    paths += write_truth(part, data)
-    entry = {
-        'name': job.name, 'settings': job.settings,
-        'residents': [[name, profile.name] for name, profile in data.residents],
-        'sensors': len(data.sensors),
-        'events': len(data.events), 'missed': len(data.missed), 'faults': len(data.faults),
-        'files': {str(path.relative_to(part)): sha256(path) for path in sorted(paths)}}
-    write_text(part / HOME, json.dumps(entry, indent=1, sort_keys=True) + '\n')
-    _put(part, folder)
+    with part_folder(folder) as part:
+        data = _live(job, progress)
+        paths = [path for name in dict.fromkeys((*job.formats, 'csv'))
+                 for path in FORMATS[name](part, data)]
+        paths += write_truth(part, data)
+        entry = {
+            'name': job.name, 'version': angen_module().__version__, 'settings': job.settings,
+            'residents': [[name, profile.name] for name, profile in data.residents],
+            'sensors': len(data.sensors),
+            'events': len(data.events), 'missed': len(data.missed), 'faults': len(data.faults),
+            'files': {str(path.relative_to(part)): sha256(path) for path in sorted(paths)}}
+        write_text(part / HOME, json.dumps(entry, indent=1, sort_keys=True) + '\n')
+        _put(part, folder)
     return entry
 
 
 def _put(part: Path, folder: Path) -> None:
     """Gives the finished files their names: the last of them is home.json."""
+    (part / MARKER).unlink()
     if not folder.exists():
         os.replace(part, folder)
         return
@@ -155,20 +156,35 @@ def _live(job: Job, progress: Callable[[float], None]) -> run.Data:
 
 
 def finished(job: Job) -> dict[str, Any] | None:
-    """The manifest's entry of a complete home; Failure if the folder holds another home."""
+    """The manifest's entry of a complete home, whose files have the hashes noted there; a home that
+    differs is reported and has none. Failure if the folder contains another home."""
     path = Path(job.folder) / HOME
     if not path.is_file():
         return None
     try:
         entry: dict[str, Any] = json.loads(path.read_text(encoding='utf-8'))
-        settings = entry['settings']
-    except (ValueError, KeyError, OSError):
+        settings, files = entry['settings'], dict(entry['files'])
+    except (ValueError, KeyError, TypeError, OSError):
         return None
     if settings != job.settings:
         raise Failure(f'{path}: was made with other settings; give another folder with -o')
-    if any(not (Path(job.folder) / name).is_file() for name in entry['files']):
+    if why := _difference(Path(job.folder), entry.get('version'), files):
+        print(f'angen: {job.folder}: {why}; the home is made again', file=sys.stderr, flush=True)
         return None
     return entry
+
+
+def _difference(folder: Path, version: Any, files: dict[str, str]) -> str:
+    """What of a home is not as its entry says; empty if all is."""
+    if version != angen_module().__version__:
+        return 'was made by another version of Angen'
+    for name, digest in sorted(files.items()):
+        path = folder / name
+        if not path.is_file():
+            return f'{name} is missing'
+        if sha256(path) != digest:
+            return f'{name} was changed'
+    return ''
 
 
 def write_truth(folder: Path, data: run.Data) -> list[Path]:

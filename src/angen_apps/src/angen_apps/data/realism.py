@@ -9,8 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.spatial.distance import jensenshannon
+from scipy.stats import ks_2samp
 
-from angen_apps.data.validate import rows
+from angen_apps.data.validate import EVENTS, TRUTH, rows
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import pyplot, save_figure
 
@@ -77,7 +79,8 @@ def read(path: Path) -> Stream:
 def _own(folder: Path) -> Stream:
     times, sensors, values, places = [], [], [], []
     first = None
-    for row in rows(folder / 'events.csv.gz'):
+    for row in rows(folder / 'events.csv.gz',
+                    {key: EVENTS[key] for key in ('time', 'sensor', 'value', 'room')}):
         at = datetime.datetime.fromisoformat(row['time'])
         first = first or datetime.datetime.combine(at.date(), datetime.time())
         times.append((at - first).total_seconds())
@@ -97,7 +100,8 @@ def _labels(path: Path) -> list[tuple[float, str, str]]:
         if who in doing:
             name, begin, end = doing.pop(who)
             found.extend([(begin, name, 'begin'), (end, name, 'end')])
-    for row in rows(path):
+    columns = ('resident', 'activity', 'phase', 'start', 'end')
+    for row in rows(path, {key: TRUTH[key] for key in columns}):
         who, name = row['resident'], row['activity']
         if who in doing and doing[who][0] != name:
             close(who)
@@ -156,21 +160,7 @@ def transitions(stream: Stream) -> Counter[tuple[str, str]]:
 
 def ks(a: np.ndarray, b: np.ndarray) -> float:
     """The Kolmogorov-Smirnov distance of two samples: 0 to 1."""
-    a, b = np.sort(a), np.sort(b)
-    every = np.concatenate([a, b])
-    return float(np.abs(np.searchsorted(a, every, 'right') / len(a)
-                        - np.searchsorted(b, every, 'right') / len(b)).max())
-
-
-def jensen_shannon(a: np.ndarray, b: np.ndarray) -> float:
-    """The distance of two distributions, by logarithms of base 2: 0 to 1."""
-    a, b = a / a.sum(), b / b.sum()
-    middle = (a + b) / 2
-
-    def away(p: np.ndarray) -> float:
-        some = p > 0
-        return float((p[some] * np.log2(p[some] / middle[some])).sum())
-    return float(np.sqrt(max((away(a) + away(b)) / 2, 0.0)))
+    return float(ks_2samp(a, b, method='asymp').statistic)
 
 
 def compare(stream: Stream, reference: Stream | None) -> list[tuple[str, float, str, str]]:
@@ -190,7 +180,7 @@ def compare(stream: Stream, reference: Stream | None) -> list[tuple[str, float, 
     distances = [('ON times, KS', ks(on_times(stream), on_times(reference))),
                  ('gaps, KS', ks(np.diff(stream.time), np.diff(reference.time))),
                  ('hours of the day, Jensen-Shannon',
-                  jensen_shannon(by_hour(stream), by_hour(reference)))]
+                  float(jensenshannon(by_hour(stream), by_hour(reference), 2)))]
     return found + [(name, value, '0', 'distance') for name, value in distances]
 
 

@@ -17,7 +17,7 @@ OFF = {'still', 'released', 'closed', 'off'}
 VALUES = {'motion': ('ON', 'OFF'), 'area': ('ON', 'OFF'), 'door': ('OPEN', 'CLOSE'),
           'item': ('PRESENT', 'ABSENT'), 'power': ('ON', 'OFF')}
 AIR = 300.0  # s between two looks at the temperature
-DEGREES = 0.5  # of a step of temperature
+DEGREES = 0.5  # least step of temperature
 RECENT = 3.0  # s: a resident who moved within this time may have caused motion
 HAND = 30.0  # s: a resident who commanded a device within this time has moved it
 NEAR = 1.5  # m: a resident within this distance may have sat down there

@@ -10,13 +10,16 @@ from lxml import etree
 from angen_apps.residents.ground import Ground
 from angen_apps.residents.simulated import Simulated
 from angen_apps.robot.entities import Entity, entities_of
+from angen_models import plan, world as blocks
+from angen_models.catalog import smart_plug
+from angen_models.sdf import ANGEN
 from angen_tools.common.catalog import kinds, simulator
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
 from angen_tools.common.home import Home, Room
+from angen_tools.session.in_process import InProcess
 from angen_tools.world import sdf
 from angen_tools.world.models import find
-from angen_tools.world.placing import generator
 
 CEILING = 0.05  # m below the ceiling where motion sensors are
 APART = 1.1  # m: motion sensors of a cell are not nearer to each other
@@ -53,7 +56,6 @@ BY_SOURCE = {'pir': 'motion', 'reed': 'door', 'contact': 'item', 'pressure': 'it
 
 def apartment(path: Path) -> None:
     """Writes the world of one furnished apartment without sensors and people."""
-    plan, blocks = generator('plan'), generator('world')
     root, world = blocks.new_world('home')
     blocks.add_world_plugins(world)
     blocks.add_home_site(world)
@@ -67,7 +69,7 @@ def apartment(path: Path) -> None:
     for room, (model, x, y, height, yaw) in plan.APPLIANCES.items():
         blocks.include(world, model, f'{room}_{model}0', (x, y, height, 0, 0, yaw))
     blocks.add_state(world, 'home')
-    etree.cleanup_namespaces(root, top_nsmap={'angen': generator('sdf').ANGEN})
+    etree.cleanup_namespaces(root, top_nsmap={'angen': ANGEN})
     write_text(path, f'<?xml version="1.0"?>\n{sdf.text(root)}')
 
 
@@ -110,7 +112,7 @@ class Site:
     def _listed(self) -> list[Sensor]:
         """The sensors by id, counted from 1 by kind in the order of their names."""
         found: dict[str, list[tuple[str, str, Entity]]] = {}
-        for entity in entities_of(self.world):
+        for entity in entities_of(InProcess(self.world)):
             kind = BY_SOURCE.get(entity.kind)
             if kind is None:
                 continue
@@ -238,7 +240,7 @@ class _Placer:
                      if model == thing and kind in ('stove', 'appliance', 'heater')), '')
         if load:
             pose = self.world.motion(thing)[0]
-            model = generator('catalog').smart_plug(f'{thing}_plug', load)
+            model = smart_plug(f'{thing}_plug', load)
             text = f'<sdf version="1.6">{etree.tostring(model, encoding="unicode")}</sdf>'
             self._spawn(text, f'{thing}_plug', (float(pose[0]), float(pose[1]),
                                                 float(pose[2]) + 0.3, 0.0))

@@ -5,24 +5,36 @@ import csv
 import gzip
 import json
 import math
+import zlib
 from collections import Counter
 from dataclasses import dataclass, field
+from datetime import datetime
 from pathlib import Path
-from typing import Any, Iterator
+from typing import Any, Callable, Iterator, Mapping, TextIO
 
 from angen_apps.data.recorder import VALUES
 from angen_apps.residents.activities import Step, activities
 from angen_apps.residents.places import ENTRANCE, OUTSIDE
 from angen_apps.plan.polygons import contains
 from angen_tools.common.failure import Failure
+from angen_tools.common.text_file import shortened
 
 DAY = 86400.0
 FASTER = 1.35  # times the speed of a profile that a person may reach
 SLACK = 0.5  # m from the middle of an opening to the end of a step to its room
 SITS = (3.0, 1.0)  # s after the begin and before the end of sitting, when the seat is pressed
 SHOWN = 3  # findings of a kind that are listed
-GIVEN_UP = 0.02  # of a resident's places that it may not reach
-CAUSES = ('air', 'light', 'start', 'noise')  # of events that no resident has caused
+GIVEN_UP = 0.02  # share of a resident's places that it may not reach
+LONGEST = 1 << 14  # characters of a line
+CAUSES = ('air', 'light', 'start', 'noise')  # causes of events that no resident has caused
+
+
+def finite(text: str | float) -> float:
+    """A number; ValueError for others, and for those that are not finite."""
+    value = float(text)
+    if not math.isfinite(value):
+        raise ValueError(f'{text} is not finite')
+    return value
 
 
 @dataclass
@@ -44,7 +56,7 @@ class Findings:
 
 
 def homes(folder: Path) -> list[Path]:
-    """The homes of an output folder; Failure where there are none."""
+    """The homes of an output folder; Failure if there are none."""
     if (folder / 'layout.json').is_file():
         return [folder]
     found = sorted(path.parent for path in folder.glob('*/layout.json')
@@ -54,15 +66,74 @@ def homes(folder: Path) -> list[Path]:
     return found
 
 
-def rows(path: Path) -> Iterator[dict[str, str]]:
-    """The lines of a CSV file, compressed or not, by column."""
+# columns of the files, and how their values are read
+Columns = Mapping[str, Callable[[str], object]]
+TRUTH: Columns = {
+    'resident': str, 'start': finite, 'end': finite, 'activity': str, 'phase': str,
+    'posture': str, 'room': str, 'thing': str, 'note': str}
+EVENTS: Columns = {
+    'time': datetime.fromisoformat, 'sensor': str, 'kind': str, 'value': str, 'cause': str,
+    'resident': str, 'room': str}
+TRACK: Columns = {'time': finite, 'resident': str, 'x': finite, 'y': finite, 'storey': int}
+FAULTS: Columns = {'sensor': str}
+POWER: Columns = {'time': finite, 'kind': str, 'device': str, 'watts': finite}
+SLIDES: Columns = {'time': finite, 'model': str, 'link': str, 'x': finite, 'y': finite, 'z': finite}
+# keys of layout.json; a list has entries like its one
+LAYOUT = {'start': datetime.fromisoformat, 'days': finite,
+          'residents': [{'name': str, 'speed': finite}],
+          'rooms': [{'name': str, 'use': str, 'storey': int, 'polygon': [[finite]]}],
+          'doors': [{'kind': str, 'pose': [finite], 'width': finite}],
+          'things': [{'name': str, 'type': str, 'room': str}],
+          'sensors': [{'name': str, 'id': str, 'kind': str}]}
+
+
+def rows(path: Path, columns: Columns) -> Iterator[dict[str, str]]:
+    """The lines of a CSV file, compressed or not, by column; Failure with file and line for a
+    column or a value that is missing or cannot be read."""
     try:
         opened: Any = gzip.open(path, 'rt', encoding='utf-8', newline='') \
             if path.suffix == '.gz' else path.open(encoding='utf-8', newline='')
         with opened as file:
-            yield from csv.DictReader(file)
-    except (OSError, EOFError) as error:
+            reader = csv.DictReader(_lines(path, file))
+            for column in columns:
+                if column not in (reader.fieldnames or ()):
+                    raise Failure(f'{path}:1: has no column {column}')
+            for row in reader:
+                for column, read in columns.items():
+                    _check(f'{path}:{reader.line_num}: {column}', row[column], read)
+                yield row
+    except (OSError, EOFError, UnicodeDecodeError, csv.Error, zlib.error) as error:
         raise Failure(f'{path}: cannot be read: {error}') from None
+
+
+def _lines(path: Path, file: TextIO) -> Iterator[str]:
+    number = 0
+    while line := file.readline(LONGEST + 1):
+        number += 1
+        if len(line) > LONGEST:
+            raise Failure(f'{path}:{number}: has a line of more than {LONGEST} characters')
+        yield line
+
+
+def _check(what: str, value: object, shape: Any) -> None:
+    """Failure if a value is not of a shape: a dict of keys, a list of one shape, or a reader."""
+    if isinstance(shape, dict):
+        if not isinstance(value, dict):
+            raise Failure(f'{what} must be an object')
+        for key, inner in shape.items():
+            if key not in value:
+                raise Failure(f'{what} has no {key}')
+            _check(f'{what}: {key}', value[key], inner)
+    elif isinstance(shape, list):
+        if not isinstance(value, list):
+            raise Failure(f'{what} must be a list')
+        for entry in value:
+            _check(what, entry, shape[0])
+    else:
+        try:
+            shape(value)
+        except (TypeError, ValueError):
+            raise Failure(f'{what} is {shortened(str(value))}, which cannot be read') from None
 
 
 def validate(folder: Path) -> Findings:
@@ -72,9 +143,10 @@ def validate(folder: Path) -> Findings:
         layout = json.loads((folder / 'layout.json').read_text(encoding='utf-8'))
     except (OSError, ValueError) as error:
         raise Failure(f'{folder}/layout.json: cannot be read: {error}') from None
-    truth = list(rows(folder / 'truth.csv.gz'))
-    events = list(rows(folder / 'events.csv.gz'))
-    faulty = next(rows(folder / 'faults.csv'), None) is not None
+    _check(f'{folder}/layout.json', layout, LAYOUT)
+    truth = list(rows(folder / 'truth.csv.gz', TRUTH))
+    events = list(rows(folder / 'events.csv.gz', EVENTS))
+    faulty = next(rows(folder / 'faults.csv', FAULTS), None) is not None
     _times(findings, layout, truth)
     _walls(findings, layout, folder)
     _rooms(findings, layout, truth)
@@ -105,7 +177,7 @@ def _walls(findings: Findings, layout: Any, folder: Path) -> None:
     """No resident exceeds its speed, or changes rooms except through a door or opening."""
     speeds = {r['name']: FASTER * r['speed'] for r in layout['residents']}
     last: dict[str, tuple[float, float, float, int]] = {}
-    for row in rows(folder / 'track.csv.gz'):
+    for row in rows(folder / 'track.csv.gz', TRACK):
         who, time, x, y = row['resident'], float(row['time']), float(row['x']), float(row['y'])
         before = last.get(who)
         storey = int(row['storey'])
@@ -135,7 +207,7 @@ def _through(door: Any, start: tuple[float, float], end: tuple[float, float]) ->
     (u0, v0), (u1, v1) = ((math.cos(yaw) * (a - x) + math.sin(yaw) * (b - y),
                            math.cos(yaw) * (b - y) - math.sin(yaw) * (a - x))
                           for a, b in (start, end))
-    share = min(max(v0 / (v0 - v1), 0.0), 1.0) if v0 != v1 else 0.5  # of the step, at the door
+    share = min(max(v0 / (v0 - v1), 0.0), 1.0) if v0 != v1 else 0.5  # share of the step
     return (door['kind'] != 'window' and abs(u0 + share * (u1 - u0)) <= door['width'] / 2 + 0.05
             and abs(v0 + share * (v1 - v0)) <= SLACK)
 
@@ -205,14 +277,13 @@ def _alternate(findings: Findings, events: list[dict[str, str]]) -> None:
 def _seats(findings: Findings, layout: Any, truth: list[dict[str, str]],
            events: list[dict[str, str]]) -> None:
     """A resident on a chair with a contact presses it."""
-    import datetime
-    start = datetime.datetime.fromisoformat(layout['start'])
+    start = datetime.fromisoformat(layout['start'])
     seats = {sensor['name']: sensor['id'] for sensor in layout['sensors']
              if sensor['kind'] == 'item'}
     pressed: dict[str, list[tuple[float, bool]]] = {}
     for row in events:
         if row['kind'] == 'item':
-            at = (datetime.datetime.fromisoformat(row['time']) - start).total_seconds()
+            at = (datetime.fromisoformat(row['time']) - start).total_seconds()
             pressed.setdefault(row['sensor'], []).append((at, row['value'] == 'PRESENT'))
     for row in truth:
         seat = seats.get(row['thing'])

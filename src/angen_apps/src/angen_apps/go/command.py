@@ -11,11 +11,11 @@ from typing import Any, Collection, Mapping, Sequence
 
 from lxml import etree
 
-from angen_apps.go.live_robot import LIMIT, LiveRobot
+from angen_apps.go.live_robot import LiveRobot
 from angen_apps.go.trip import Goal, Trip
 from angen_apps.maps.gridmap import load_world
 from angen_apps.robot.building import Start, Survey, find_start
-from angen_apps.robot.entities import Entity, entity_of
+from angen_apps.robot.entities import Entity, entities_of
 from angen_apps.robot.planner import Planner
 from angen_apps.robot.route import Ride, Turn
 from angen_apps.robot.rooms_route import lift_of
@@ -28,8 +28,7 @@ from angen_tools.common.nearest import did_you_mean
 from angen_tools.common.output import as_json
 from angen_tools.common.progress import Progress
 from angen_tools.common.verbs import comma_hint
-from angen_tools.live.client import Client
-
+from angen_tools.session.live import Live
 
 ASTRAY = 0.5  # m: a robot farther from its goal has not arrived
 MISSING_LIBRARY = re.compile(r'plug-in library (\S+) is not found')
@@ -56,19 +55,19 @@ class Arrived:
 
 def go(words: Sequence[str], robot: str, json: bool) -> int:
     """Drives to a room, or to X Y [FLOOR]; 0 once it is there. Failure says why it is not."""
-    client = Client()
-    check(words, client.home())  # before the survey, which takes seconds
-    robots = [entity.name for entity in client.entities('drive')]
+    world = Live()
+    check(words, world.home)  # before the survey, which takes seconds
+    robots = [entity.name for entity in world.entities('drive')]
     if not robots:
         raise Failure('the world has no robot; angen spawn model turtlebot turtlebot adds one')
     if robot and robot not in robots:
         raise Failure(f'the world has no robot {robot}; {did_you_mean(robot, robots)}')
     with tempfile.TemporaryDirectory(prefix='angen_go_') as folder:
-        place = Surveyed(client, Path(folder) / 'now.world')
+        place = Surveyed(world, Path(folder) / 'now.world')
     route = Route(Path('angen go'), [], robot or robots[0], elevator=None,
                   **{key: usual for key, (_, _, usual) in NUMBERS.items()})
     start = find_start(route, place.entities, (0.0, 0.0, 0.0))
-    arrived = drive(client, route, lambda planners: goal_of(words, place.home, planners), place,
+    arrived = drive(world, route, lambda planners: goal_of(words, place.home, planners), place,
                     start)
     if arrived.error_m > ASTRAY:
         raise Failure(f'{route.robot} is at {arrived.x_m:.2f}, {arrived.y_m:.2f}, '
@@ -85,18 +84,17 @@ def go(words: Sequence[str], robot: str, json: bool) -> int:
 class Surveyed:
     """The maps and doors of the running world as it is now, and its home."""
 
-    def __init__(self, client: Client, path: Path) -> None:
+    def __init__(self, running: Live, path: Path) -> None:
         import rospy
-        from angen_msgs.srv import Save
-        foreign = {entity.model for entity in client.entities()
+        foreign = {entity.model for entity in running.entities()
                    if entity.topic and entity.kind not in kinds()}
-        saved = without(client.call('/angen/save', Save).xml, foreign)
-        source = rospy.get_param('/angen/world', '')
+        saved = without(running.save(), foreign)
+        source = rospy.get_param('angen/world', '')
         paths = [str(Path(source).parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
         os.environ['ANGEN_MODEL_PATH'] = ':'.join(filter(None, paths))
         world, shut = loaded(path, saved), loaded(path, saved)
         self.home = Home.of_world(world)
-        self.entities = [entity_of(message, self.home) for message in client.entities()]
+        self.entities = entities_of(running)
         for one in (world, shut):
             for entity in self.entities:
                 if entity.kind == 'drive':
@@ -151,7 +149,7 @@ def goal_of(words: Sequence[str], home: Home, planners: Mapping[int, Planner]) -
 
 
 def check(words: Sequence[str], home: Home) -> None:
-    """Failure where the words name no room or floor of a home."""
+    """Failure if the words name no room or floor of a home."""
     found = named(words, home)
     if isinstance(found, Room) or len(found) < 3 or not home.described:
         return
@@ -178,11 +176,11 @@ def named(words: Sequence[str], home: Home) -> Room | list[float]:
     return numbers
 
 
-def drive(client: Client, route: Route, goal: Goal, place: Surveyed, start: Start) -> Arrived:
+def drive(world: Live, route: Route, goal: Goal, place: Surveyed, start: Start) -> Arrived:
     """Drives to a goal in the time of the running simulator."""
     devices = [('door', door.name) for doors in place.survey.doors.values() for door in doors]
     devices += [('elevator', lift.name) for lift in place.home.elevators]
-    with LiveRobot(client, start, devices) as robot, Progress('go') as progress:
+    with LiveRobot(world, start, devices) as robot, Progress('go', 0.01) as progress:
         began = robot.now
         trip = Trip(robot, route, place.survey, start, goal,
                     lambda floor, planner: lift_of(place.home, planner, floor),
@@ -190,24 +188,21 @@ def drive(client: Client, route: Route, goal: Goal, place: Surveyed, start: Star
         try:
             reached = trip.run()
         except Failure as problem:
-            raise Failure(f'{problem}{empty(client, route.robot, place.entities)}') from None
+            raise Failure(f'{problem}{empty(world, route.robot, place.entities)}') from None
         took = robot.now - began
-    at = next(message.pose.position for message in client.entities('drive')
-              if message.name == route.robot)
-    return Arrived(reached.name, reached.floor, at.x, at.y, took, trip.distance,
+    x, y = next(entity.pose[:2] for entity in world.entities('drive')
+                if entity.name == route.robot)
+    return Arrived(reached.name, reached.floor, x, y, took, trip.distance,
                    len({action.door for action in trip.done if isinstance(action, Turn)}),
                    sum(isinstance(action, Ride) and action.aboard for action in trip.done),
-                   math.dist((at.x, at.y), reached.at), *reached.at, trip.tries)
+                   math.dist((x, y), reached.at), *reached.at, trip.tries)
 
 
-def empty(client: Client, robot: str, entities: Sequence[Entity]) -> str:
+def empty(world: Live, robot: str, entities: Sequence[Entity]) -> str:
     """The text to add to a failure if the robot's battery is empty."""
-    import rospy
-    from sensor_msgs.msg import BatteryState
     models = [entity.model for entity in entities if (entity.kind, entity.name) == ('drive', robot)]
     for battery in entities:
         if battery.kind == 'battery' and battery.model in models:
-            state = rospy.wait_for_message(battery.topic, BatteryState, LIMIT)
-            if state.percentage <= 0.0:
+            if world.state('battery', battery.name)['percentage'] <= 0.0:
                 return f'; its battery is empty: angen set battery {battery.name} charge 100'
     return ''

@@ -6,9 +6,10 @@ from dataclasses import replace
 from typing import Callable, Mapping
 
 import numpy as np
+from angen import Grid
 
 from angen_apps.go.guard import Guard
-from angen_apps.maps.gridmap import OCCUPIED, GridMap
+from angen_apps.maps.gridmap import OCCUPIED
 from angen_apps.robot.building import Start, Survey
 from angen_apps.robot.driver import Driver, Stuck
 from angen_apps.robot.interface import CYCLE, Robot
@@ -103,7 +104,7 @@ class Trip:
     def _holds_open(self, door: Door, at: Point) -> bool:
         """Whether the robot is in the swing of a door that is open: it drives on through it."""
         return (self.tries > 0 and door.room_for(at) < self._route.door_room
-                and self._robot.door(door.name).mode == 'OPEN')
+                and self._robot.door(door.name).has_done('Open'))
 
     def _do(self, actions: list[Action]) -> None:
         for number, action in enumerate(actions):
@@ -170,11 +171,11 @@ def crosses(way: list[Point], doors: list[Door]) -> bool:
     return any(door.crosses(a, b) for a, b in zip(way, way[1:]) for door in doors)
 
 
-def with_points(grid: GridMap, points: np.ndarray) -> GridMap:
+def with_points(grid: Grid, points: np.ndarray) -> Grid:
     """A map on which the cells at points (n, 2) are occupied."""
     cells = grid.cells.copy()
     for x, y in points:
         row, column = grid.cell(x, y)
         if 0 <= row < cells.shape[0] and 0 <= column < cells.shape[1]:
             cells[row, column] = OCCUPIED
-    return replace(grid, cells=cells)
+    return grid.with_cells(cells)

@@ -11,12 +11,15 @@ from angen_apps.imports.sweethome import read_sweethome
 from angen_apps.plan.model import Plan
 from angen_apps.plan.writer import write_world, written
 from angen_tools.common.failure import Failure
+from angen_tools.common.limited import run_limited
 
 SHOWN = 20  # remarks
 
 
 def read_plan(path: Path, args: argparse.Namespace) -> Plan:
     """The plan of a file, by its ending."""
+    if not path.exists():
+        raise Failure(f'{path}: there is no such file')
     ending = path.suffix.lower()
     for option, given in (('--things', args.things), ('--meshes', args.meshes)):
         if given and ending in (*ENDINGS, '.yaml', '.yml'):
@@ -32,7 +35,7 @@ def read_plan(path: Path, args: argparse.Namespace) -> Plan:
 
 def import_home(path: Path, output: Path, args: argparse.Namespace) -> dict[str, Any]:
     """Writes the world; returns the result: counts, and remarks."""
-    plan = read_plan(path, args)
+    plan = run_limited(path, read_plan, path, args)
     counts = write_world(plan, output, args.sensors)
     done = written(output, counts)
     lines = [done['text']]

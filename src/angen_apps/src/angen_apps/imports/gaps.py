@@ -11,7 +11,7 @@ NARROW, WIDE = 0.7, 1.1  # m: gaps that are doors
 THICKEST = 0.45  # m of a wall across
 TOUCH = 0.02  # m between walls that meet
 CORNER = 0.06  # m between the faces of a wall and of the end of another one
-ALIKE = 0.6  # of the thickness of a wall: a stub in its line is as thick
+ALIKE = 0.6  # share of a wall's thickness: a stub in its line is as thick
 
 
 def doors(walls: list[Wall]) -> list[Opening]:

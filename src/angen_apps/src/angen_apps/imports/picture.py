@@ -14,12 +14,14 @@ from angen_apps.imports.flood import rooms_of
 from angen_apps.imports.gaps import DOOR_TOP, NARROW, THICKEST, WIDE, doors
 from angen_apps.imports.raster import (darkness, reduced, straightened, threshold, turn_of,
                                        without_noise, without_specks)
-from angen_apps.imports.source import FARTHEST, read_bytes
-from angen_apps.imports.strokes import LEAST_WALL, cleaned_walls, slices, straight_walls
+from angen_apps.imports.source import FARTHEST
+from angen_apps.imports.strokes import (LEAST_WALL, areas, by_label, cleaned_walls, slices,
+                                        straight_walls)
 from angen_apps.plan.finish import finish, room_at, sides
 from angen_apps.plan.model import Opening, Piece, Plan, Point, Storey, Wall, turned
 from angen_apps.plan.names import slug
 from angen_tools.common.failure import Failure
+from angen_tools.common.text_file import read_bytes
 from angen_tools.common.yaml_file import YamlFile
 
 HEIGHT = 2.5  # m
@@ -32,7 +34,7 @@ SPECK = 0.3  # m of a map that are unknown: smaller specks are in a room
 FINEST = 0.02  # m a pixel: finer pictures are read by blocks of pixels
 FINE = 0.035  # m a pixel: thin walls have several pixels across
 WALLS = 20_000
-MODES = ('trinary', 'scale', 'raw')  # of map_server; walls are the same in the first two
+MODES = ('trinary', 'scale', 'raw')  # map_server's modes; walls are the same in the first two
 SEAM = 1e-4  # m that walls overlap, so that no seam is between them
 Island = tuple[slice, slice]  # rows and columns
 Origin = tuple[float, float, float]  # x, y and yaw of a picture's lower left corner
@@ -52,6 +54,7 @@ def read_picture(path: Path, scale: float, with_doors: bool) -> Plan:
         dark = without_specks(dark, limit)
     walls, known, _, remarks = _straight(path, dark, np.ones(dark.shape, bool), limit, scale,
                                          (0.0, 0.0, 0.0))
+    del dark  # what follows takes as much memory
     if remarks:  # the page is put upright
         known[:] = True
         remarks = [f'{remarks[0]}; the picture is put upright']
@@ -115,7 +118,7 @@ def _straight(path: Path, dark: np.ndarray, known: np.ndarray, limit: float, sca
         return np.asarray(dark > limit), known, origin, []
     middle = scale * np.array(dark.shape[::-1]) / 2
     dark = straightened(dark, degrees, 0.0)
-    known = straightened(known.astype(float), degrees, 0.0) > 0.5
+    known = straightened(known.astype(np.float32), degrees, 0.0) > 0.5
     x, y, yaw = origin
     corner = turned((middle[0], middle[1]), radians(degrees),
                     *(-scale * np.array(dark.shape[::-1]) / 2))
@@ -210,9 +213,9 @@ def thick_spots(dark: np.ndarray, scale: float) -> list[float]:
     """The widths (m) of spots that are thicker than walls and as large as furniture, filled or as
     outlines at walls."""
     labels, count = label(~dark)
-    pockets = np.bincount(labels.ravel(), minlength=count + 1) * scale ** 2 < LEAST_ROOM
+    pockets = areas(labels, count) * scale ** 2 < LEAST_ROOM
     across = round(THICKEST / scale) + 1
-    filled = dark | pockets[labels]
+    filled = dark | by_label(pockets, labels)
     labels, count = label(binary_opening(filled, np.ones((across, across))))
     widths = [max(s.stop - s.start for s in where) * scale for where in slices(labels, count)]
     return [width for width in widths if width <= FURNITURE[1]]

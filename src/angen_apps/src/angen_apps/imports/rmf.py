@@ -11,7 +11,7 @@ from typing import Any, Sequence
 import yaml
 
 from angen_apps.imports.flood import rooms_of
-from angen_apps.imports.source import FARTHEST, read_bytes
+from angen_apps.imports.source import FARTHEST
 from angen_apps.plan.doors import LEAF_THICK
 from angen_apps.plan.finish import finish
 from angen_apps.plan.lifts import fitted, shaft
@@ -19,6 +19,7 @@ from angen_apps.plan.model import Leaf, Lift, Opening, Plan, Point, Storey, Wall
 from angen_apps.plan.names import plain_name, slug
 from angen_apps.plan.walls import SLOPE, direction, footprint
 from angen_tools.common.failure import Failure
+from angen_tools.common.text_file import read_bytes
 from angen_tools.common.yaml_file import YamlFile, line_of
 
 THICK = 0.1  # m of a wall, as the editor builds it
@@ -47,7 +48,7 @@ class _Level:
 
 
 def read_rmf(path: Path) -> Plan:
-    """The plan of a building; Failure where it cannot be read."""
+    """The plan of a building; Failure if it cannot be read."""
     return _Building(path).plan()
 
 

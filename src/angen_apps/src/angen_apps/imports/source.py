@@ -8,27 +8,14 @@ from pathlib import Path
 from lxml import etree
 
 from angen_tools.common.failure import Failure
-from angen_tools.common.text_file import shortened
+from angen_tools.common.text_file import read_bytes, shortened
+from angen_tools.common.xml_file import parse_xml
 
-LARGEST = 64 << 20  # bytes of a file
 LARGEST_XML = 32 << 20  # bytes of Home.xml
-ELEMENTS = 50_000
+MEMBERS = 10_000  # files in a zip
 FARTHEST = 500.0  # m from the origin of a plan
 HOME = 'Home.xml'
 OLD = 'Home'
-
-
-def read_bytes(path: Path) -> bytes:
-    """All of a regular file; Failure where it cannot be read or is too large."""
-    if not path.is_file():
-        raise Failure(f'{path}: is not a file that can be read')
-    if path.stat().st_size > LARGEST:
-        raise Failure(f'{path}: has {path.stat().st_size >> 20} MB, at most {LARGEST >> 20} MB '
-                      'are read')
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise Failure(f'{path}: cannot be read: {error.strerror}') from None
 
 
 class Xml:
@@ -36,17 +23,7 @@ class Xml:
 
     def __init__(self, name: str, data: bytes) -> None:
         self.name = name
-        if b'<!ENTITY' in data:
-            raise Failure(f'{name}:1: defines entities; Sweet Home 3D writes none')
-        try:
-            self.root = etree.fromstring(data, etree.XMLParser(
-                resolve_entities=False, no_network=True, load_dtd=False, remove_comments=True,
-                remove_pis=True))
-        except etree.XMLSyntaxError as error:
-            raise Failure(f'{name}:{error.lineno or 1}: is not XML: {error.msg}') from None
-        count = sum(1 for _ in self.root.iter())
-        if count > ELEMENTS:
-            raise Failure(f'{name}:1: has {count} elements, at most {ELEMENTS} are read')
+        self.root = parse_xml(name, data, remove_comments=True, remove_pis=True)
 
     def fail(self, element: etree._Element, what: str) -> Failure:
         return Failure(f'{self.name}:{element.sourceline}: {what}')
@@ -85,6 +62,8 @@ def home_xml(path: Path) -> Xml:
         if data.lstrip()[:1] != b'<':
             raise Failure(f'{path}: is neither a .sh3d file (a zip) nor Home.xml')
         return Xml(str(path), data)
+    if data.count(b'PK\1\2') > MEMBERS:
+        raise Failure(f'{path}: has more than {MEMBERS} files in it')
     return Xml(f'{path}/{HOME}', _member(path))
 
 

@@ -11,9 +11,10 @@ from angen_apps.plan.polygons import rectangles
 LEAST_STUB = 0.08  # m across of a shorter piece of wall, as between a corner and a door
 LEAST_WALL = 0.25  # m of a wall along: shorter dark spots are text and dirt
 LONGER = 1.3  # times as long as thick are walls that are found first
-THICK_SHARE = 0.98  # of the places in walls that are not thicker than the thickest
-FILLED = 0.8  # of the rectangle around a part that is nearly straight
+THICK_SHARE = 0.98  # share of the places in walls that are not thicker than the thickest
+FILLED = 0.8  # share of the rectangle around a part that is nearly straight
 JOINT = 2  # pixels between walls that meet
+BAND = 256  # rows that are looked at together
 Box = tuple[int, int, int, int]  # west, south, east, north
 
 
@@ -22,17 +23,32 @@ def cleaned_walls(dark: np.ndarray, scale: float) -> np.ndarray:
     closed = binary_closing(np.pad(dark, 3), np.ones((3, 3)))[3:-3, 3:-3]
     opened = closed if scale >= 0.03 else binary_opening(closed, np.ones((2, 2)))
     labels, count = label(opened, np.ones((3, 3)))
-    kept = np.zeros(count + 1, bool)
-    rows, columns = np.nonzero(labels)
-    index = labels[rows, columns]
-    for values in (rows, columns):
-        low = np.full(count + 1, 1 << 30)
-        high = np.full(count + 1, -1)
-        np.minimum.at(low, index, values)
-        np.maximum.at(high, index, values)
-        kept |= (high - low + 1) * scale >= LEAST_WALL
+    low, high = np.full((2, count + 1), 1 << 30), np.full((2, count + 1), -1)
+    for first in range(0, len(labels), BAND):  # the places of all pixels would take much memory
+        places = np.nonzero(labels[first:first + BAND])
+        index = labels[first:first + BAND][places]
+        for axis, values in enumerate((places[0] + first, places[1])):
+            np.minimum.at(low[axis], index, values)
+            np.maximum.at(high[axis], index, values)
+    kept = ((high - low + 1) * scale >= LEAST_WALL).any(axis=0)
     kept[0] = False
-    return np.asarray(kept[labels])
+    return by_label(kept, labels)
+
+
+def by_label(values: np.ndarray, labels: np.ndarray) -> np.ndarray:
+    """The value of each pixel's label: by bands, as numpy takes 8 bytes for each label."""
+    found = np.empty(labels.shape, values.dtype)
+    for first in range(0, len(labels), BAND):
+        found[first:first + BAND] = values[labels[first:first + BAND]]
+    return found
+
+
+def areas(labels: np.ndarray, count: int) -> np.ndarray:
+    """The number of pixels of each label, also by bands."""
+    found = np.zeros(count + 1, int)
+    for first in range(0, len(labels), BAND):
+        found += np.bincount(labels[first:first + BAND].ravel(), minlength=count + 1)
+    return found
 
 
 def straight_walls(dark: np.ndarray, scale: float) -> list[Box]:
@@ -89,9 +105,19 @@ def _without_edges(boxes: list[Box], shape: tuple[int, ...]) -> list[Box]:
 
 def _thickness(dark: np.ndarray, scale: float) -> float:
     """The thickness of the thickest walls, in pixels."""
-    away = distance_transform_edt(np.pad(dark, 1))[1:-1, 1:-1]
-    middle = (away > 0) & (away == maximum_filter(away, 3)) & (2 * away * scale <= THICKEST)
-    return float(2 * np.quantile(away[middle], THICK_SHARE)) if middle.any() else 0.0
+    beside = int(THICKEST / scale / 2) + 3  # pixels that decide about those of a band
+    padded = np.pad(dark, 1)
+    found = [np.zeros(0)]
+    for first in range(0, len(padded), BAND):
+        before = min(first, beside)
+        cells = padded[first - before:first + BAND + beside]
+        if cells.all():
+            continue  # nothing is beside a wall
+        away = distance_transform_edt(cells)
+        middle = (away > 0) & (away == maximum_filter(away, 3)) & (2 * away * scale <= THICKEST)
+        found.append(away[before:before + BAND][middle[before:before + BAND]])
+    thick = np.concatenate(found)
+    return float(2 * np.quantile(thick, THICK_SHARE)) if len(thick) else 0.0
 
 
 def _runs(cells: np.ndarray, length: int, upright: bool) -> list[Box]:
@@ -123,7 +149,7 @@ def _joined(boxes: list[Box], shape: tuple[int, ...]) -> list[Box]:
 
 
 def _nearby(lines: np.ndarray, low: int, high: int) -> tuple[int, int]:
-    """Pixels before `low` and after `high` to the next wall; 0 where it is not near."""
+    """Pixels before `low` and after `high` to the next wall; 0 if it is not near."""
     before, after = lines[:, :low][:, ::-1][:, :JOINT + 1], lines[:, high:high + JOINT + 1]
     return (int(before.any(axis=0).argmax()) if before.any() else 0,
             int(after.any(axis=0).argmax()) if after.any() else 0)

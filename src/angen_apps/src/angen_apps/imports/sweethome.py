@@ -30,18 +30,18 @@ LIMITS = {'wall': 5000, 'room': 1000, 'doorOrWindow': 2000, 'level': 50}
 
 
 def read_sweethome(path: Path, things: Path | None = None, with_meshes: bool = False) -> Plan:
-    """The plan of a .sh3d file or of its Home.xml; Failure where it cannot be read."""
+    """The plan of a .sh3d file or of its Home.xml; Failure if it cannot be read."""
     xml = home_xml(path)
-    return _Home(xml, path, things, Meshes(path, xml) if with_meshes else None).plan()
+    return _Home(xml, path, things, with_meshes).plan()
 
 
 class _Home:
-    def __init__(self, xml: Xml, path: Path, things: Path | None, meshes: Meshes | None) -> None:
-        self.meshes = meshes
+    def __init__(self, xml: Xml, path: Path, things: Path | None, with_meshes: bool) -> None:
         self.xml, self.path = xml, path
         self.root = root_of(xml, 'home')
         self.table = table(things)
         self.remarks: list[str] = []
+        self.meshes = Meshes(path, xml, self.remarks) if with_meshes else None
         self.height = xml.length(self.root, 'wallHeight', DEFAULT_HEIGHT, 0.1, 100)
         self.storeys = self._levels()
         for tag, most in LIMITS.items():
@@ -76,7 +76,7 @@ class _Home:
             plan.meshes = self.meshes.files
             if self.meshes.missing:
                 self.remarks.append(f'{self.path}: {self.meshes.missing} pieces have no OBJ mesh '
-                                    'in the file and look like boxes')
+                                    'that can be read and look like boxes')
         return finish(plan)
 
     def _levels(self) -> dict[str | None, Storey]:

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Mapping
+from typing import Iterable, Mapping
 
 import numpy as np
 
@@ -16,7 +16,7 @@ class Model:
     """Assumptions about people and sensors; all are probabilities except rates."""
 
     leaves: float = 0.15          # 1/s: how often a person leaves a room by an open way
-    through_shut: float = 0.001   # of that, through a shut door: it may have opened since
+    through_shut: float = 0.001   # share through a shut door: it may have opened since
     seen: float = 0.5             # a PIR fires in a step while a person is in its room
     stray: float = 0.2            # and while no tag is: through a doorway, or by a stranger
     explains: float = 0.95        # the other tag in a room explains a sensor that fires there
@@ -44,9 +44,9 @@ class Evidence:
     def add_motion(self, pir: str, motion: bool) -> None:
         self.motion[pir] = self.motion.get(pir, False) or motion
 
-    def add_reads(self, reader: str, reading: Any) -> None:
-        """Takes `ids` and `distances` of a reading or message."""
-        self.reads.setdefault(reader, {}).update(zip(reading.ids, reading.distances))
+    def add_reads(self, reader: str, ids: Iterable[str], distances: Iterable[float]) -> None:
+        """Takes a reading: the tags and their distances (m)."""
+        self.reads.setdefault(reader, {}).update(zip(ids, distances))
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class Answer:
     tag: str
     room: str
     chance: float
-    at: tuple[float, float, float]  # m; not a number where the room is unknown
+    at: tuple[float, float, float]  # m; not a number if the room is unknown
 
 
 class Belief:
@@ -66,7 +66,7 @@ class Belief:
         self.site = site
         self.model = model or Model()
         self.chances: dict[str, np.ndarray] = {}
-        self._places: dict[str, tuple[int, np.ndarray]] = {}  # of the last distance: room, x y
+        self._places: dict[str, tuple[int, np.ndarray]] = {}  # at the last distance: room, x y
 
     def step(self, evidence: Evidence, seconds: float = STEP) -> None:
         """Takes the evidence of the last `seconds`."""

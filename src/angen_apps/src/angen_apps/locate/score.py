@@ -4,16 +4,20 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Iterable, Sequence
+from typing import TYPE_CHECKING, Iterable, Sequence
 
 import numpy as np
 
 from angen_apps.locate.belief import Answer
 from angen_tools.common import files
 from angen_tools.common.home import Home
-from angen_tools.common.output import number
+from angen_tools.common.output import as_json, number, table
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
 
 HEAD = ('TAG', 'SECONDS', 'KNOWN', 'ROOM RIGHT', 'RIGHT WHERE KNOWN', 'MEDIAN', '90 %')
+ANSWERS = ('TAG', 'ROOM', 'CHANCE', 'X', 'Y', 'Z')
 COLUMNS = ('time', 'tag', 'room', 'chance', 'x', 'y', 'z', 'true_room', 'true_x', 'true_y',
            'true_z', 'error')
 
@@ -29,7 +33,7 @@ class Row:
 
     @property
     def error(self) -> float:
-        """Horizontal distance to the truth, m; not a number where it is unknown, or on another
+        """Horizontal distance to the truth, m; not a number if it is unknown, or on another
         floor."""
         if not self.answer.room or abs(self.answer.at[2] - self.true_at[2]) > 2.0:
             return math.nan
@@ -71,6 +75,20 @@ def table_rows(rows: Sequence[Row]) -> list[list[str]]:
 
 def _share(part: int, whole: int) -> str:
     return f'{100.0 * part / whole:.0f} %' if whole else '-'
+
+
+def cells(answer: Answer) -> list[str]:
+    """An answer, as ANSWERS names its cells."""
+    at = [number(v, 1) for v in answer.at] if answer.room else ['', '', '']
+    return [answer.tag, answer.room or 'unknown', number(answer.chance), *at]
+
+
+def answers_table(answers: list[Answer], json: bool) -> RenderableType:
+    """The answers as a table, or as JSON."""
+    if json:
+        return as_json([{'tag': a.tag, 'room': a.room or None, 'chance': round(a.chance, 3),
+                         'at': [round(v, 3) for v in a.at] if a.room else None} for a in answers])
+    return table(ANSWERS, map(cells, answers), right=('CHANCE', 'X', 'Y', 'Z'))
 
 
 def write_csv(path: Path, rows: Iterable[Row]) -> None:

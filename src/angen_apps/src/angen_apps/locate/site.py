@@ -54,7 +54,7 @@ class Site:
 
 
 def make_site(home: Home, entities: Iterable[Entity]) -> Site:
-    """The home with the sensors in its rooms; Failure where it has no rooms."""
+    """The home with the sensors in its rooms; Failure if it has no rooms."""
     if not home.rooms:
         raise Failure('the world has no rooms; describe them by <angen:room> (docs/home.md)')
     number = {room.name: i for i, room in enumerate(home.rooms)}

@@ -1,16 +1,15 @@
 """Occupancy maps of a world's floors, measured by rays against its geometry."""
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Callable, Collection, Sequence
 
 import numpy as np
+from angen import Grid
 from scipy.ndimage import binary_propagation, distance_transform_edt
 
 from angen_tools.common.catalog import angen_module, simulator
 from angen_tools.common.failure import Failure
-from angen_tools.common.files import write_text, writing
 from angen_tools.common.home import Home
 
 RESOLUTION = 0.05  # m; cells are centered on its multiples, where the faces of buildings lie
@@ -22,63 +21,7 @@ REACH = 60.0  # m: the largest distance of a building from the origin
 SETTLE = 60.0  # s of simulated time for doors and elevators to get where they are sent
 ROOM, HEADROOM = 0.4, 1.0  # m: free floor without a circle of that radius and height is not a room
 
-FREE, OCCUPIED, UNKNOWN = 0, 100, -1  # as nav_msgs/OccupancyGrid has them
-GRAYS = {FREE: 254, OCCUPIED: 0, UNKNOWN: 205}  # as map_server has them
-
-
-def on_floor(home: Home, heights: np.ndarray, floor: int) -> np.ndarray:
-    """Which heights z (m) belong to a floor."""
-    return np.array([home.storey_at(z) == floor for z in heights], bool)
-
-
-@dataclass
-class GridMap:
-    """A floor from above. cells (rows, columns) int8: FREE, OCCUPIED or UNKNOWN; row 0 lowest y.
-
-    `origin` is the world's x, y (m) of the outer corner of cell (0, 0), `height` z of the floor.
-    """
-
-    cells: np.ndarray
-    origin: tuple[float, float]
-    resolution: float
-    floor: int
-    height: float = 0.0
-
-    def cell(self, x: float, y: float) -> tuple[int, int]:
-        """(row, column) of a point (m); may lie outside the map."""
-        return (int(np.floor((y - self.origin[1]) / self.resolution)),
-                int(np.floor((x - self.origin[0]) / self.resolution)))
-
-    def point(self, row: int, column: int) -> tuple[float, float]:
-        """x, y (m) of a cell's middle."""
-        return (self.origin[0] + (column + 0.5) * self.resolution,
-                self.origin[1] + (row + 0.5) * self.resolution)
-
-    @property
-    def extent(self) -> tuple[float, float, float, float]:
-        """West, east, south and north edge, m, as matplotlib's imshow takes them."""
-        (west, south), (rows, columns) = self.origin, self.cells.shape
-        return (west, west + columns * self.resolution, south, south + rows * self.resolution)
-
-    def shades(self) -> np.ndarray:
-        """The map as map_server's picture, (rows, columns) uint8, the highest y first."""
-        picture = np.full(self.cells.shape, GRAYS[UNKNOWN], np.uint8)
-        for value, gray in GRAYS.items():
-            picture[self.cells == value] = gray
-        return picture[::-1]
-
-    def save(self, stem: Path) -> list[Path]:
-        """Writes STEM.pgm and STEM.yaml as map_server reads them; returns their paths."""
-        picture, text = stem.with_name(stem.name + '.pgm'), stem.with_name(stem.name + '.yaml')
-        rows, columns = self.cells.shape
-        if not stem.absolute().parent.is_dir():
-            raise Failure(f'{stem}: cannot be written; give a name in a folder that exists')
-        with writing(picture, binary=True) as file:
-            file.write(b'P5\n%d %d\n255\n' % (columns, rows) + self.shades().tobytes())
-        write_text(text, f'image: {picture.name}\nresolution: {self.resolution}\n'
-                   f'origin: [{self.origin[0]:.3f}, {self.origin[1]:.3f}, 0.0]\n'
-                   'negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n')
-        return [picture, text]
+FREE, OCCUPIED, UNKNOWN = 0, 100, -1  # values of nav_msgs/OccupancyGrid
 
 
 def _is_log(path: str) -> bool:
@@ -90,21 +33,21 @@ def _is_log(path: str) -> bool:
 
 
 def load_world(path: str, seed: int = 0, allow_paths: bool = False) -> Any:
-    """The angen.World of a file, or of the beginning of a log; Failure where it does not load."""
+    """The angen.World of a file, or of the beginning of a log; Failure if it does not load."""
     with simulator() as angen:
         return (angen.Replay(path).world() if _is_log(path)
                 else angen.World(path, seed, allow_paths=allow_paths))
 
 
 def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH,
-             but: Collection[str] = ()) -> GridMap:
+             but: Collection[str] = ()) -> Grid:
     """The map of a floor: everything between LOW and `high` (m) above it. Changes the world.
 
     Robots and people are left out; elevators are at that floor with open doors, where they
     serve it. Doors are left out (`doors='away'`), `'open'` or `'shut'`, but those named in `but`
     are shut. FREE is floor
     that is connected to a place where a robot fits; the insides of walls and furniture, and
-    ground that is not a floor, are UNKNOWN. Failure where the world has no such floor; it
+    ground that is not a floor, are UNKNOWN. Failure if the world has no such floor; it
     names those it has.
     """
     all_floors = floors(world)
@@ -122,11 +65,10 @@ def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH,
     occupied = surveyor.surfaces(x, y, height)
     ground, room = surveyor.ground(x, y, height)
     ground &= ~occupied
-    cells = np.full((rows, columns), UNKNOWN, np.int8)
+    cells = np.full((rows, columns), UNKNOWN)
     cells[reached(_shrunk(ground & room, ROOM), ground)] = FREE
     cells[occupied] = OCCUPIED
-    return GridMap(cells, (x[0] - RESOLUTION / 2, y[0] - RESOLUTION / 2), RESOLUTION, floor,
-                   height)
+    return Grid(cells, (x[0] - RESOLUTION / 2, y[0] - RESOLUTION / 2), RESOLUTION, floor, height)
 
 
 def floors(world: Any) -> list[int]:
@@ -190,15 +132,14 @@ class _Surveyor:
     """Rays over whole floors of a world."""
 
     def __init__(self, world: Any, high: float = HIGH) -> None:
-        from angen_apps.maps.rays import Caster
-        self._caster = Caster(world)
+        self._world = world
         self._high, self._levels = high, np.arange(LOW, high, LEVEL)
 
     def bounds(self, floor: float) -> tuple[int, int, int, int] | None:
         """West and south in cells, columns and rows of everything on a floor at that
         height, with a margin.
 
-        None where rays from afar hit nothing.
+        None if rays from afar hit nothing.
         """
         across = np.arange(-REACH, REACH, RESOLUTION) + FINE
         hits = []
@@ -267,4 +208,4 @@ class _Surveyor:
 
     def _cast(self, origins: np.ndarray, axis: int, sign: int, reach: Any) -> np.ndarray:
         ways = np.broadcast_to(sign * np.eye(3)[axis], origins.shape)
-        return self._caster.cast(origins, ways, reach)
+        return np.asarray(self._world.cast(origins, ways, reach))

@@ -6,7 +6,9 @@ from multiprocessing import Pipe, Process
 from multiprocessing.connection import Connection
 from typing import Any
 
-from angen_apps.maps.gridmap import GridMap, floors, load_world, make_map
+from angen import Grid
+
+from angen_apps.maps.gridmap import floors, load_world, make_map
 from angen_tools.common.failure import Failure
 
 WORLD = 'world'  # the frame
@@ -15,7 +17,7 @@ WORLD = 'world'  # the frame
 def publish_maps(path: str) -> None:
     """A node that serves the maps of a world's file; see MapServer.
 
-    It ends at once where the world is empty, otherwise when ROS ends. Failure where the
+    It ends at once where the world is empty, otherwise when ROS ends. Failure if the
     world does not load.
     """
     maps = survey(path)
@@ -29,30 +31,30 @@ def publish_maps(path: str) -> None:
 
 
 class MapServer:
-    """Latches /floorN/map of each floor, and does as map_server does for one of them.
+    """Latches floorN/map of each floor, and does as map_server does for one of them.
 
-    That one, floor 0 at first, is /map, /map_metadata and the answer of /static_map;
-    /change_map chooses another one. In a frame other than the world's it is at z = 0, and a
+    That one, floor 0 at first, is map, map_metadata and the answer of static_map;
+    change_map chooses another one. In a frame other than the world's it is at z = 0, and a
     transform puts that frame on its floor.
     """
 
-    def __init__(self, maps: list[GridMap], frame: str) -> None:
+    def __init__(self, maps: list[Grid], frame: str) -> None:
         import rospy
         from nav_msgs.msg import MapMetaData, OccupancyGrid
         from nav_msgs.srv import GetMap, LoadMap
         self._maps = {f'floor{grid.floor}': grid for grid in maps}
         self._frame = frame
         latched = {'queue_size': 1, 'latch': True}
-        self._floors = {name: rospy.Publisher(f'/{name}/map', OccupancyGrid, **latched)
+        self._floors = {name: rospy.Publisher(f'{name}/map', OccupancyGrid, **latched)
                         for name in self._maps}
         for name, grid in self._maps.items():
             self._floors[name].publish(occupancy_grid(grid))
-        self._map = rospy.Publisher('/map', OccupancyGrid, **latched)
-        self._metadata = rospy.Publisher('/map_metadata', MapMetaData, **latched)
+        self._map = rospy.Publisher('map', OccupancyGrid, **latched)
+        self._metadata = rospy.Publisher('map_metadata', MapMetaData, **latched)
         self._broadcaster: Any = None
         self._choose('floor0' if 'floor0' in self._maps else next(iter(self._maps)))
-        rospy.Service('/static_map', GetMap, lambda _: self._current)
-        rospy.Service('/change_map', LoadMap, self._change)
+        rospy.Service('static_map', GetMap, lambda _: self._current)
+        rospy.Service('change_map', LoadMap, self._change)
 
     def _choose(self, name: str) -> None:
         """Makes a floor's map the one."""
@@ -85,7 +87,7 @@ class MapServer:
         return LoadMapResponse(map=self._current, result=LoadMapResponse.RESULT_SUCCESS)
 
 
-def survey(path: str) -> list[GridMap]:
+def survey(path: str) -> list[Grid]:
     """The maps of all floors of a world's file, doors away; Failure where it does not load.
 
     Made by another process, which takes the world's memory with it when it ends.
@@ -115,7 +117,7 @@ def _survey(path: str, unused: Connection, out: Connection) -> None:
         pass  # the reader has ended
 
 
-def occupancy_grid(grid: GridMap, frame: str = WORLD) -> Any:
+def occupancy_grid(grid: Grid, frame: str = WORLD) -> Any:
     """The map as nav_msgs/OccupancyGrid; in the frame world at its floor's height."""
     from nav_msgs.msg import OccupancyGrid
     message = OccupancyGrid()

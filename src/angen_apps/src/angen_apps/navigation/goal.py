@@ -4,20 +4,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from angen_tools.common.catalog import Plugin
 from angen_tools.common.failure import Failure
 
-TOPIC = '/move_base_simple/goal'
-SPEEDS = ['m/s', 'rad/s']  # the values of a robot that cmd_vel drives
-
-
-def is_robot(kind: Plugin) -> bool:
-    """Whether devices of a kind drive, so that navigation sends them."""
-    return bool(kind['values'] == SPEEDS)
+TOPIC = 'move_base_simple/goal'
 
 
 def publish_goal(publisher: Any, x: float, y: float, yaw: float) -> None:
-    """By a publisher of TOPIC; Failure where no program subscribes."""
+    """By a publisher of TOPIC; Failure if no program subscribes."""
     from geometry_msgs.msg import PoseStamped
     if publisher.get_num_connections() == 0:
         raise Failure(f'no program subscribes to {TOPIC}; navigation is started as '

@@ -10,24 +10,22 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import NoReturn
 
-from angen_apps.maps.gridmap import load_world
 from angen_apps.patrol import scene
 from angen_apps.patrol.drive import Patrol, RosRobot
 from angen_apps.patrol.figure import draw
-from angen_apps.patrol.lockstep import Lockstep
 from angen_apps.patrol.report import (Figures, Run, make_rows, measure, plans, summary, table_of,
                                       verdict, write_tables)
 from angen_apps.plan.draw import read_scene
-from angen_apps.robot.entities import entity_of
-from angen_apps.robot.interface import BUMPER, CYCLE, bumper
+from angen_apps.robot.entities import entities_of
+from angen_apps.robot.interface import BUMPER, bumper
 from angen_apps.robot.rooms_route import prepare
 from angen_apps.robot.tables import write_figures
 from angen_tools.common.failure import Failure
-from angen_tools.common.home import Home
 from angen_tools.common.output import as_json, show
 from angen_tools.common.progress import Progress
 from angen_tools.common.wait import wait
 from angen_tools.live.sandbox import Sandbox
+from angen_tools.session.stepped import Stepped
 from angen_tools.world.models import worlds_models
 
 RECORDED = (f'/angen/(?!contact/{BUMPER})'
@@ -43,21 +41,21 @@ SENSORS = ('pir', 'switch', 'luminosity', 'contact')
 def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, out: Path,
            json: bool) -> int:
     """Drives a route and writes the report; 0, or 1 where the robot touched something or the
-    elevator was not level. Failure where the route cannot be driven."""
+    elevator was not level. Failure if the route cannot be driven."""
     route, world, survey = prepare(route_file, world, out / 'logs')
     began = time.monotonic()
     own_world = out.absolute() / 'patrol.world'
     scene.write_world(world, route.robot, seed, own_world)
     with Sandbox((out / 'logs').absolute()) as sandbox:
         sandbox.node(own_world, 0.0, paused='true', seed=seed)
-        lockstep = Lockstep(CYCLE)
-        home = Home.of_world(load_world(str(own_world)))
-        entities = [entity_of(message, home) for message in lockstep.entities()]
+        stepped = Stepped()
+        entities = entities_of(stepped)
         place, actions = scene.make_scene(route, str(own_world), entities,
                                           scene.start_offset(seed), survey)
-        lockstep.spawn(BUMPER, *bumper(own_world, route.robot))
+        xml, link = bumper(own_world, route.robot)
+        stepped.spawn(BUMPER, xml, on=link)
         clock = Clock(rate)
-        robot = RosRobot(route, place, lockstep)
+        robot = RosRobot(route, place, stepped)
         robot.connect()
         bag = Bag(sandbox, out.absolute() / 'patrol.bag', route.robot)
 
@@ -66,7 +64,7 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
             clock.cycle(now, share, text)
 
         drive = Patrol(route, place, robot, seed, cycle, clock.note)
-        lockstep.wait_for_subscribers(2)
+        stepped.wait_for_subscribers(2)
         if rate > 0:
             watch(sandbox)
         clock.note(0.0, f'the patrol begins: {len(route.waypoints)} waypoints')
@@ -74,8 +72,9 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
         drive.run(actions)
         took = clock.end()
         bag.close()
-    run = Run(route.robot, place, drive.track, drive.reached, lockstep.events,
-              [e for e in entities if e.kind in SENSORS], robot.door_angles())
+        robot.take_angles()
+    run = Run(route.robot, place, drive.track, drive.reached, robot.events,
+              [e for e in entities if e.kind in SENSORS], robot.door_angles)
     rows, found = make_rows(run, own_world), measure(run, seed, took)
     write_tables(run, rows, out)
     plan = read_scene(own_world)
@@ -130,12 +129,12 @@ class Bag:
         wait(subscribes, 'rosbag has not subscribed', BAG_LIMIT)
 
     def check(self) -> None:
-        """Failure where rosbag has ended, or has stopped for want of space."""
+        """Failure if rosbag has ended, or has stopped for want of space."""
         if self._process.poll() is not None or NO_SPACE in self._said():
             self._complain()
 
     def close(self) -> None:
-        """Ends the recording; the file is whole then. Failure where it is not."""
+        """Ends the recording; the file is whole then. Failure if it is not."""
         self.check()
         self._receive_the_rest()
         self._process.send_signal(signal.SIGINT)

@@ -2,18 +2,18 @@
 from __future__ import annotations
 
 import random
-from typing import Any, Callable
+from typing import Callable
 
-from angen_apps.patrol.lockstep import Lockstep
 from angen_apps.patrol.report import BEGINS
 from angen_apps.patrol.scene import Scene
 from angen_apps.robot.driver import Driver, Track
-from angen_apps.robot.interface import CYCLE, DoorState, Event, LiftState
-from angen_apps.robot.pilot import Pose
+from angen_apps.robot.interface import CYCLE
 from angen_apps.robot.route import Action, Drive
 from angen_apps.robot.route_file import Route
-from angen_apps.robot.states import door_state, lift_state
-from angen_tools.common.geometry import yaw_of
+from angen_apps.robot.world_robot import WorldRobot
+from angen_tools.common.geometry import yaw
+from angen_tools.session import Event, State
+from angen_tools.session.stepped import Stepped
 
 PAUSE = 5  # cycles, at most, between two actions
 LAST = 10  # cycles at the end
@@ -21,96 +21,70 @@ NOTED = ('pir', 'switch')  # kinds of sensors whose detections are printed on th
 DONE = ('opened', 'closed', 'idle', 'doors opened')  # events at which doors and elevators stop
 
 
-class RosRobot:
-    """A robot of the node of this process's master; see robot.interface.Robot."""
+class RosRobot(WorldRobot):
+    """A robot of the stepped node."""
 
-    def __init__(self, route: Route, scene: Scene, lockstep: Lockstep) -> None:
-        self._name, self._lockstep = route.robot, lockstep
-        self._odometry, self._scan = scene.start.robot.topic, scene.start.laser.topic
-        self._cmd_vel = f'/{route.robot}/cmd_vel'
+    def __init__(self, route: Route, scene: Scene, world: Stepped) -> None:
+        super().__init__(world, route.robot, scene.start.laser.name)
+        self._stepped = world
         self._doors = [door.name for doors in scene.doors.values() for door in doors]
         self._lifts = [route.elevator.name] if route.elevator else []
-        self._states: dict[tuple[str, str], Any] = {}
-        self._seen_events = 0
+        self._states: dict[tuple[str, str], State] = {}
         self._due: list[Event] = []  # whose states are not read yet
-
-    @property
-    def now(self) -> float:
-        return self._lockstep.now
-
-    @property
-    def events(self) -> list[Event]:
-        return self._lockstep.events
+        # of each door: times (s) and angles (rad from shut), as published
+        self.door_angles: dict[str, list[tuple[float, float]]] = {name: [] for name in self._doors}
 
     def connect(self) -> None:
         """Subscribes and advertises, and takes time back to 0."""
         from geometry_msgs.msg import Twist
-        from nav_msgs.msg import Odometry
-        from sensor_msgs.msg import LaserScan
         from std_msgs.msg import String
-
-        from angen_msgs.msg import DoorState, ElevatorState
-        lockstep = self._lockstep
-        lockstep.subscribe(self._odometry, Odometry)
-        lockstep.subscribe(self._scan, LaserScan)
-        for name in self._doors:
-            lockstep.subscribe(f'/angen/door/{name}', DoorState, keep=True)
-        for name in self._lifts:
-            lockstep.subscribe(f'/angen/elevator/{name}', ElevatorState, keep=True)
-        lockstep.advertise(self._cmd_vel, Twist)
+        world = self._stepped
+        world.states('door')
+        world.advertise(f'{self._name}/cmd_vel', Twist)
         for kind in ('Door', 'Elevator'):
-            lockstep.advertise(f'/gazebo/{kind}_controller', String)
-        lockstep.begin()
-        for kind, names in (('door', self._doors), ('elevator', self._lifts)):
-            for name in names:
-                self._states[kind, name] = lockstep.latest(f'/angen/{kind}/{name}')
-
-    def door_angles(self) -> dict[str, list[tuple[float, float]]]:
-        """Times (s) and angles (rad from shut) of each door, as published."""
-        return {name: [(m.header.stamp.to_sec(), m.position)
-                       for m in self._lockstep.kept[f'/angen/door/{name}']]
-                for name in self._doors}
+            world.advertise(f'gazebo/{kind}_controller', String)
+        devices = [('door', name) for name in self._doors]
+        devices += [('elevator', name) for name in self._lifts]
+        world.begin([('drive', self._name), ('lidar', self._lidar), *devices], CYCLE)
+        for key in devices:
+            self._states[key] = world.state(*key)
+        self.events += world.events()
 
     def cycle(self, v: float, w: float) -> None:
         from geometry_msgs.msg import Twist
         twist = Twist()
         twist.linear.x, twist.angular.z = v, w
-        self._lockstep.send(self._cmd_vel, twist)
-        self._lockstep.run()
-        self._due += [event for event in self.events[self._seen_events:] if event.event in DONE
+        self._stepped.send(f'{self._name}/cmd_vel', twist)
+        seen = len(self.events)
+        self.wait()
+        self.take_angles()
+        self._due += [event for event in self.events[seen:] if event.event in DONE
                       and (event.kind, event.source) in self._states]
-        self._seen_events = len(self.events)
         # The state has its new mode a tick after the event, which may be in the next cycle.
-        ready = self.now - self._lockstep.tick + 1e-6
+        tick = self._stepped.tick
+        ready = self.now - tick + 1e-6
         for event in [event for event in self._due if event.time <= ready]:
-            self._states[event.kind, event.source] = self._lockstep.latest(
-                f'/angen/{event.kind}/{event.source}', event.time + self._lockstep.tick)
+            self._states[event.kind, event.source] = self._world.state(
+                event.kind, event.source, event.time + tick)
         self._due = [event for event in self._due if event.time > ready]
 
-    def command(self, kind: str, name: str, text: str) -> None:
-        from std_msgs.msg import String
-        self._lockstep.send(f'/gazebo/{kind.title()}_controller', String(f'{text}, {name}'))
+    def take_angles(self) -> None:
+        """Keeps the angles of doors that have come."""
+        for state in self._world.states('door'):
+            if state.name in self.door_angles:
+                self.door_angles[state.name].append((state.time, state['position']))
 
-    def door(self, name: str) -> DoorState:
-        return door_state(self._states['door', name])
-
-    def lift(self, name: str) -> LiftState:
-        return lift_state(self._states['elevator', name])
-
-    def odometry(self) -> Pose:
-        pose = self._lockstep.latest(self._odometry, self.now).pose.pose
-        return Pose(pose.position.x, pose.position.y, yaw_of(pose.orientation))
-
-    def scan(self) -> Any:
-        return self._lockstep.latest(self._scan, self.now - CYCLE / 2)
-
-    def scanned_at(self) -> Pose:
-        return self.odometry()  # both are of the end of the cycle
+    def _state(self, kind: str, name: str) -> State:
+        """Of doors and elevators those that each run knows at that time."""
+        if (kind, name) in self._states:
+            return self._states[kind, name]
+        late = CYCLE / 2 if kind == 'lidar' else 0.0
+        return self._world.state(kind, name, self.now - late)
 
     def truth(self) -> tuple[float, float, float, float]:
-        pose = next(entity.pose for entity in self._lockstep.entities('drive')
+        pose = next(entity.pose for entity in self._world.entities('drive')
                     if entity.name == self._name)
-        return pose.position.x, pose.position.y, pose.position.z, yaw_of(pose.orientation)
+        return (*pose[:3], yaw(*pose[3:]))
 
 
 class Patrol:

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from angen_apps.maps.gridmap import on_floor
 from angen_apps.patrol.report import Row, Run, begun, moving
 from angen_apps.plan.draw import Scene, draw_storey, extent
 from angen_apps.robot.entities import Entity
@@ -28,7 +27,7 @@ def draw(run: Run, rows: list[Row], plan: Scene, floor: int, path: Path) -> None
     figure, axes = pyplot().subplots(figsize=(WIDE, (north - south) * inch + 0.9), dpi=150)
     draw_storey(axes, plan, storey, inch)
     track = np.array(run.track.rows)
-    here = on_floor(run.scene.home, track[:, 3], floor)
+    here = run.scene.home.storeys_at(track[:, 3]) == floor
     line = np.where(here[:, None], track[:, 1:3], np.nan)
     axes.plot(line[:, 0], line[:, 1], color=TRACK, linewidth=1.2, zorder=8)
     entities = {entity.name: entity for entity in run.sensors}

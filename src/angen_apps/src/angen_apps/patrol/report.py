@@ -16,7 +16,6 @@ from angen_tools.world import sdf
 if TYPE_CHECKING:
     from rich.table import Table
 
-from angen_apps.maps.gridmap import on_floor
 from angen_apps.patrol.scene import Scene
 from angen_apps.patrol.sight import Sight
 from angen_apps.robot import interface
@@ -61,7 +60,7 @@ class Run:
     reached: list[tuple[float, str]]  # s, waypoint
     events: list[Event]
     sensors: list[Entity]
-    angles: dict[str, list[tuple[float, float]]]  # of doors: s, rad from shut
+    angles: dict[str, list[tuple[float, float]]]  # angles of doors: s, rad from shut
 
     def of(self, source: str, kind: str) -> list[tuple[float, str, str]]:
         """Time (s), name and detail of a source's events."""
@@ -102,7 +101,7 @@ def make_rows(run: Run, world: Path) -> list[Row]:
             first = next((t for t, _ in detected
                           if seen is not None and t >= seen - STATE_PERIOD), None)
         else:
-            here = track[on_floor(run.scene.home, track[:, 3], entity.floor)]
+            here = track[run.scene.home.storeys_at(track[:, 3]) == entity.floor]
             seen = sight.first(view_of(entity, sensor_element(described, entity)), here)
             first = first_detection(seen, detected, moved)
         rows.append(Row(run.scene.rooms[entity.name], entity.name, entity.kind, seen, first,

@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from angen import Grid
 
-from angen_apps.maps.gridmap import GridMap, load_world
+from angen_apps.maps.gridmap import load_world
 from angen_apps.patrol.sight import beam_angles, door_beside, outline
 from angen_apps.robot.building import Start, Survey, find_start, move_robot, remove_actors
 from angen_apps.robot.entities import Entity
@@ -42,13 +43,13 @@ class Scene:
     """The robot's knowledge of the building before it starts, and the data of the report."""
 
     start: Start
-    maps: dict[int, GridMap]  # of floors, with doors open
-    landmarks: dict[int, GridMap]  # all that a laser may hit: leaves both open and shut
+    maps: dict[int, Grid]  # by floor, with doors open
+    landmarks: dict[int, Grid]  # all that a laser may hit: leaves both open and shut
     doors: dict[int, list[Door]]
-    beams: dict[str, float]  # of a switch: rad of its door from shut at which its beam is free
+    beams: dict[str, float]  # a switch's: rad of its door from shut at which its beam is free
     body: np.ndarray  # (n, 3) points of the robot's surface, m
     world: Any  # angen.World without robots, for rays
-    rooms: dict[str, str]  # of each sensor; of a switch its door, which is called after a room
+    rooms: dict[str, str]  # each sensor's; a switch has its door, which is called after a room
     home: Home
 
 

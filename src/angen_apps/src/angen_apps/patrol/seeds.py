@@ -19,7 +19,7 @@ HEAD = ('SEED', 'm', 's', 'WALL s', 'COLLISIONS', 'ELEVATOR mm', 'ASIDE cm', 'WH
 def patrols(words: list[str], seeds: range, out: Path, json: bool) -> int:
     """Runs `angen task patrol WORDS` for each seed in OUT/seed_N, and writes OUT/summary.csv.
 
-    0, or 1 where one touched something or its elevator was not level; Failure where one did not
+    0, or 1 where one touched something or its elevator was not level; Failure if one did not
     arrive.
     """
     found: list[Figures] = []

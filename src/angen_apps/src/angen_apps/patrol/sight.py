@@ -7,7 +7,7 @@ from typing import Any, Iterable
 import numpy as np
 
 from angen_apps.maps.gridmap import models_with
-from angen_apps.maps.rays import Caster
+from angen_apps.maps.rays import sees
 from angen_apps.robot.entities import Entity
 from angen_apps.robot.planner import Door
 from angen_apps.robot.views import View
@@ -17,7 +17,7 @@ SIDES, HEIGHTS = 16, np.arange(0.03, 1.5, 0.06)  # rays that find a robot's outl
 BEAM = 0.5  # m
 BESIDE = 0.6  # m from the middle of a shut leaf to the switch over it
 CHUNK = 50  # positions at a time
-TICKS, SAMPLES = 5, 120  # ticks between two samples of the beams of opening doors, and how many
+TICKS, SAMPLES = 6, 120  # ticks between two samples of the beams of opening doors, and how many
 CHANGED = 0.05  # m by which a cut beam is shorter
 
 
@@ -39,15 +39,14 @@ def hidden(origin: np.ndarray, points: np.ndarray, door: Door, turned: np.ndarra
 def outline(world: Any, start: np.ndarray) -> np.ndarray:
     """Points (n, 3) of the surface of the robot at `start` (x, y, z, yaw; m), in its
     own frame. Removes all robots from the world."""
-    caster = Caster(world)
     turns = np.arange(SIDES) * 2 * math.pi / SIDES
     ways = np.repeat(np.stack([np.cos(turns), np.sin(turns), 0 * turns], axis=1), len(HEIGHTS),
                      axis=0)
     origins = start[:3] - AROUND * ways + np.outer(np.tile(HEIGHTS, SIDES), [0, 0, 1])
-    before = caster.cast(origins, ways, AROUND)
+    before = world.cast(origins, ways, AROUND)
     for name in models_with(world, 'left_wheel_joint'):
         world.delete(name)
-    hit = before < caster.cast(origins, ways, AROUND) - 1e-6
+    hit = before < world.cast(origins, ways, AROUND) - 1e-6
     points = (origins + before[:, None] * ways)[hit] - start[:3]
     c, s = math.cos(start[3]), math.sin(start[3])
     return points @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
@@ -62,7 +61,7 @@ class Sight:
 
     def __init__(self, world: Any, body: np.ndarray, doors: list[Door],
                  angles: dict[str, np.ndarray]) -> None:
-        self._caster = Caster(world)
+        self._world = world
         self._body, self._doors, self._angles = body, doors, angles
         for name in models_with(world, 'hinge'):
             world.delete(name)
@@ -75,7 +74,7 @@ class Sight:
                                                np.broadcast_to(z, (len(track), len(z)))], axis=2)
 
     def first(self, view: View, track: np.ndarray) -> float | None:
-        """When a sensor first has a free line to a point of the robot; None where it never has."""
+        """When a sensor first has a free line to a point of the robot; None if it never has."""
         away = np.hypot(*(track[:, 1:3] - view.position[:2]).T)
         near = track[away <= view.reach + AROUND]
         for start in range(0, len(near), CHUNK):
@@ -92,7 +91,7 @@ class Sight:
     def _free(self, origin: np.ndarray, points: np.ndarray, times: np.ndarray) -> np.ndarray:
         if len(points) == 0:
             return np.zeros(0, bool)
-        free = np.nonzero(self._caster.sees(origin, points))[0]
+        free = np.nonzero(sees(self._world, origin, points))[0]
         for door in self._doors:
             history = self._angles[door.name]
             which = np.searchsorted(history[:, 0], times[free], side='right') - 1
@@ -114,19 +113,18 @@ def beam_angles(world: Any, doors: dict[int, list[Door]], switches: list[Entity]
 
     `doors` of each floor, all shut; they are opened for it.
     """
-    caster = Caster(world)
     origins = np.array([s.place for s in switches]).reshape(-1, 3)
     ways = np.array([s.rotation[:, 0] for s in switches]).reshape(-1, 3)
     names = {door.name for each in doors.values() for door in each}
     joints = {name: [i for i, joint in enumerate(world.joints) if joint.startswith(f'{model}::')]
               for _, name, model, _ in world.entities('door') if name in names}
-    shut = caster.cast(origins, ways, BEAM)
+    shut = world.cast(origins, ways, BEAM)
     for name in names:
         world.command('door', name, 'Open')
     found: dict[str, float] = {}
     for _ in range(SAMPLES if switches else 0):
         world.step(TICKS)
-        longer = caster.cast(origins, ways, BEAM) > shut + CHANGED
+        longer = world.cast(origins, ways, BEAM) > shut + CHANGED
         positions = world.joint_positions
         for switch, free in zip(switches, longer):
             door = rooms[switch.name]

@@ -11,10 +11,9 @@ from math import pi
 from random import Random
 
 from angen_apps.plan.finish import finish
-from angen_apps.plan.furnished import furnish
+from angen_apps.plan.furnished import furnished
 from angen_apps.plan.lifts import shaft
-from angen_apps.plan.model import (
-    Lamp, Leaf, Lift, Opening, Plan, Point, Room, Storey, Wall, turned)
+from angen_apps.plan.model import Lamp, Leaf, Lift, Opening, Plan, Point, Room, Storey, Wall, turned
 
 OUTER, INNER = 0.2, 0.1  # m, walls
 CEILING, RISE = 2.5, 3.0  # m
@@ -41,7 +40,14 @@ class _Cell:
 
 
 def apartment(rooms: int, storeys: int, seed: int) -> Plan:
-    """A home of `rooms` rooms besides kitchen, bathroom and hall on each storey."""
+    """A home of `rooms` rooms besides kitchen, bathroom and hall on each storey.
+
+    Failure if its furniture does not fit.
+    """
+    return furnished(lambda key: _empty(rooms, storeys, key), seed)
+
+
+def _empty(rooms: int, storeys: int, seed: str) -> Plan:
     made = []
     widths = Random(f'{seed} widths').uniform(0.0, 1.0)
     for number in range(storeys):
@@ -55,10 +61,7 @@ def apartment(rooms: int, storeys: int, seed: int) -> Plan:
     if storeys > 1:
         add_elevator(plan, (-LANDING, HALL / 2), 0.0)
         door(made[0], -LANDING / 2, HALL / 2 - LANDING_SIDE, 0.0, OUTER, True, True, 'house door')
-    plan = finish(plan)
-    for storey in plan.storeys:
-        furnish(storey, Random(f'{seed} furniture {storey.number}'))
-    return plan
+    return finish(plan)
 
 
 def _rows(rooms: int, dice: Random) -> tuple[list[str], list[str]]:
@@ -183,7 +186,7 @@ def _landing(storey: Storey) -> None:
 def add_elevator(plan: Plan, at: Point, yaw: float) -> None:
     """An elevator that stops on all storeys: its doorway is in the wall at a point and opens to
     the direction `yaw`; its shaft is behind that wall."""
-    back = -(OUTER / 2 + SHAFT[0] / 2 + 0.15)  # of the cabin's middle
+    back = -(OUTER / 2 + SHAFT[0] / 2 + 0.15)  # the cabin's middle
     x, y = turned(at, yaw, back, 0.0)
     plan.lifts.append(Lift('elevator', x, y, yaw, SHAFT[1] - 0.12, SHAFT[0] - 0.2,
                            tuple(storey.number for storey in plan.storeys), front=-0.12 - back))

@@ -8,7 +8,9 @@ from lxml import etree
 
 from angen_apps.plan.model import Leaf, Opening, local, turned
 from angen_apps.plan.polygons import rectangle
-from angen_tools.world.placing import generator
+from angen_models.catalog import REED_GAP, add_reed
+from angen_models.sdf import (Part, add_fixed, add_joint, add_link, add_plugin, add_pose, new_model,
+                              spanned)
 
 LEAF_THICK = 0.04  # m
 SASH_THICK = 0.03
@@ -63,9 +65,8 @@ class Hung:
         return rectangle(*self.hinge, self.yaw + angle, (way, low), (self.width + way, high))
 
 
-def leaf_model(hung: Hung, base_z: float, reed: bool) -> etree._Element:
+def leaf_model(hung: Hung, reed: bool) -> etree._Element:
     """The <model> of a leaf that turns: its origin is on its hinge at its foot."""
-    blocks = generator('sdf')
     window = hung.opening.kind == 'window'
     glazed = window or hung.opening.glazed
     bottom, top = hung.heights
@@ -73,34 +74,33 @@ def leaf_model(hung: Hung, base_z: float, reed: bool) -> etree._Element:
     slides = hung.leaf.slide != 0.0
     side = 1.0 if hung.turn <= 0 else -1.0
     mass = round(max(1.0, (SASH_MASS if glazed else DOOR_MASS) * width * height), 1)
-    root, model = blocks.new_model(model_name(hung))
+    _, model = new_model(model_name(hung))
     x, y = hung.hinge
-    blocks.add_pose(model, (round(x, 5), round(y, 5), round(bottom, 5)),
-                    (0, 0, round(hung.yaw, 6)))
-    base = blocks.add_link(model, 'base', [_frame(width, thick * side, height)])
+    add_pose(model, (round(x, 5), round(y, 5), round(bottom, 5)),
+             (0, 0, round(hung.yaw, 6)))
+    base = add_link(model, 'base', [_frame(width, thick * side, height)])
     if reed:
         _add_reed(base, hung, height, side)
-    blocks.add_fixed(model, 'base_to_world', 'world', 'base')
+    add_fixed(model, 'base_to_world', 'world', 'base')
     name = 'pane' if window else 'leaf'
-    blocks.add_link(model, name, _leaf_parts(glazed, width, height, thick, side, mass))
+    add_link(model, name, _leaf_parts(glazed, width, height, thick, side, mass))
     far = hung.leaf.slide if slides else hung.turn
     low, high = (far, 0.001) if far <= 0 else (-0.001, far)
     joint = 'sash' if window else 'slide' if slides else 'hinge'
-    blocks.add_joint(model, joint, 'prismatic' if slides else 'revolute', 'base', name,
-                     (1, 0, 0) if slides else (0, 0, 1),
-                     limits={'lower': round(low, 4), 'upper': round(high, 4), 'effort': 200,
-                             'velocity': 3},
-                     dynamics={'damping': 0.2, 'friction': 0.1})
+    add_joint(model, joint, 'prismatic' if slides else 'revolute', 'base', name,
+              (1, 0, 0) if slides else (0, 0, 1),
+              limits={'lower': round(low, 4), 'upper': round(high, 4), 'effort': 200,
+                      'velocity': 3},
+              dynamics={'damping': 0.2, 'friction': 0.1})
     inertia = mass if slides else mass * width ** 2 / 3
     gains: dict[str, object] = {key: round(gain * max(inertia, 0.2), 2)
                                 for key, gain in GAIN.items()}
     if slides and not window:
         gains['joint'] = joint
-    blocks.add_plugin(model, 'window_controller' if window else 'door_controller',
+    add_plugin(model, 'window_controller' if window else 'door_controller',
                       'libdoor_world_plugin.so', device_name=hung.name,
                       open_position=round(far, 4), width=round(width, 3),
                       height=round(height, 3), **gains)
-    root.remove(model)
     return model
 
 
@@ -110,36 +110,34 @@ def model_name(hung: Hung) -> str:
     return f'{stem.rstrip("_")}_{hung.opening.kind}{hung.name[len(stem):]}'
 
 
-def _frame(width: float, thick: float, height: float) -> object:
+def _frame(width: float, thick: float, height: float) -> Part:
     """The body that carries the reed contact; it hinders no one."""
     low, high = sorted((thick, thick + (0.006 if thick > 0 else -0.006)))
-    return generator('sdf').spanned('reed', (width - 0.07, low, height - 0.056),
-                                    (width - 0.03, high, height - 0.044), mass=0.01,
-                                    collide=False)
+    return spanned('reed', (width - 0.07, low, height - 0.056),
+                   (width - 0.03, high, height - 0.044), mass=0.01,
+                   collide=False)
 
 
 def _add_reed(base: etree._Element, hung: Hung, height: float, side: float) -> None:
-    catalog = generator('catalog')
     x, z = hung.width - 0.05, height - 0.05
     y = side * hung.thick
-    gap = side * catalog.REED_GAP
-    catalog.add_reed(base, (round(x, 5), round(y + gap, 5), round(z, 5)),
-                     'pane' if hung.opening.kind == 'window' else 'leaf',
-                     (round(x, 5), round(y, 5), round(z, 5)))
+    gap = side * REED_GAP
+    add_reed(base, (round(x, 5), round(y + gap, 5), round(z, 5)),
+             'pane' if hung.opening.kind == 'window' else 'leaf',
+             (round(x, 5), round(y, 5), round(z, 5)))
 
 
 def _leaf_parts(glazed: bool, width: float, height: float, thick: float, side: float, mass: float
-                ) -> list[object]:
-    blocks = generator('sdf')
+                ) -> list[Part]:
     low, high = sorted((0.0, thick * side))
-    parts = [blocks.spanned('pane' if glazed else 'panel', (0.0, low, 0.0), (width, high, height),
-                            material=GLASS if glazed else OAK, mass=mass)]
+    parts = [spanned('pane' if glazed else 'panel', (0.0, low, 0.0), (width, high, height),
+                     material=GLASS if glazed else OAK, mass=mass)]
     lever = min(1.0, height / 2)
     for y in (low - 0.04, high + 0.01):
-        parts.append(blocks.spanned(f'handle_{"front" if y < low else "back"}',
-                                    (width - 0.14, y, lever), (width - 0.03, y + 0.03,
-                                                               lever + 0.025),
-                                    material=(0.75, 0.75, 0.78), collide=False))
+        parts.append(spanned(f'handle_{"front" if y < low else "back"}',
+                             (width - 0.14, y, lever), (width - 0.03, y + 0.03,
+                                                        lever + 0.025),
+                             material=(0.75, 0.75, 0.78), collide=False))
     return parts
 
 

@@ -1,4 +1,4 @@
-"""Draws a world as an architect's plan, to scale, storeys side by side."""
+"""Draws a world as an architect's plan, to scale, floors side by side."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -9,7 +9,7 @@ from typing import Any, Sequence
 import numpy as np
 
 from angen_apps.plan import overlays
-from angen_apps.plan.shapes import Shape, Shapes, Swing, read_shapes
+from angen_apps.plan.outlines import Leaf, Shape, leaves_of, shapes_of, shut
 from angen_apps.plan.symbols import SYMBOLS
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
@@ -18,7 +18,7 @@ from angen_tools.common.home import Door, Home, Room, Storey, Thing
 
 CUT = 1.1  # m above a floor at which walls are cut
 TALL = 1.7  # m: a shape that ends higher than this over the floor is a wall
-INCH = 0.9  # of paper for a meter, at most
+INCH = 0.9  # most paper for a meter
 WIDEST = 24.0  # inches
 MARGIN = 1.0  # m around a storey
 DPI = 130
@@ -33,8 +33,10 @@ class Scene:
 
     path: Path
     home: Home
-    shapes: Shapes
+    shapes: list[Shape]
+    leaves: list[Leaf]
     entities: list[Any]
+    fields: dict[tuple[str, str], tuple[float, float, float]]  # fields of view, by kind and name
     things: dict[str, Thing] = field(default_factory=dict)
 
     def drawn(self) -> list[Storey]:
@@ -53,7 +55,7 @@ class Scene:
 
 
 def read_scene(path: Path) -> Scene:
-    """Loads a world; Failure where it cannot be loaded or has no room."""
+    """Loads a world; Failure if it cannot be loaded or has no room."""
     angen = angen_module()
     try:
         world = angen.World(str(path))
@@ -62,7 +64,13 @@ def read_scene(path: Path) -> Scene:
     home = Home.of_world(world)
     if not home.rooms:
         raise Failure(f'{path}: has no rooms, named or guessed, to draw')
-    return Scene(path, home, read_shapes(path), list(world.entities()),
+    entities = list(world.entities())
+    shut(world)  # a field of view ends at its room's doors
+    people = {model for kind, _, model, _ in entities if kind == 'person'}
+    shapes = [shape for shape in shapes_of(world) if shape.model not in people]
+    fields = {(kind, name): field for kind, name, _, _ in entities
+              if kind in overlays.WITH_FIELD and (field := world.field_of_view(kind, name))}
+    return Scene(path, home, shapes, leaves_of(world, shapes), entities, fields,
                  {thing.name: thing for thing in home.things})
 
 
@@ -86,10 +94,10 @@ def draw(path: Path, output: Path, what: overlays.What) -> dict[str, Any]:
             overlays.draw(axis, scene, storey, data, what)
         metadata = {'Date': None} if kind == 'svg' else {'Software': None}
         save_figure(figure, output, format=kind, dpi=DPI, metadata=metadata)
-    counts = {'storeys': len(axes), 'rooms': len(scene.home.rooms),
+    counts = {'floors': len(axes), 'rooms': len(scene.home.rooms),
               'doors_and_windows': len(scene.home.doors)}
     return {'file': str(output), **counts,
-            'text': f'wrote {output}: {len(axes)} storey{"s"[:len(axes) > 1]}, '
+            'text': f'wrote {output}: {len(axes)} floor{"s"[:len(axes) > 1]}, '
                     f'{counts["rooms"]} rooms, {counts["doors_and_windows"]} doors and windows'}
 
 
@@ -137,24 +145,20 @@ def draw_storey(axis: Any, scene: Scene, storey: Storey, inch: float | None) -> 
     rooms = [room for room in scene.home.rooms if room.storey == storey.number]
     for room in rooms if inch else ():
         axis.fill(*zip(*room.polygon), color=TINTS.get(room.use, '#f6f6f6'), lw=0, zorder=1)
-    if scene.shapes.unread:
+    if any(shape.type == 'mesh' for shape in scene.shapes):
         _draw_section(axis, scene, storey)
-    swings = [s for s in scene.shapes.swings if is_on(s.bottom, storey)]
-    slides = [s for s in scene.shapes.slides if is_on(s.bottom, storey)]
-    leaves = {swing.model for swing in swings} | {slide.model for slide in slides}
-    for shape in scene.shapes.solids:
-        if shape.model not in leaves and len(shape.corners) > 2:
+    leaves = [leaf for leaf in scene.leaves if is_on(leaf.bottom, storey)]
+    hung = {leaf.model for leaf in leaves}
+    for shape in scene.shapes:
+        if shape.model not in hung:
             _draw_solid(axis, scene, storey, shape)
     for thing in scene.home.things:
         _draw_thing(axis, scene, storey, thing)
     for door in scene.home.doors:
         if door.kind == 'window' and is_on(door.pose[2], storey):
             _draw_window(axis, door)
-    for swing in swings:
-        _draw_swing(axis, swing)
-    for slide in slides:
-        axis.fill(*zip(*slide.open), facecolor='none', edgecolor=GRAY, lw=0.5, ls=':', zorder=7)
-        axis.fill(*zip(*slide.shut), facecolor='white', edgecolor=INK, lw=THIN, zorder=7)
+    for leaf in leaves:
+        _draw_leaf(axis, leaf)
     if inch:
         for room in rooms:
             _label(axis, room, inch)
@@ -187,12 +191,12 @@ def _draw_solid(axis: Any, scene: Scene, storey: Storey, shape: Shape) -> None:
     """Walls are black, lower shapes are outlines; things have symbols of their own."""
     thing = scene.things.get(shape.model)
     cut = storey.elevation + CUT
-    is_building = shape.model not in scene.shapes.moving and thing is None
+    is_building = not shape.moves and shape.type != 'mesh' and thing is None
     if is_building and shape.link.startswith(('window_', 'door_')):
         if not is_on(shape.bottom, storey):
             return
         axis.fill(*zip(*shape.corners), color='#4a7fb5', lw=0, zorder=6)  # a pane or a fixed leaf
-    elif is_building and shape.tilted:  # as a roof: lines above the cut
+    elif is_building and shape.tilted:  # drawn like a roof: lines above the cut
         if is_on(shape.bottom, storey):
             axis.fill(*zip(*shape.corners), facecolor='none', edgecolor=GRAY, lw=THIN, ls=':',
                       zorder=6)
@@ -209,7 +213,7 @@ def _is_low(shape: Shape, storey: Storey, least: float) -> bool:
 
 
 def _draw_thing(axis: Any, scene: Scene, storey: Storey, thing: Thing) -> None:
-    parts = [shape for shape in scene.shapes.solids if shape.model == thing.name
+    parts = [shape for shape in scene.shapes if shape.model == thing.name
              and storey.elevation - 0.15 < shape.bottom < storey.elevation + 1.8]
     if not parts or thing.type in ('lamp', 'window'):
         return
@@ -231,7 +235,7 @@ def _draw_thing(axis: Any, scene: Scene, storey: Storey, thing: Thing) -> None:
                 thing.pose[1] + points[:, 0] * s + points[:, 1] * c)
 
     outline = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-    if len(parts) == 1 and parts[0].round:
+    if len(parts) == 1 and parts[0].type in ('cylinder', 'sphere'):
         outline = [(cos(a), sin(a)) for a in np.linspace(0, 2 * pi, 24)]
     axis.fill(*place(outline), edgecolor=INK, lw=THIN, zorder=4, **style)
     for line in SYMBOLS.get(thing.type, []):
@@ -247,12 +251,15 @@ def _draw_window(axis: Any, door: Door) -> None:
                   color='#4a7fb5', lw=THIN, zorder=7, solid_capstyle='butt')
 
 
-def _draw_swing(axis: Any, swing: Swing) -> None:
-    color = '#4a7fb5' if swing.window else INK
-    far = swing.path[-1]
-    axis.plot([swing.hinge[0], far[0]], [swing.hinge[1], far[1]], color=color,
-              lw=0.6 if swing.window else 1.4, zorder=7)
-    axis.plot(*zip(*swing.path), color=color, lw=0.5, zorder=7)
+def _draw_leaf(axis: Any, leaf: Leaf) -> None:
+    if leaf.hinge is None:
+        axis.fill(*zip(*leaf.outlines[-1]), facecolor='none', edgecolor=GRAY, lw=0.5, ls=':',
+                  zorder=7)
+        axis.fill(*zip(*leaf.outlines[0]), facecolor='white', edgecolor=INK, lw=THIN, zorder=7)
+        return
+    color, path = '#4a7fb5' if leaf.window else INK, leaf.path
+    axis.plot(*zip(leaf.hinge, path[-1]), color=color, lw=0.6 if leaf.window else 1.4, zorder=7)
+    axis.plot(*zip(*path), color=color, lw=0.5, zorder=7)
 
 
 def _label(axis: Any, room: Room, inch: float) -> None:

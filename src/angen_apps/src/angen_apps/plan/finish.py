@@ -16,7 +16,7 @@ from angen_apps.plan.polygons import area, contains, overlap, rectangle
 from angen_apps.plan.travel import sided
 from angen_apps.plan.walls import cuts_wall, direction
 
-WHOLE = 0.9  # of an opening's width and height: a piece that fills it closes it
+WHOLE = 0.9  # share of an opening's width and height: a piece that fills it closes it
 JAMB = 0.1  # m from an end of a doorway to a wall beside it
 THICK_WALL = 0.5  # m, the same of an opening cut into a wall that is thicker than its frame
 NEAR = 0.01  # m between the top of a leaf and a ceiling
@@ -78,7 +78,7 @@ def _name_rooms(storey: Storey, names: Names, remarks: list[str]) -> None:
     for room, use, text in named:
         made = replace(room, use=use, name=names.take(text, storey.number))
         storey.rooms[storey.rooms.index(room)] = made
-        if room.name and not slug(room.name, ''):  # of letters that names cannot have
+        if room.name and not slug(room.name, ''):  # its letters are none that names can have
             remarks.append(f'the room "{room.name}" is called {made.name}')
 
 

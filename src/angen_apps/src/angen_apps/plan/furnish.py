@@ -12,21 +12,21 @@ from lxml import etree
 from angen_apps.plan.travel import Obstacle
 from angen_apps.plan.model import Piece
 from angen_apps.plan.polygons import rectangle
+from angen_models.sdf import (ANGEN, Part, Vector, add, add_home, add_link, new_model, numbers,
+                              rotation, spanned)
 from angen_tools.world import sdf
 from angen_tools.world.models import find
-from angen_tools.world.placing import generator
 
-ANGEN = 'angen'  # the namespace of our elements
 SAME = 0.02  # a scale within this of 1 is 1
 STEPS = 15
-TREADS = 0.69  # of the height of a flight with its railing are steps
+TREADS = 0.69  # share of the height of a flight with its railing that is steps
 TRAY = 0.08  # m, height of a shower's tray
 THIN = 0.02  # m: a flatter thing on the floor is not in anyone's way
 
 
 @cache
 def _template(name: str) -> tuple[etree._Element, np.ndarray, np.ndarray] | None:
-    """A model and the corners of the box around its collisions; None where it is not found."""
+    """A model and the corners of the box around its collisions; None if it is not found."""
     file = find(f'model://{name}')
     model = sdf.read(file).find('model') if file is not None else None
     if model is None:
@@ -39,7 +39,7 @@ def _template(name: str) -> tuple[etree._Element, np.ndarray, np.ndarray] | None
             if half is None:
                 continue
             pose = sdf.parse_pose(collision.findtext('pose', '0 0 0'))
-            reach = np.abs(generator('sdf').rotation(pose[3:])) @ half
+            reach = np.abs(rotation(pose[3:])) @ half
             at = base + np.array(pose[:3])
             lows.append(at - reach)
             highs.append(at + reach)
@@ -60,7 +60,7 @@ def _half(geometry: etree._Element) -> np.ndarray | None:
 
 
 def piece_model(piece: Piece, seat_sensor: bool) -> etree._Element | None:
-    """The <model> of a piece; None where it is nothing that can be built."""
+    """The <model> of a piece; None if it is nothing that can be built."""
     if min(piece.width, piece.depth, piece.height) < 1e-3:
         return None
     template = _template(piece.model) if piece.model else None
@@ -88,7 +88,6 @@ def _dress(model: etree._Element, piece: Piece) -> None:
     x, y, z = np.array([piece.x, piece.y, piece.z]) - at
     height = -piece.height / 2 if any(piece.tilt) else z
     place = np.array([x * c + y * s, y * c - x * s, height]) - own
-    add, numbers = generator('sdf').add, generator('sdf').numbers
     visual = add(link, 'visual', name='mesh')
     add(visual, 'pose', numbers(*(round(float(v), 5) for v in place), 0, 0, 0))
     mesh = add(add(visual, 'geometry'), 'mesh')
@@ -166,13 +165,13 @@ def _scale(element: etree._Element, scale: np.ndarray) -> None:
         values = list(scale * [float(v) for v in text])
     else:
         return
-    element.text = generator('sdf').numbers(*(round(v, 5) for v in values))
+    element.text = numbers(*(round(v, 5) for v in values))
 
 
 def _turned(element: etree._Element, scale: np.ndarray) -> np.ndarray:
     """The scale along the axes of a shape, which may be turned by quarter turns."""
     pose = element.getparent().getparent().getparent().findtext('pose', '0 0 0')
-    turn = np.abs(generator('sdf').rotation(sdf.parse_pose(pose)[3:]))
+    turn = np.abs(rotation(sdf.parse_pose(pose)[3:]))
     return np.asarray(turn.T @ scale / turn.sum(axis=0))
 
 
@@ -180,47 +179,44 @@ def _set_pose(model: etree._Element, pose: Sequence[float]) -> None:
     for old in model.findall('pose'):
         model.remove(old)
     element = etree.Element('pose')
-    element.text = generator('sdf').numbers(*(round(float(v), 5) for v in pose))
+    element.text = numbers(*(round(float(v), 5) for v in pose))
     model.insert(1, element)
 
 
 def _boxes(piece: Piece) -> etree._Element:
-    blocks = generator('sdf')
-    _, model = blocks.new_model(piece.name, static=True)
+    _, model = new_model(piece.name, static=True)
     _set_pose(model, (piece.x, piece.y, piece.z, *piece.tilt, piece.yaw))
-    blocks.add_link(model, 'body', _parts(piece), moves=False)
-    model.getparent().remove(model)
+    add_link(model, 'body', _parts(piece), moves=False)
     return model
 
 
-def _parts(piece: Piece) -> list[object]:
-    blocks = generator('sdf')
+def _parts(piece: Piece) -> list[Part]:
     deep, wide, high = piece.depth, piece.width, piece.height
-    look = {'material': piece.color}
 
-    def box(name: str, low: Sequence[float], top: Sequence[float], **more: object) -> object:
-        return blocks.spanned(name, tuple(low), tuple(top), **look, **more)
+    def box(name: str, low: Vector, top: Vector, collide: bool = True) -> Part:
+        return spanned(name, low, top, material=piece.color, collide=collide)
 
-    whole = ((-deep / 2, -wide / 2, 0.0), (deep / 2, wide / 2, high))
+    low, top = (-deep / 2, -wide / 2, 0.0), (deep / 2, wide / 2, high)
     if any(piece.tilt):  # turned about its middle
         return [box('body', (-deep / 2, -wide / 2, -high / 2), (deep / 2, wide / 2, high / 2))]
     if piece.shape == 'cylinder':
-        return [blocks.Part('body', (min(wide, deep) / 2, high), (0, 0, high / 2), **look)]
+        return [Part('body', (min(wide, deep) / 2, high), (0, 0, high / 2),
+                     material=piece.color)]
     if piece.shape == 'flat' or (high < THIN and prod((wide, deep)) > 0.1):
-        return [box('body', *whole, collide=False)]
+        return [box('body', low, top, collide=False)]
     if piece.shape == 'tray':
-        return [box('tray', whole[0], (deep / 2, wide / 2, min(TRAY, high)))]
+        return [box('tray', low, (deep / 2, wide / 2, min(TRAY, high)))]
     if piece.shape in ('stairs', 'curved_stairs'):
-        return [box(f'step_{i}', low, top) for i, (low, top) in enumerate(
+        return [box(f'step_{i}', *step) for i, step in enumerate(
             steps(deep, wide, high, piece.shape == 'curved_stairs'))]
-    return [box('body', *whole)]
+    return [box('body', low, top)]
 
 
 def steps(deep: float, wide: float, high: float, curved: bool
-          ) -> list[tuple[tuple[float, ...], tuple[float, ...]]]:
+          ) -> list[tuple[Vector, Vector]]:
     """Solid steps that rise from the front to the back; curved: first from right to left."""
     top = high * TREADS
-    found: list[tuple[tuple[float, ...], tuple[float, ...]]] = []
+    found: list[tuple[Vector, Vector]] = []
     first = 4 if curved and deep > wide else 0
     turn = wide if first else 0.0
     for i in range(first):
@@ -238,7 +234,7 @@ def steps(deep: float, wide: float, high: float, curved: bool
 def obstacles(model: etree._Element, name: str) -> list[Obstacle]:
     """The obstacles to a leaf in a model: its collisions, seen from above."""
     at = np.array(sdf.parse_pose(model.findtext('pose', '0 0 0')))
-    turn = generator('sdf').rotation(at[3:])
+    turn = rotation(list(at[3:]))
     found = []
     for link in model.iterfind('link'):
         base = np.array(sdf.parse_pose(link.findtext('pose', '0 0 0')))[:3]
@@ -247,7 +243,7 @@ def obstacles(model: etree._Element, name: str) -> list[Obstacle]:
             if half is None:
                 continue
             pose = sdf.parse_pose(collision.findtext('pose', '0 0 0'))
-            reach = np.abs(generator('sdf').rotation(pose[3:])) @ half
+            reach = np.abs(rotation(pose[3:])) @ half
             x, y, z = at[:3] + turn @ (base + np.array(pose[:3]))
             rise = float(np.abs(turn[2]) @ reach)
             wide = np.abs(turn[:2, :2]) @ reach[:2] + np.abs(turn[:2, 2]) * reach[2]
@@ -266,27 +262,16 @@ STANDING = ('desk', 'table', 'stove', 'sink', 'fridge', 'washing_machine', 'tv',
 
 def _add_thing(model: etree._Element, piece: Piece) -> None:
     """Marks a model as a thing with its places, unless the model's own file does."""
-    def angen(tag: str) -> etree._Element:
-        return etree.SubElement(model, f'{{{ANGEN}}}{tag}', nsmap={'angen': ANGEN})
-
     if not piece.thing or model.find(f'{{{ANGEN}}}thing') is not None:
         return
-    angen('thing').text = piece.thing
-    numbers = generator('sdf').numbers
+    add_home(model, 'thing', piece.thing)
     seat = piece.height * SEATS.get(piece.thing, 0)
     if piece.thing == 'bed':
-        place = angen('place')
-        place.set('posture', 'lie')
-        place.text = numbers(0, 0, round(seat, 3), pi)
+        add_home(model, 'place', numbers(0, 0, round(seat, 3), pi), posture='lie')
     elif piece.thing in SEATS:
-        place = angen('place')
-        place.set('posture', 'sit')
-        place.text = numbers(0, 0, round(seat, 3), 0)
+        add_home(model, 'place', numbers(0, 0, round(seat, 3), 0), posture='sit')
     elif piece.thing in STANDING and not piece.model:
-        place = angen('place')
-        place.set('posture', 'stand')
-        place.text = numbers(round(piece.depth / 2 + 0.35, 3), 0, 0, pi)
+        front = round(piece.depth / 2 + 0.35, 3)
+        add_home(model, 'place', numbers(front, 0, 0, pi), posture='stand')
     elif piece.thing == 'shower':
-        place = angen('place')
-        place.set('posture', 'stand')
-        place.text = numbers(0, 0, TRAY, 0)
+        add_home(model, 'place', numbers(0, 0, TRAY, 0), posture='stand')

@@ -1,17 +1,20 @@
-"""Furniture by rules: each piece with its back to a wall, nothing in a door's swing, ways free."""
+"""Furniture by rules: what residents need first, each piece with its back to a wall, nothing in
+a door's swing, chairs at tables, ways free."""
 from __future__ import annotations
 
-from dataclasses import replace
-from math import cos, pi, sin
+from dataclasses import dataclass, replace
+from math import cos, hypot, pi, sin
 from random import Random
+from typing import Callable, Iterator, Sequence
 
 import numpy as np
 from scipy.ndimage import distance_transform_edt, label
 
 from angen_apps.plan.finish import room_at, stem
-from angen_apps.plan.model import Opening, Piece, Room, Storey
+from angen_apps.plan.model import Opening, Piece, Plan, Room, Storey
 from angen_apps.plan.names import Names
 from angen_apps.plan.polygons import bounds, overlap, rectangle
+from angen_tools.common.failure import Failure
 
 # thing: model, width, depth, height
 PIECES = {'bed': ('bed', 1.6, 2.04, 0.9), 'nightstand': ('nightstand', 0.45, 0.4, 0.5),
@@ -23,37 +26,175 @@ PIECES = {'bed': ('bed', 1.6, 2.04, 0.9), 'nightstand': ('nightstand', 0.45, 0.4
           'table': ('table', 1.0, 0.7, 0.75), 'toilet': ('toilet', 0.4, 0.65, 0.8),
           'shower': ('', 0.85, 0.85, 2.0), 'cabinet': ('cabinet', 0.8, 0.4, 1.2),
           'washing_machine': ('washing_machine', 0.6, 0.6, 0.85)}
-ROOMS = {'bedroom': ('bed', 'wardrobe', 'nightstand', 'desk'),
-         'living': ('sofa', 'tv', 'bookshelf', 'armchair', 'table'),
-         'kitchen': ('stove', 'sink', 'fridge', 'table', 'cabinet'),
-         'bathroom': ('toilet', 'sink', 'shower', 'washing_machine'),
-         'work': ('desk', 'bookshelf', 'armchair'), 'hall': ()}
-GAP = 0.02  # m to the wall
+Things = dict[str, tuple[str, ...]]
+NEEDED: Things = {
+    'bedroom': ('bed', 'wardrobe'), 'living': ('sofa', 'dining', 'tv'),
+    'kitchen': ('stove', 'sink', 'fridge'), 'work': ('study',),
+    'bathroom': ('shower', 'toilet', 'sink', 'washing_machine')}
+WANTED: Things = {
+    'bedroom': ('nightstand', 'study'), 'living': ('armchair', 'bookshelf'),
+    'kitchen': ('cabinet', 'breakfast'), 'work': ('bookshelf', 'armchair')}
+# in a home without a living room
+NEEDED_ALONE: Things = {
+    'bedroom': ('bed', 'wardrobe', 'armchair'), 'kitchen': ('stove', 'sink', 'fridge', 'dining')}
+WANTED_ALONE: Things = {'bedroom': ('tv', 'nightstand'), 'kitchen': ('cabinet',)}
+# thing: another that it stands near to, or faces at a distance in m before that
+BESIDE = {'nightstand': ('bed', 0.0), 'sink': ('stove', 0.0), 'fridge': ('sink', 0.0),
+          'cabinet': ('sink', 0.0), 'tv': ('sofa', 2.5), 'armchair': ('tv', 2.0)}
+NEAR = 0.3  # m; places that differ by less are as near
+TABLES = ('table', 'desk')  # used from their chairs
+GAP = 0.02  # m to the wall, and between a table and its chairs
 FRONT = 0.65  # m before a piece that stay free
-BODY = 0.27  # m: a person's half width and a margin; the robot is narrower
+WAY = 0.8  # m that ways are wide
+REACH = 0.8  # m from the middle of a way to what it leads to
+BEFORE = 0.35  # m from a piece to its user
 CELL = 0.05
-TRIES = 60
+STEP = 0.15  # m between the places along a wall that are tried
+TRIES = 40  # arrangements of a room
+VARIANTS = 8  # plans of a seed
+SLEEPERS = 2  # by bedroom
+MOST_CHAIRS = 4
+Area = list[tuple[float, float]]
 
 
-def furnish(storey: Storey, dice: Random) -> None:
-    """Places the pieces of each room; a piece without room is left out."""
+def furnished(plan_of: Callable[[str], Plan], seed: int) -> Plan:
+    """The first variant of a plan that has what its residents need in each storey.
+
+    `plan_of` makes a variant by its key. Failure if something does not fit in any of them.
+    """
+    for variant in range(VARIANTS):
+        key = f'{seed} variant {variant}' if variant else str(seed)
+        plan = plan_of(key)
+        missing = [text for storey in plan.storeys
+                   for text in furnish(storey, Random(f'{key} furniture {storey.number}'))]
+        if not missing:
+            return plan
+    raise Failure(f'seed {seed}: no place for {"; ".join(missing)}; take another seed')
+
+
+def furnish(storey: Storey, dice: Random) -> list[str]:
+    """Places the pieces of each room, and returns the needed ones that have no place, as texts.
+
+    A room that lacks one keeps the arrangement with the fewest missing.
+    """
     names = Names()
-    swings = [_kept_free(opening) for opening in storey.openings]
+    kept_free = [(_kept_free(o), o.bottom - storey.elevation if o.kind == 'window' else 0.0)
+                 for o in storey.openings]
+    uses = [room.use for room in storey.rooms]
+    alone = 'living' not in uses
+    needed = NEEDED | NEEDED_ALONE if alone else NEEDED
+    wanted = WANTED | WANTED_ALONE if alone else WANTED
+    homes = max(1, uses.count('kitchen'))
+    chairs = min(MOST_CHAIRS, SLEEPERS * uses.count('bedroom') // homes)
+    missing = []
     for room in storey.rooms:
-        doors = [o for o in storey.openings if o.kind != 'window'
+        doors = [(o.x, o.y) for o in storey.openings if o.kind != 'window'
                  and any(room_at(storey, o.point(0.0, side)) is room
                          for side in (o.band[0] - 0.1, o.band[1] + 0.1))]
-        placed: list[Piece] = []
-        for thing in ROOMS.get(room.use, ()):
-            for _ in range(TRIES):
-                piece = _at_a_wall(room, thing, dice)
-                if piece is not None and _fits(piece, placed, swings) \
-                        and _ways_are_free(room, [*placed, piece], doors):
-                    placed.append(piece)
-                    break
+        floor = _Floor(room, doors, kept_free, chairs)
+        placed, absent = _arranged(floor, needed.get(room.use, ()), wanted.get(room.use, ()), dice)
+        missing += [f'{thing} in {room.name}' for thing in absent]
         for piece in placed:
             name = names.take(f'{stem(room.name)}_{piece.thing}', storey.number)
             storey.pieces.append(replace(piece, name=name))
+    return missing
+
+
+@dataclass(frozen=True)
+class _Floor:
+    """A room, the middles of its doors, areas that stay free of things above a height over the
+    floor, and the number of chairs at its table."""
+
+    room: Room
+    doors: list[tuple[float, float]]
+    kept_free: list[tuple[Area, float]]
+    chairs: int
+
+
+def _arranged(floor: _Floor, needed: Sequence[str], wanted: Sequence[str], dice: Random
+              ) -> tuple[list[Piece], list[str]]:
+    """The pieces of a room, and the needed things that have no place."""
+    best: tuple[list[Piece], list[str]] = ([], list(needed))
+    for _ in range(TRIES):
+        placed: list[Piece] = []
+        absent = [thing for thing in needed if not _placed(floor, thing, placed, dice)]
+        if not best[0] or len(absent) < len(best[1]):
+            best = placed, absent
+        if not absent:
+            break
+    for thing in wanted:
+        _placed(floor, thing, best[0], dice)
+    return best
+
+
+def _placed(floor: _Floor, thing: str, placed: list[Piece], dice: Random) -> bool:
+    """Adds a thing with what belongs to it at the first free place: near what it belongs to, or
+    else in a random order."""
+    places = list(_places(floor.room, thing, floor.chairs))
+    dice.shuffle(places)
+    other, ahead = BESIDE.get(thing, ('', 0.0))
+    for near in (piece for piece in placed if piece.thing == other):
+        x, y = near.x + ahead * cos(near.yaw), near.y + ahead * sin(near.yaw)
+        places.sort(key=lambda pieces: hypot(pieces[0].x - x, pieces[0].y - y) // NEAR)
+    for pieces in places:
+        if _fits(floor, pieces, placed) and _ways_are_free(floor, [*placed, *pieces]):
+            placed += pieces
+            return True
+    return False
+
+
+def _places(room: Room, thing: str, chairs: int) -> Iterator[list[Piece]]:
+    """A thing, with what belongs to it, at each place along each wall of a room."""
+    west, south, east, north = bounds(room.polygon)
+    for group in _groups(thing, chairs):
+        deep, wide = group[0].depth, group[0].width
+        for x, y, yaw, length in ((west, south, pi / 2, east - west),
+                                  (east, south, pi, north - south),
+                                  (east, north, -pi / 2, east - west),
+                                  (west, north, 0.0, north - south)):
+            ends = wide / 2 + GAP, length - wide / 2 - GAP
+            if ends[1] < ends[0]:
+                continue
+            steps = int((ends[1] - ends[0]) / STEP)
+            for along in (*ends, *(ends[0] + (i + 1) * STEP for i in range(steps))):
+                c, s = cos(yaw), sin(yaw)
+                u, v = deep / 2 + GAP, -along
+                yield [replace(piece, x=round(x + (u + piece.x) * c - (v + piece.y) * s, 3),
+                               y=round(y + (u + piece.x) * s + (v + piece.y) * c, 3),
+                               z=room.floor, yaw=yaw + piece.yaw) for piece in group]
+
+
+def _groups(thing: str, chairs: int) -> list[list[Piece]]:
+    """Arrangements of a thing with what belongs to it; x is away from the wall."""
+    if thing == 'study':
+        desk = _piece('desk')
+        return [[desk, _chair(_seat(desk.depth), 0.0, pi)]]
+    if thing not in ('dining', 'breakfast'):
+        return [[_piece(thing)]]
+    table = _piece('table')
+    count = chairs if thing == 'dining' else min(2, chairs)
+    long, short = table.width, table.depth
+    at_ends = [_chair(0.0, side * _seat(long), -side * pi / 2) for side in (1, -1)]
+    ahead = [_chair(_seat(short), y, pi) for y in ((-0.25, 0.25) if count > 1 else (0.0,))]
+    beside = [_chair(x, side * _seat(short), -side * pi / 2)
+              for x in ((0.0,) if count < 3 else (-0.25, 0.25)) for side in (1, -1)]
+    return [[table, *[*at_ends, *ahead][:count]],
+            [replace(table, depth=long, width=short), *beside[:count]]]
+
+
+def _seat(length: float) -> float:
+    """The distance from the middle of a table, along which it has that length, to its chair."""
+    return length / 2 + GAP + PIECES['chair'][2] / 2
+
+
+def _piece(thing: str) -> Piece:
+    model, wide, deep, high = PIECES[thing]
+    return Piece('', 0.0, 0.0, 0.0, 0.0, wide, deep, high, thing, model,
+                 'tray' if thing == 'shower' else 'box', source=thing)
+
+
+def _chair(x: float, y: float, yaw: float) -> Piece:
+    return replace(_piece('chair'), x=x, y=y, yaw=yaw)
 
 
 def _kept_free(opening: Opening) -> list[tuple[float, float]]:
@@ -64,38 +205,35 @@ def _kept_free(opening: Opening) -> list[tuple[float, float]]:
                      (opening.width / 2 + 0.1, opening.band[1] + reach))
 
 
-def _at_a_wall(room: Room, thing: str, dice: Random) -> Piece | None:
-    model, wide, deep, high = PIECES[thing]
-    west, south, east, north = bounds(room.polygon)
-    side = dice.randrange(4)
-    along = (east - west) if side % 2 == 0 else (north - south)
-    if along < wide + 2 * GAP:
-        return None
-    at = dice.choice((wide / 2 + GAP, along - wide / 2 - GAP,
-                      dice.uniform(wide / 2 + GAP, along - wide / 2 - GAP)))
-    away = deep / 2 + GAP
-    x, y, yaw = ((west + at, south + away, pi / 2), (east - away, south + at, pi),
-                 (west + at, north - away, -pi / 2), (west + away, south + at, 0.0))[side]
-    return Piece('', round(x, 3), round(y, 3), room.floor, yaw, wide, deep, high, thing, model,
-                 'tray' if thing == 'shower' else 'box', source=thing)
-
-
-def _outline(piece: Piece, front: float = 0.0) -> list[tuple[float, float]]:
+def _outline(piece: Piece, front: float = 0.0) -> Area:
     return rectangle(piece.x, piece.y, piece.yaw, (-piece.depth / 2, -piece.width / 2),
                      (piece.depth / 2 + front, piece.width / 2))
 
 
-def _fits(piece: Piece, placed: list[Piece], swings: list[list[tuple[float, float]]]) -> bool:
-    if any(overlap(_outline(piece), swing) > 0 for swing in swings):
-        return False
-    return not any(overlap(_outline(piece, FRONT), _outline(other)) > -0.03
-                   or overlap(_outline(piece), _outline(other, FRONT)) > -0.03
-                   for other in placed)
+def _front(piece: Piece) -> float:
+    """The depth of the floor before a piece that stays free, in m: a table's are its chairs'."""
+    return 0.0 if piece.thing in (*TABLES, 'chair') else FRONT
 
 
-def _ways_are_free(room: Room, pieces: list[Piece], doors: list[Opening]) -> bool:
-    """Whether a person gets from each door to the front of each piece."""
-    west, south, east, north = bounds(room.polygon)
+def _fits(floor: _Floor, pieces: list[Piece], placed: list[Piece]) -> bool:
+    """Whether pieces are within the room, clear of swings and of what is placed already."""
+    west, south, east, north = bounds(floor.room.polygon)
+    for piece in pieces:
+        outline = _outline(piece)
+        if any(not (west < x < east and south < y < north) for x, y in outline):
+            return False
+        if any(overlap(outline, area) > 0 for area, above in floor.kept_free
+               if piece.height > above):
+            return False
+        if any(overlap(_outline(piece, _front(piece)), _outline(other)) > -0.03
+               or overlap(outline, _outline(other, _front(other))) > -0.03 for other in placed):
+            return False
+    return True
+
+
+def _ways_are_free(floor: _Floor, pieces: list[Piece]) -> bool:
+    """Whether ways lead from each door to the user of each piece."""
+    west, south, east, north = bounds(floor.room.polygon)
     x = np.arange(west + CELL / 2, east, CELL)
     y = np.arange(south + CELL / 2, north, CELL)
     free = np.ones((len(y), len(x)), bool)
@@ -105,14 +243,18 @@ def _ways_are_free(room: Room, pieces: list[Piece], doors: list[Opening]) -> boo
         free &= ~((np.abs(dx * c + dy * s) < piece.depth / 2)
                   & (np.abs(dy * c - dx * s) < piece.width / 2))
     padded = np.pad(free, 1)
-    labels, _ = label(distance_transform_edt(padded)[1:-1, 1:-1] * CELL > BODY)
-    goals = [(d.x, d.y) for d in doors] + [
-        (p.x + (p.depth / 2 + 0.35) * cos(p.yaw), p.y + (p.depth / 2 + 0.35) * sin(p.yaw))
-        for p in pieces]
+    labels, _ = label(distance_transform_edt(padded)[1:-1, 1:-1] * CELL >= WAY / 2)
+    goals = floor.doors + [_user(piece) for piece in pieces if piece.thing not in TABLES]
     found = set()
     for gx, gy in goals:
         near = np.hypot(x[None] - gx, y[:, None] - gy) + 1e6 * (labels == 0)
-        if near.min() > 0.75:
+        if near.min() > REACH:
             return False
         found.add(int(labels.flat[int(near.argmin())]))
     return len(found) <= 1
+
+
+def _user(piece: Piece) -> tuple[float, float]:
+    """The point to whose surroundings a way leads: before a piece, or a chair itself."""
+    ahead = 0.0 if piece.thing == 'chair' else piece.depth / 2 + BEFORE
+    return piece.x + ahead * cos(piece.yaw), piece.y + ahead * sin(piece.yaw)

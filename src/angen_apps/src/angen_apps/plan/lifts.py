@@ -9,7 +9,8 @@ from lxml import etree
 
 from angen_apps.plan.model import Lift, Plan, Point, Wall, local, turned
 from angen_apps.plan.walls import direction, footprint
-from angen_tools.world.placing import generator
+from angen_models.sdf import (Part, add, add_fixed, add_joint, add_link, add_plugin, add_pose,
+                              new_model, spanned)
 
 STEEL = (0.7, 0.72, 0.75)
 CLEAR = 2.1  # m, height of the doorway
@@ -63,21 +64,20 @@ def fitted(lift: Lift, walls: Sequence[Wall]) -> Lift:
 
 def add_lift(world: etree._Element, plan: Plan, lift: Lift) -> None:
     """Appends the model of a lift, its cabin at rest at its lowest stop."""
-    blocks = generator('sdf')
     heights = [next(s.elevation for s in plan.storeys if s.number == stop) for stop in lift.stops]
     rises = [round(height - heights[0], 4) for height in heights]
-    root, model = blocks.new_model(lift.name)
-    blocks.add_pose(model, (round(lift.x, 4), round(lift.y, 4), round(heights[0], 4)),
-                    (0, 0, round(lift.yaw, 6)))
+    _, model = new_model(lift.name)
+    add_pose(model, (round(lift.x, 4), round(lift.y, 4), round(heights[0], 4)),
+             (0, 0, round(lift.yaw, 6)))
     half_x, half_y = lift.depth / 2, lift.width / 2
     doorway = min(lift.doorway, half_y - 0.02)  # half of it on each side, and room to slide
-    roof = blocks.spanned('shaft_roof', (-half_x, -half_y, rises[-1] + 2.7),
-                          (half_x, half_y, rises[-1] + 2.78), mass=50.0, collide=False)
+    roof = spanned('shaft_roof', (-half_x, -half_y, rises[-1] + 2.7),
+                   (half_x, half_y, rises[-1] + 2.78), mass=50.0, collide=False)
     fixed = [part for i, rise in enumerate(rises) for part in _landing(lift, i, rise, doorway)]
-    blocks.add_link(model, 'base', [roof, *fixed])
-    blocks.add_fixed(model, 'base_to_world', 'world', 'base')
-    blocks.add_link(model, 'cabin', _cabin(half_x, half_y))
-    blocks.add_joint(model, 'lift', 'prismatic', 'base', 'cabin', (0, 0, 1),
+    add_link(model, 'base', [roof, *fixed])
+    add_fixed(model, 'base_to_world', 'world', 'base')
+    add_link(model, 'cabin', _cabin(half_x, half_y))
+    add_joint(model, 'lift', 'prismatic', 'base', 'cabin', (0, 0, 1),
                      limits={'lower': 0, 'upper': max(rises[-1], 0.01), 'effort': 20000,
                              'velocity': 2}, dynamics={'damping': 10, 'friction': 0})
     for side, sign in (('left', 1), ('right', -1)):
@@ -86,53 +86,51 @@ def add_lift(world: etree._Element, plan: Plan, lift: Lift) -> None:
         for side, sign in (('left', 1), ('right', -1)):
             _slider(model, f'landing_door_{i}_{side}', 'base', sign, doorway,
                     half_x + LANDING_DOOR, rise)
-    plugin = blocks.add_plugin(model, 'elevator_controller', 'libros_plugin.so', p=200, i=200,
+    plugin = add_plugin(model, 'elevator_controller', 'libros_plugin.so', p=200, i=200,
                                d=25, max_velocity=1.0, max_acceleration=0.5)
     for rise in rises:
-        blocks.add(plugin, 'stop', rise)
-    root.remove(model)
+        add(plugin, 'stop', rise)
     world.append(model)
 
 
-def _landing(lift: Lift, index: int, rise: float, doorway: float) -> list[object]:
+def _landing(lift: Lift, index: int, rise: float, doorway: float) -> list[Part]:
     """A sill up to the landing's floor, and the walls that close the shaft around the doorway."""
-    box = generator('sdf').spanned
     half_x, half_y, front = lift.depth / 2, lift.width / 2, front_of(lift)
     face, edge = half_x + LANDING_DOOR + 0.035, doorway / 2 + 0.01
-    found = [box(f'sill_{index}', (half_x + CABIN_SILL + 0.012, -half_y, rise - 0.06),
-                 (front, half_y, rise), material=STEEL, mass=20.0)]
+    found = [spanned(f'sill_{index}', (half_x + CABIN_SILL + 0.012, -half_y, rise - 0.06),
+                     (front, half_y, rise), material=STEEL, mass=20.0)]
     for side, low, high in (('left', edge, half_y), ('right', -half_y, -edge)):
-        found.append(box(f'jamb_{side}_{index}', (face, low, rise), (face + 0.02, high, rise + TOP),
-                         material=STEEL, mass=10.0))
-    found.append(box(f'lintel_{index}', (face, -edge, rise + CLEAR),
-                     (face + 0.02, edge, rise + TOP), material=STEEL, mass=5.0))
+        found.append(spanned(f'jamb_{side}_{index}', (face, low, rise),
+                             (face + 0.02, high, rise + TOP),
+                             material=STEEL, mass=10.0))
+    found.append(spanned(f'lintel_{index}', (face, -edge, rise + CLEAR),
+                         (face + 0.02, edge, rise + TOP), material=STEEL, mass=5.0))
     return found
 
 
-def _cabin(half_x: float, half_y: float) -> list[object]:
+def _cabin(half_x: float, half_y: float) -> list[Part]:
     """Floor, back, sides and roof; the front is open."""
-    box = generator('sdf').spanned
     wall = 0.03
     return [
-        box('floor', (-half_x, -half_y, -0.06), (half_x + CABIN_SILL, half_y, 0.0), mass=40.0),
-        box('back', (-half_x, -half_y, 0.0), (-half_x + wall, half_y, 2.25), mass=12.0,
-            material=STEEL),
-        box('side_left', (-half_x + wall, half_y - wall, 0.0), (half_x, half_y, 2.25), mass=12.0,
-            material=STEEL),
-        box('side_right', (-half_x + wall, -half_y, 0.0), (half_x, -half_y + wall, 2.25),
-            mass=12.0, material=STEEL),
-        box('roof', (-half_x, -half_y, 2.25), (half_x, half_y, TOP), mass=14.0),
+        spanned('floor', (-half_x, -half_y, -0.06), (half_x + CABIN_SILL, half_y, 0.0),
+                mass=40.0),
+        spanned('back', (-half_x, -half_y, 0.0), (-half_x + wall, half_y, 2.25), mass=12.0,
+                material=STEEL),
+        spanned('side_left', (-half_x + wall, half_y - wall, 0.0), (half_x, half_y, 2.25),
+                mass=12.0, material=STEEL),
+        spanned('side_right', (-half_x + wall, -half_y, 0.0), (half_x, -half_y + wall, 2.25),
+                mass=12.0, material=STEEL),
+        spanned('roof', (-half_x, -half_y, 2.25), (half_x, half_y, TOP), mass=14.0),
     ]
 
 
 def _slider(model: etree._Element, name: str, parent: str, sign: int, doorway: float, x: float,
             rise: float) -> None:
-    blocks = generator('sdf')
     far = round(doorway / 2 + 0.02, 4)
     low, high = sorted((sign * GAP, sign * far))
-    panel = blocks.spanned('panel', (x, low, 0.008), (x + 0.03, high, CLEAR + 0.03),
-                           material=STEEL, mass=8.0)
-    blocks.add_link(model, f'{name}_panel', [panel], at=(0, 0, rise))
-    blocks.add_joint(model, name, 'prismatic', parent, f'{name}_panel', (0, sign, 0),
-                     limits={'lower': 0, 'upper': far, 'effort': 100, 'velocity': 1},
-                     dynamics={'damping': 2, 'friction': 0.5})
+    panel = spanned('panel', (x, low, 0.008), (x + 0.03, high, CLEAR + 0.03),
+                    material=STEEL, mass=8.0)
+    add_link(model, f'{name}_panel', [panel], at=(0, 0, rise))
+    add_joint(model, name, 'prismatic', parent, f'{name}_panel', (0, sign, 0),
+              limits={'lower': 0, 'upper': far, 'effort': 100, 'velocity': 1},
+              dynamics={'damping': 2, 'friction': 0.5})

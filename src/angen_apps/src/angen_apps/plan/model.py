@@ -21,9 +21,9 @@ class Wall:
     thickness: float
     bottom: float
     top: float
-    top_at_end: float | None = None  # of a wall with a sloped top
+    top_at_end: float | None = None  # a sloped top's height at the wall's end
     color: Color = WHITE
-    part: int = 0  # of an arc
+    part: int = 0  # number of the part of an arc
 
     @property
     def length(self) -> float:
@@ -102,7 +102,7 @@ class Piece:
     depth: float
     height: float
     thing: str = ''
-    model: str = ''  # of worlds/models
+    model: str = ''  # a model of worlds/models
     shape: str = 'box'  # box, cylinder, stairs, curved_stairs, tray, shell, flat
     tilt: tuple[float, float] = (0.0, 0.0)  # roll, pitch
     color: Color = (0.75, 0.72, 0.66)
@@ -130,7 +130,7 @@ class Lift:
     name: str
     x: float
     y: float
-    yaw: float  # of its doorway, from the cabin's middle
+    yaw: float  # direction of its doorway, from the cabin's middle
     width: float
     depth: float
     stops: tuple[int, ...]  # numbers of storeys

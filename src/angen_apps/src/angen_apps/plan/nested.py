@@ -13,8 +13,8 @@ from angen_apps.plan.walls import direction
 
 STEP = 0.1  # m between the places of an edge that are tried
 AT_WALL = 0.1  # m from a wall's face
-WALLED = 0.8  # of the edges of a room that walls, doors and windows enclose
-SMALLER = 0.9  # of the area of the room around it
+WALLED = 0.8  # share of the edges of a room that walls, doors and windows enclose
+SMALLER = 0.9  # share of the area of the room around it
 LEVEL = 0.3  # m between floors of one level
 
 

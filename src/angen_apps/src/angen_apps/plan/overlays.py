@@ -7,21 +7,23 @@ import math
 import re
 from collections import Counter
 from dataclasses import dataclass, field
-from math import cos, hypot, pi, sin
+from math import cos, hypot, inf, pi, sin
 from pathlib import Path
 from typing import Any, Iterable
 
 import numpy as np
-from lxml import etree
 
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Storey
 from angen_tools.common.text_file import separator_hint
 
 ROWS = 5_000_000
-COLUMN = re.compile('^(x|y|z)_m$')  # as tasks write them
+COLUMN = re.compile('^(x|y|z)_m$')  # columns that tasks write
 WHO = ('name', 'person', 'who', 'resident')  # columns with the name of the track
-SIGHT = 0.15  # m above a PIR's cone's lower edge where it hits the floor, at least
+FAR = 6.0  # m of the field of view of a camera that are drawn
+WITH_FIELD = ('pir', 'camera', 'lidar', 'depth')
+NAME_PLACES = [(ring, dx, dy) for ring in (2, 8, 14, 22, 32)  # points from the mark, directions
+               for dx, dy in ((0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1))]
 STEP = pi / 90  # between the rays of a field of view
 COLORS = {'pir': '#c0392b', 'camera': '#8e44ad', 'lidar': '#16a085', 'luminosity': '#d68910',
           'reed': '#1f618d', 'switch': '#1f618d', 'contact': '#7d6608'}
@@ -95,10 +97,10 @@ def draw(axis: Any, scene: Any, storey: Storey, data: Data, what: What) -> None:
     here = [(kind, name, model, pose) for kind, name, model, pose in scene.entities
             if storey.elevation - 0.2 <= pose[2] < storey.elevation + storey.height]
     if what.sensors:
-        walls = _walls(scene, storey)
-        for entity in here:
-            if entity[0] in COLORS:
-                _draw_sensor(axis, scene, storey, entity, walls)
+        walls, drawn = _walls(scene, storey), [entity for entity in here if entity[0] in COLORS]
+        for entity in drawn:
+            _draw_sensor(axis, scene, storey, entity, walls)
+        _name_sensors(axis, drawn)
     if what.events:
         _draw_counts(axis, here, data.counts)
     for i, (name, points) in enumerate(sorted(data.tracks.items())):
@@ -115,7 +117,7 @@ def draw(axis: Any, scene: Any, storey: Storey, data: Data, what: What) -> None:
 def _walls(scene: Any, storey: Storey) -> np.ndarray:
     """Edges (n, 4) of shapes as high as a wall: x0 y0 x1 y1."""
     edges = []
-    for shape in scene.shapes.solids:
+    for shape in scene.shapes:
         if shape.top > storey.elevation + 1.7 and shape.bottom < storey.elevation + 1.1 \
                 and shape.model not in scene.things:
             corners = shape.corners
@@ -137,40 +139,50 @@ def reach_of(x: float, y: float, yaw: float, walls: np.ndarray, far: float) -> f
     return float(min(far, t[hit].min())) if hit.any() else far
 
 
-def view(sensor: etree._Element | None, kind: str) -> tuple[float, float] | None:
-    """Half the horizontal angle (rad) and the range (m) of a field of view; None without one."""
-    if sensor is None or kind not in ('pir', 'camera', 'lidar', 'depth'):
-        return None
-    half = sensor.findtext('.//scan/horizontal/max_angle')
-    if half is not None:
-        return float(half), float(sensor.findtext('.//range/max') or 6.0)
-    wide = sensor.findtext('.//horizontal_fov')
-    return (float(wide) / 2, 6.0) if wide is not None else None
-
-
 def _draw_sensor(axis: Any, scene: Any, storey: Storey, entity: Any, walls: np.ndarray) -> None:
-    kind, name, model, pose = entity
+    kind, name, _, pose = entity
     color = COLORS[kind]
-    elements = scene.shapes.sensors.get(model, [])
-    seen = next((found for e in elements if (found := view(e, kind))), None)
     yaw, ahead = _heading(pose)
-    if seen is not None:
-        half, far = seen
+    if (kind, name) in scene.fields:
+        right, left, far = scene.fields[kind, name]
         if ahead < 0.3:  # looks down: a circle below
-            far = max(0.3, (pose[2] - storey.elevation) * math.tan(min(half, 1.4)))
+            far = max(0.3, (pose[2] - storey.elevation) * math.tan(min(left, 1.4)))
             outline = [(pose[0] + far * cos(a), pose[1] + far * sin(a))
                        for a in np.linspace(0, 2 * pi, 40)]
         else:
-            angles = np.arange(yaw - half, yaw + half + STEP / 2, STEP)
+            angles = np.arange(yaw + right, yaw + left + STEP / 2, STEP)
             outline = [(pose[0], pose[1])]
             for a in angles:
-                r = reach_of(pose[0], pose[1], float(a), walls, far)
+                r = reach_of(pose[0], pose[1], float(a), walls, far if far < inf else FAR)
                 outline.append((pose[0] + r * cos(a), pose[1] + r * sin(a)))
         axis.fill(*zip(*outline), color=color, alpha=0.10, lw=0, zorder=5)
         axis.plot(*zip(*outline, outline[0]), color=color, alpha=0.4, lw=0.4, zorder=5)
     axis.plot([pose[0]], [pose[1]], 'o', color=color, ms=2.5, zorder=9)
-    axis.text(pose[0], pose[1] + 0.05, name, fontsize=4.5, color=color, ha='center', va='bottom',
-              zorder=10, parse_math=False)
+
+
+def _name_sensors(axis: Any, drawn: list[Any]) -> None:
+    """A name beside each sensor, at the nearest place of NAME_PLACES that covers no other text."""
+    from matplotlib.text import Text
+    renderer = axis.figure.canvas.get_renderer()
+    axis.apply_aspect()
+    taken = [text.get_window_extent() for text in axis.texts]
+    points = 72.0 / axis.figure.dpi
+    for kind, name, _, pose in drawn:
+        text = axis.annotate(
+            name, pose[:2], (0, 0), textcoords='offset points', fontsize=6.5, color=COLORS[kind],
+            ha='center', va='center', zorder=10, parse_math=False,
+            bbox={'facecolor': 'white', 'alpha': 0.75, 'lw': 0, 'pad': 0.4},
+            arrowprops={'arrowstyle': '-', 'lw': 0.4, 'color': COLORS[kind]})
+        text.update_positions(renderer)
+        size = Text.get_window_extent(text)
+        wide, high = size.width * points / 2, size.height * points / 2
+        for ring, dx, dy in NAME_PLACES:
+            text.xyann = (dx * (wide + ring), dy * (high + ring))
+            text.update_positions(renderer)
+            box = Text.get_window_extent(text)
+            if not any(box.overlaps(other) for other in taken):
+                break
+        taken.append(box)
 
 
 def _heading(pose: Any) -> tuple[float, float]:

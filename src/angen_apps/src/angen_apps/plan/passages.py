@@ -5,11 +5,12 @@ from dataclasses import dataclass
 from math import pi
 
 import numpy as np
+from angen import Grid
 from scipy.ndimage import binary_dilation, label
 
 from angen_apps.plan.model import Opening, Storey
 from angen_apps.plan.polygons import rectangle
-from angen_apps.plan.slabs import CELL, Raster
+from angen_apps.plan.slabs import CELL, filled, raster_of
 from angen_apps.plan.walls import footprint
 
 LEAST = 0.6  # m: narrower passages are not for people
@@ -38,21 +39,18 @@ class _Edge:
 def passages(storey: Storey) -> list[Opening]:
     """Openings where rooms touch for at least 0.6 m without a wall or door."""
     points = [point for room in storey.rooms for point in room.polygon]
-    raster = Raster.of(points) if points else None
+    raster = raster_of(points) if points else None
     if raster is None:
         return []
-    blocked = np.zeros(raster.x.shape, bool)
-    for wall in storey.walls:
-        if wall.top > storey.elevation + 0.3:
-            raster.mark(blocked, footprint(wall))
+    solid = [footprint(wall) for wall in storey.walls if wall.top > storey.elevation + 0.3]
     for opening in storey.openings:
         half = opening.width / 2 + 0.05
-        raster.mark(blocked, rectangle(
-            opening.x, opening.y, opening.yaw, (-half, opening.band[0] - 0.1),
-            (half, opening.band[1] + 0.1)))
-    rooms = np.zeros(raster.x.shape, int)
+        solid.append(rectangle(opening.x, opening.y, opening.yaw, (-half, opening.band[0] - 0.1),
+                               (half, opening.band[1] + 0.1)))
+    blocked = filled(raster, solid)
+    rooms = np.zeros(raster.cells.shape, int)
     for i, room in enumerate(storey.rooms, 1):
-        rooms[raster.filled(room.polygon) & (rooms == 0) & ~blocked] = i
+        rooms[filled(raster, [room.polygon]) & (rooms == 0) & ~blocked] = i
     edges = _edges(rooms, blocked)
     wide = _wide(edges, rooms.shape)
     edges = [edge for edge in _apart(edges, rooms.shape)
@@ -113,12 +111,12 @@ def _apart(edges: list[_Edge], shape: tuple[int, ...]) -> list[_Edge]:
     return found
 
 
-def _opening(edge: _Edge, raster: Raster, storey: Storey) -> Opening:
+def _opening(edge: _Edge, raster: Grid, storey: Storey) -> Opening:
     along, rows = edge.cells[1 - edge.axis], edge.cells[edge.axis]
     middle = (along.max() + along.min() + 1) / 2 * CELL
     across = (float(np.median(rows)) + 1) * CELL
-    x, y = (raster.west + middle, raster.south + across) if edge.axis == 0 else (
-        raster.west + across, raster.south + middle)
+    west, south = raster.origin
+    x, y = (west + middle, south + across) if edge.axis == 0 else (west + across, south + middle)
     return Opening('opening', round(x, 3), round(y, 3), 0.0 if edge.axis == 0 else pi / 2,
                    round(edge.width, 3), storey.elevation, storey.elevation + HEIGHT,
                    (-THIN / 2, THIN / 2), source='passage')

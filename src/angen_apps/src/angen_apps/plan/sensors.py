@@ -8,7 +8,7 @@ from lxml import etree
 from angen_apps.plan.travel import Obstacle
 from angen_apps.plan.model import Point, Room
 from angen_apps.plan.polygons import bounds, center, contains, signed_area
-from angen_tools.world.placing import generator
+from angen_models.world import include
 
 PIR_HEIGHT = 2.2
 PIR_PITCH = 0.25  # rad down
@@ -22,7 +22,6 @@ LEAST_ROOM = 1.0  # m2: smaller rooms get one PIR
 def place(world: etree._Element, room: Room, stem: str, number: str, solids: list[Obstacle],
           kind: str) -> None:
     """Appends a room's sensors. `kind`: seed or casas, as --sensors has it."""
-    include = generator('world').include
     middle = _middle(room)
     top = room.floor + room.ceiling
     if kind == 'casas':

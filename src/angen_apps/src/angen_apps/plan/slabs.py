@@ -3,15 +3,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import ceil, floor
+from typing import Iterable, Sequence
 
 import numpy as np
+from angen import Grid
 
 from angen_apps.plan.model import Plan, Point, Storey
 from angen_apps.plan.polygons import bounds, rectangle, rectangles
 from angen_apps.plan.walls import footprint
 
 CELL = 0.05  # m
-CELLS = 4_000_000  # of a storey, at most: 100 m x 100 m
+CELLS = 4_000_000  # most cells of a floor: 100 m x 100 m
 MOST = 500  # rectangles of a storey; oblique walls need more, so that cells are coarser
 COARSE = 5  # cells
 MARGIN = 0.2  # m around the walls
@@ -27,65 +29,41 @@ class Slabs:
     ceilings: list[tuple[float, Rectangle]] = field(default_factory=list)  # with z
 
 
-@dataclass
-class Raster:
-    """The cells of a storey: their middles' x and y."""
+def raster_of(points: list[Point]) -> Grid | None:
+    """Cells around some points; None where they are too far apart."""
+    west, south, east, north = bounds(points)
+    west, south = CELL * floor((west - MARGIN) / CELL), CELL * floor((south - MARGIN) / CELL)
+    columns, rows = ceil((east + MARGIN - west) / CELL), ceil((north + MARGIN - south) / CELL)
+    if columns * rows > CELLS:
+        return None
+    return Grid(np.zeros((rows, columns)), (west, south), CELL)
 
-    west: float
-    south: float
-    x: np.ndarray
-    y: np.ndarray
 
-    @staticmethod
-    def of(points: list[Point]) -> Raster | None:
-        """A raster around some points; None where they are too far apart."""
-        west, south, east, north = bounds(points)
-        west, south = CELL * floor((west - MARGIN) / CELL), CELL * floor((south - MARGIN) / CELL)
-        columns, rows = ceil((east + MARGIN - west) / CELL), ceil((north + MARGIN - south) / CELL)
-        if columns * rows > CELLS:
-            return None
-        x, y = np.meshgrid(west + (np.arange(columns) + 0.5) * CELL,
-                           south + (np.arange(rows) + 0.5) * CELL)
-        return Raster(west, south, x, y)
+def filled(raster: Grid, polygons: Iterable[Sequence[Point]]) -> np.ndarray:
+    """Which cells' middles some polygons contain."""
+    grid = raster.with_cells(np.zeros(raster.cells.shape))
+    for polygon in polygons:
+        grid.fill(polygon, 1)
+    return np.asarray(grid.cells > 0)
 
-    def filled(self, polygon: list[Point] | tuple[Point, ...]) -> np.ndarray:
-        """Which cells' middles a polygon contains."""
-        found = np.zeros(self.x.shape, bool)
-        self.mark(found, polygon)
+
+def _cover(raster: Grid, cells: np.ndarray, step: int = 1) -> list[Rectangle]:
+    """The cells, or blocks of step x step of them, as rectangles in m."""
+    side = CELL * step
+    west, south = raster.origin
+    return [(round(west + column * side, 4), round(south + row * side, 4),
+             round(west + (column + width) * side, 4), round(south + (row + height) * side, 4))
+            for row, column, height, width in rectangles(cells)]
+
+
+def _cover_within(raster: Grid, cells: np.ndarray, holes: np.ndarray, most: int
+                  ) -> list[Rectangle]:
+    """Like _cover(), by blocks of cells for more than `most` rectangles; holes stay."""
+    found = _cover(raster, cells)
+    if len(found) <= most:
         return found
-
-    def mark(self, cells: np.ndarray, polygon: list[Point] | tuple[Point, ...]) -> None:
-        """Sets the cells whose middles a polygon contains: an odd number of edges right of them."""
-        west, south, east, north = bounds(polygon)
-        rows = slice(max(0, int((south - self.south) / CELL) - 1),
-                     max(0, int((north - self.south) / CELL) + 2))
-        columns = slice(max(0, int((west - self.west) / CELL) - 1),
-                        max(0, int((east - self.west) / CELL) + 2))
-        x, y = self.x[0, columns], self.y[rows, 0]
-        flips = np.zeros((len(y), len(x) + 1), int)
-        for (x0, y0), (x1, y1) in zip(polygon, [*polygon[1:], polygon[0]]):
-            at = np.nonzero((y0 > y) != (y1 > y))[0]
-            if len(at):
-                crossing = (x1 - x0) * (y[at] - y0) / (y1 - y0) + x0
-                flips[at, np.searchsorted(x, crossing)] += 1
-        right = flips.sum(axis=1, keepdims=True) - flips.cumsum(axis=1)[:, :-1]
-        cells[rows, columns] |= right % 2 == 1
-
-    def cover(self, cells: np.ndarray, step: int = 1) -> list[Rectangle]:
-        """The cells, or blocks of step x step of them, as rectangles in m."""
-        side = CELL * step
-        return [(round(self.west + column * side, 4), round(self.south + row * side, 4),
-                 round(self.west + (column + width) * side, 4),
-                 round(self.south + (row + height) * side, 4))
-                for row, column, height, width in rectangles(cells)]
-
-    def cover_within(self, cells: np.ndarray, holes: np.ndarray, most: int) -> list[Rectangle]:
-        """Like cover(), by blocks of cells for more than `most` rectangles; holes stay."""
-        found = self.cover(cells)
-        if len(found) <= most:
-            return found
-        fine = _blocks(holes).repeat(COARSE, 0).repeat(COARSE, 1)[:cells.shape[0], :cells.shape[1]]
-        return self.cover(_blocks(cells & ~fine), COARSE) + self.cover(cells & fine)
+    fine = _blocks(holes).repeat(COARSE, 0).repeat(COARSE, 1)[:cells.shape[0], :cells.shape[1]]
+    return _cover(raster, _blocks(cells & ~fine), COARSE) + _cover(raster, cells & fine)
 
 
 def _blocks(cells: np.ndarray) -> np.ndarray:
@@ -100,34 +78,29 @@ def slabs(plan: Plan) -> dict[int, Slabs]:
     """The slabs of each storey, by number."""
     points = [point for storey in plan.storeys for point in _points(storey)]
     found = {storey.number: Slabs() for storey in plan.storeys}
-    raster = Raster.of(points) if points else None
+    raster = raster_of(points) if points else None
     if raster is None:
         return found
     above: list[tuple[float, np.ndarray]] = []  # undersides of floors and their cells
     for storey in sorted(plan.storeys, key=lambda s: -s.elevation):
-        holes = np.zeros(raster.x.shape, bool)
-        for cutout in storey.cutouts:
-            raster.mark(holes, cutout)
+        holes = filled(raster, storey.cutouts)
         rooms, rest, roofed = _cells(storey, holes, raster)
         through = _through(storey, plan, raster)
         made = found[storey.number]
         _add_ceilings(made, roofed, through, above, raster)
-        made.floors = {name: raster.cover(cells) for name, cells in [*rooms.items(), ('', rest)]}
+        made.floors = {name: _cover(raster, cells) for name, cells in [*rooms.items(), ('', rest)]}
         if sum(map(len, made.floors.values())) > MOST:
-            made.floors = {'': raster.cover_within(_union([*rooms.values(), rest]), holes, MOST)}
+            made.floors = {'': _cover_within(raster, _union([*rooms.values(), rest]), holes,
+                                             MOST)}
         above.append((storey.elevation - storey.slab, _union([*rooms.values(), rest])))
     return found
 
 
-def _through(storey: Storey, plan: Plan, raster: Raster) -> np.ndarray:
+def _through(storey: Storey, plan: Plan, raster: Grid) -> np.ndarray:
     """The holes in the floor of the next level above: shafts and stairs have no ceiling."""
-    cells = np.zeros(raster.x.shape, bool)
     higher = [s.elevation for s in plan.storeys if s.elevation > storey.elevation + APART]
-    for other in plan.storeys:
-        if higher and abs(other.elevation - min(higher)) < APART:
-            for cutout in other.cutouts:
-                raster.mark(cells, cutout)
-    return cells
+    return filled(raster, [cutout for other in plan.storeys for cutout in other.cutouts
+                           if higher and abs(other.elevation - min(higher)) < APART])
 
 
 def _union(parts: list[np.ndarray]) -> np.ndarray:
@@ -139,33 +112,28 @@ def _points(storey: Storey) -> list[Point]:
     return found + [corner for wall in storey.walls for corner in footprint(wall)]
 
 
-def _cells(storey: Storey, holes: np.ndarray, raster: Raster
+def _cells(storey: Storey, holes: np.ndarray, raster: Grid
            ) -> tuple[dict[str, np.ndarray], np.ndarray, dict[float, np.ndarray]]:
     """Cells of each room's floor, of walls and thresholds, and of ceilings by their height."""
-    taken = np.zeros(raster.x.shape, bool)
+    taken = np.zeros(raster.cells.shape, bool)
     rooms: dict[str, np.ndarray] = {}
     roofed: dict[float, np.ndarray] = {}
     for room in storey.rooms:
-        cells = raster.filled(room.polygon)
-        for hole in room.holes:
-            cells &= ~raster.filled(hole)
+        cells = filled(raster, [room.polygon]) & ~filled(raster, room.holes)
         if room.has_ceiling:
             height = round(room.floor + room.ceiling, 4)
             roofed[height] = roofed.get(height, np.zeros_like(cells)) | cells
         if room.has_floor:
             rooms[room.name] = cells & ~taken & ~holes
             taken |= cells
-    rest = np.zeros(raster.x.shape, bool)
-    for wall in storey.walls:
-        if wall.bottom < storey.elevation + 0.1:
-            raster.mark(rest, footprint(wall))
+    solid: list[Sequence[Point]] = [footprint(wall) for wall in storey.walls
+                                    if wall.bottom < storey.elevation + 0.1]
     for opening in storey.openings:
         half = opening.width / 2 + CELL
-        raster.mark(rest, rectangle(opening.x, opening.y, opening.yaw,
-                                    (-half, opening.band[0] - CELL),
-                                    (half, opening.band[1] + CELL)))
-    walls = rest.copy()
-    rest &= ~taken & ~holes
+        solid.append(rectangle(opening.x, opening.y, opening.yaw, (-half, opening.band[0] - CELL),
+                               (half, opening.band[1] + CELL)))
+    walls = filled(raster, solid)
+    rest = walls & ~taken & ~holes
     if roofed:
         height = max(roofed, key=lambda z: int(roofed[z].sum()))
         near = _grown(roofed[height], 6)
@@ -181,12 +149,12 @@ def _grown(cells: np.ndarray, steps: int) -> np.ndarray:
 
 
 def _add_ceilings(made: Slabs, roofed: dict[float, np.ndarray], through: np.ndarray,
-                  above: list[tuple[float, np.ndarray]], raster: Raster) -> None:
+                  above: list[tuple[float, np.ndarray]], raster: Grid) -> None:
     """Ceilings where no floor of a storey above closes the room within 0.6 m over it."""
     for height, cells in sorted(roofed.items()):
         open_cells = cells & ~through
         for underside, floors in above:
             if -0.2 < underside - height < 0.6:
                 open_cells &= ~floors
-        boxes = raster.cover_within(open_cells, through, MOST // 2)
+        boxes = _cover_within(raster, open_cells, through, MOST // 2)
         made.ceilings += [(height, box) for box in boxes]

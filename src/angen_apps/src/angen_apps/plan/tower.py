@@ -8,10 +8,10 @@ from dataclasses import replace
 from math import pi
 from random import Random
 
-from angen_apps.plan.apartment import (
-    CEILING, HALL, LANDING, OUTER, add_elevator, apartment, door, wing)
+from angen_apps.plan.apartment import (CEILING, HALL, LANDING, OUTER, add_elevator, apartment, door,
+                                       wing)
 from angen_apps.plan.finish import finish
-from angen_apps.plan.furnished import furnish
+from angen_apps.plan.furnished import furnished
 from angen_apps.plan.model import Lamp, Plan, Point, Room, Storey, Wall
 from angen_apps.plan.names import LETTERS
 
@@ -19,19 +19,23 @@ COURT = 6.0  # m between the wings of a side
 
 
 def building(rooms: int, storeys: int, apartments: int, seed: int) -> Plan:
-    """`apartments` on each storey, each with `rooms` rooms besides kitchen, bathroom and hall."""
+    """`apartments` on each storey, each with `rooms` rooms besides kitchen, bathroom and hall.
+
+    Failure if their furniture does not fit.
+    """
     if apartments == 1:
         return apartment(rooms, storeys, seed)
+    return furnished(lambda key: _empty(rooms, storeys, apartments, key), seed)
+
+
+def _empty(rooms: int, storeys: int, apartments: int, seed: str) -> Plan:
     depth = 3.6 + 0.6 * Random(f'{seed} widths').uniform(0.0, 1.0)
     plan = Plan('building', [_storey(number, rooms, apartments, depth, seed)
                              for number in range(storeys)], latitude=51.5)
     south, _ = _ends(apartments, depth)
     if storeys > 1:
         add_elevator(plan, (-LANDING / 2, south), pi / 2)
-    plan = finish(plan)
-    for storey in plan.storeys:
-        furnish(storey, Random(f'{seed} furniture {storey.number}'))
-    return plan
+    return finish(plan)
 
 
 def _ends(apartments: int, depth: float) -> tuple[float, float]:
@@ -40,7 +44,7 @@ def _ends(apartments: int, depth: float) -> tuple[float, float]:
     return -depth, HALL + depth + last
 
 
-def _storey(number: int, rooms: int, apartments: int, depth: float, seed: int) -> Storey:
+def _storey(number: int, rooms: int, apartments: int, depth: float, seed: str) -> Storey:
     made: Storey | None = None
     for i in range(apartments):
         part = wing(number, rooms, Random(f'{seed} {number} {i}'), [depth, depth])[0]

@@ -18,11 +18,12 @@ from angen_apps.plan.model import Lamp, Opening, Plan, Room, Storey
 from angen_apps.plan.slabs import Slabs, slabs
 from angen_apps.plan.travel import Obstacle, hang
 from angen_apps.plan.walls import Box, boxes
+from angen_models.sdf import (ANGEN, Part, add, add_home, add_link, add_plugin, add_pose, new_model,
+                              numbers, spanned)
+from angen_models.world import add_world_plugins, comment, new_world
 from angen_tools.common.files import make_folder, write_text
 from angen_tools.world import sdf
-from angen_tools.world.placing import generator
 
-ANGEN = 'angen'
 SUNK = 0.02  # m that walls reach into the floor: no light passes below
 STEP_DOWN = 0.005  # m from the lowest floor to the ground
 PIT = 0.15  # m, the same where a lift needs room below its cabin
@@ -59,18 +60,17 @@ def written(path: Path, counts: dict[str, int]) -> dict[str, Any]:
 
 def world_of(plan: Plan, sensors: str) -> tuple[etree._Element, dict[str, int]]:
     """The <sdf> of a plan, and counts of its parts."""
-    blocks = generator('world')
-    root, world = blocks.new_world(plan.name)
+    root, world = new_world(plan.name)
     root, world = _with_namespace(root)
     _lower_ground(world, plan)
-    blocks.add_world_plugins(world)
+    add_world_plugins(world)
     _add_home(world, plan)
-    counts = dict.fromkeys(('storeys', 'rooms', 'walls', 'doors', 'windows', 'openings', 'lamps',
+    counts = dict.fromkeys(('floors', 'rooms', 'walls', 'doors', 'windows', 'openings', 'lamps',
                             'pieces', 'lifts'), 0)
     made = slabs(plan)
     opened: list[tuple[Hung, str]] = []
     for storey in plan.storeys:
-        blocks.comment(world, storey.name)
+        comment(world, storey.name)
         _add_storey(world, plan, storey, made[storey.number], sensors, counts, opened)
     for lift in plan.lifts:
         add_lift(world, plan, lift)
@@ -91,40 +91,34 @@ def _lower_ground(world: etree._Element, plan: Plan) -> None:
     lowest = min((storey.elevation for storey in plan.storeys), default=0.0)
     ground = world.find("model[@name='ground_plane']")
     lower = lowest - (PIT if plan.lifts else STEP_DOWN)
-    ground.find('pose').text = generator('sdf').numbers(0, 0, round(lower, 4), 0, 0, 0)
-
-
-def _angen(parent: etree._Element, tag: str, text: object = None, **attributes: str
-           ) -> etree._Element:
-    return generator('sdf').add(parent, f'{{{ANGEN}}}{tag}', text, **attributes)
+    ground.find('pose').text = numbers(0, 0, round(lower, 4), 0, 0, 0)
 
 
 def _add_home(world: etree._Element, plan: Plan) -> None:
-    home = _angen(world, 'home')
+    home = add_home(world, 'home')
     if plan.entrance:
-        _angen(home, 'entrance', plan.entrance)
-    _angen(home, 'north', round(plan.north, 6))
+        add_home(home, 'entrance', plan.entrance)
+    add_home(home, 'north', round(plan.north, 6))
     if plan.latitude is not None:
-        _angen(home, 'latitude', round(plan.latitude, 4))
+        add_home(home, 'latitude', round(plan.latitude, 4))
 
 
 def _add_storey(world: etree._Element, plan: Plan, storey: Storey, made: Slabs, sensors: str,
                 counts: dict[str, int], opened: list[tuple[Hung, str]]) -> None:
-    blocks = generator('world')
     walls = boxes(storey.walls, storey.openings, SUNK)
     models = [(piece, piece_model(piece, sensors != 'none' and piece.thing in SEATS))
               for piece in storey.pieces]
     furniture = [obstacle for piece, model in models if model is not None
                  for obstacle in obstacles(model, f'the {piece.source or piece.name}')]
     leaves = hang(storey, walls, furniture, plan)
-    counts['storeys'] += 1
+    counts['floors'] += 1
     counts['rooms'] += len(storey.rooms)
     counts['walls'] += sum(wall.part == 0 for wall in storey.walls)
     _add_building(world, plan, storey, made, walls, leaves)
     for hung in leaves:
         if not hung.opens:
             continue
-        model = leaf_model(hung, storey.elevation, sensors != 'none')
+        model = leaf_model(hung, sensors != 'none')
         world.append(model)
         if hung.opening.ajar:
             opened.append((hung, model.get('name')))
@@ -140,7 +134,7 @@ def _add_storey(world: etree._Element, plan: Plan, storey: Storey, made: Slabs, 
             world.append(model)
             counts['pieces'] += 1
     if sensors != 'none':
-        blocks.comment(world, f'{storey.name}: sensors')
+        comment(world, f'{storey.name}: sensors')
         solids = [Obstacle('a wall', box.corners(), box.low[2], box.high[2]) for box in walls]
         for room in storey.rooms:
             if room.use != 'outdoor':
@@ -151,14 +145,13 @@ def _add_storey(world: etree._Element, plan: Plan, storey: Storey, made: Slabs, 
 def _add_building(world: etree._Element, plan: Plan, storey: Storey, made: Slabs,
                   walls: list[Box], leaves: list[Hung]) -> None:
     """The model of a level: rooms, floors, walls, ceilings, and fixed panes."""
-    blocks = generator('sdf')
-    model = blocks.add(world, 'model', name=f'building{storey.number}')
-    blocks.add(model, 'static', 'true')
+    model = add(world, 'model', name=f'building{storey.number}')
+    add(model, 'static', 'true')
     if storey.rooms:
-        described = _angen(model, 'storey', name=line_of(storey.name) or f'Floor {storey.number}',
-                           number=str(storey.number))
-        _angen(described, 'elevation', round(storey.elevation, 4))
-        _angen(described, 'height', round(storey.height, 4))
+        described = add_home(model, 'storey', name=line_of(storey.name) or f'Floor {storey.number}',
+                             number=str(storey.number))
+        add_home(described, 'elevation', round(storey.elevation, 4))
+        add_home(described, 'height', round(storey.height, 4))
     for room in storey.rooms:
         _add_room(model, room)
     for opening in storey.openings:
@@ -168,11 +161,11 @@ def _add_building(world: etree._Element, plan: Plan, storey: Storey, made: Slabs
     thick = FLOOR_THICK if lowest else storey.slab
     for name, areas in made.floors.items():
         color = next((room.color for room in storey.rooms if room.name == name), (0.6, 0.58, 0.55))
-        _link(model, f'floor_{stem(name)}' if name else 'floor', [blocks.spanned(
+        _link(model, f'floor_{stem(name)}' if name else 'floor', [spanned(
             f'floor_{i}', (w, s, storey.elevation - thick), (e, n, storey.elevation),
             material=color) for i, (w, s, e, n) in enumerate(areas)])
     _add_walls(model, storey, walls)
-    _link(model, 'ceiling', [blocks.spanned(
+    _link(model, 'ceiling', [spanned(
         f'ceiling_{i}', (w, s, round(z - UNDER_TOP, 4)), (e, n, round(z - UNDER_TOP + ROOF, 4)))
         for i, (z, (w, s, e, n)) in enumerate(made.ceilings)])
     panes = [(f'{opening.kind}_{opening.name}', _pane(opening))
@@ -186,62 +179,59 @@ def _add_building(world: etree._Element, plan: Plan, storey: Storey, made: Slabs
 
 
 def _add_room(model: etree._Element, room: Room) -> None:
-    numbers = generator('sdf').numbers
-    element = _angen(model, 'room', name=room.name)
-    _angen(element, 'use', room.use)
+    element = add_home(model, 'room', name=room.name)
+    add_home(element, 'use', room.use)
     for tag, points in [('polygon', room.polygon),
                         *(('hole', hole) for hole in room.holes)]:
-        _angen(element, tag, '  '.join(numbers(round(x, 4), round(y, 4)) for x, y in points))
-    _angen(element, 'floor', round(room.floor, 4))
-    _angen(element, 'ceiling', round(room.ceiling, 4))
+        add_home(element, tag, '  '.join(numbers(round(x, 4), round(y, 4)) for x, y in points))
+    add_home(element, 'floor', round(room.floor, 4))
+    add_home(element, 'ceiling', round(room.ceiling, 4))
 
 
 def _add_passage(model: etree._Element, storey: Storey, opening: Opening) -> None:
-    numbers = generator('sdf').numbers
     x, y = opening.point(0.0, sum(opening.band) / 2)
-    element = _angen(model, 'opening', name=opening.name)
-    _angen(element, 'pose', numbers(round(x, 4), round(y, 4), round(opening.bottom, 4),
-                                    round(opening.yaw, 5)))
-    _angen(element, 'width', round(opening.width, 4))
-    _angen(element, 'height', round(opening.top - opening.bottom, 4))
+    element = add_home(model, 'opening', name=opening.name)
+    add_home(element, 'pose', numbers(round(x, 4), round(y, 4), round(opening.bottom, 4),
+                                      round(opening.yaw, 5)))
+    add_home(element, 'width', round(opening.width, 4))
+    add_home(element, 'height', round(opening.top - opening.bottom, 4))
 
 
-def _link(model: etree._Element, name: str, parts: list[object]) -> None:
+def _link(model: etree._Element, name: str, parts: list[Part]) -> None:
     if parts:
-        generator('sdf').add_link(model, name, parts, moves=False)
+        add_link(model, name, parts, moves=False)
 
 
 def _add_walls(model: etree._Element, storey: Storey, walls: list[Box]) -> None:
     """One link for all boxes between the same two rooms."""
-    blocks = generator('sdf')
-    links: dict[str, list[object]] = {}
+    links: dict[str, list[Part]] = {}
     for box in walls:
         x, y, z = box.middle
         wide, deep, high = box.size
         along = box.yaw if wide >= deep else box.yaw + pi / 2
         name = 'wall_' + '_'.join(beside_box(storey, (x, y), along, min(wide, deep) / 2))
         parts = links.setdefault(name, [])
-        parts.append(blocks.Part(f'wall_{len(parts)}', tuple(round(v, 5) for v in box.size),
-                                 (round(x, 5), round(y, 5), round(z, 5)),
-                                 (0, 0, round(box.yaw, 6)), material=box.color))
+        parts.append(Part(f'wall_{len(parts)}', tuple(round(v, 5) for v in box.size),
+                          (round(x, 5), round(y, 5), round(z, 5)),
+                          (0, 0, round(box.yaw, 6)), material=box.color))
     for name, parts in sorted(links.items()):
         _link(model, name, parts)
 
 
-def _pane(opening: Opening) -> object:
+def _pane(opening: Opening) -> Part:
     x, y = opening.point(0.0, sum(opening.band) / 2)
-    return generator('sdf').Part(
+    return Part(
         'pane', (opening.width, PANE, opening.top - opening.bottom),
         (round(x, 5), round(y, 5), round((opening.top + opening.bottom) / 2, 5)),
         (0, 0, round(opening.yaw, 6)), material=GLASS)
 
 
-def _fixed_leaf(hung: Hung) -> object:
+def _fixed_leaf(hung: Hung) -> Part:
     bottom, top = hung.heights
     x, y = hung.hinge
     away = hung.thick / 2 * (1 if hung.turn <= 0 else -1)
     c, s = cos(hung.yaw), sin(hung.yaw)
-    return generator('sdf').Part(
+    return Part(
         'leaf', (round(hung.width, 5), hung.thick, round(top - bottom, 5)),
         (round(x + hung.width / 2 * c - away * s, 5), round(y + hung.width / 2 * s + away * c, 5),
          round((top + bottom) / 2, 5)), (0, 0, round(hung.yaw, 6)),
@@ -258,34 +248,30 @@ def _add_daylight(world: etree._Element, storey: Storey, opening: Opening) -> No
     yaw = opening.yaw + (pi / 2 if is_out[0] else -pi / 2)
     x, y = opening.point(0.0, v)
     wide, high = opening.width * 0.9, (opening.top - opening.bottom) * 0.9
-    blocks = generator('sdf')
     number = opening.name[len(opening.name.rstrip('0123456789')):]
     at = stem(opening.name) + ('_door' if opening.kind == 'door' else '')
     name = f'{at}_daylight{number}'
-    root, model = blocks.new_model(name, static=True)
-    blocks.add_pose(model, (round(x, 5), round(y, 5),
-                            round((opening.bottom + opening.top) / 2, 5)), (0, 0, round(yaw, 6)))
-    light = blocks.add(blocks.add(model, 'link', name='pane'), 'light', name='sky', type='point')
-    blocks.add(light, 'direction', '1 0 0')
-    _angen(light, 'rectangle', blocks.numbers(round(wide, 3), round(high, 3)))
-    blocks.add_plugin(model, 'daylight', 'libdaylight_plugin.so',
+    _, model = new_model(name, static=True)
+    add_pose(model, (round(x, 5), round(y, 5),
+                     round((opening.bottom + opening.top) / 2, 5)), (0, 0, round(yaw, 6)))
+    light = add(add(model, 'link', name='pane'), 'light', name='sky', type='point')
+    add(light, 'direction', '1 0 0')
+    add_home(light, 'rectangle', numbers(round(wide, 3), round(high, 3)))
+    add_plugin(model, 'daylight', 'libdaylight_plugin.so',
                       device_name=with_number(at, int(number or 0)), area=round(wide * high, 4))
-    root.remove(model)
     world.append(model)
 
 
 def _lamp_model(lamp: Lamp) -> etree._Element:
-    blocks = generator('sdf')
     number = lamp.name[len(lamp.name.rstrip('0123456789')):]
-    root, model = blocks.new_model(f'{stem(lamp.name)}_lamp{number}', static=True)
-    blocks.add_pose(model, (round(lamp.x, 4), round(lamp.y, 4), round(lamp.z, 4)))
-    link = blocks.add_link(model, 'lamp', [blocks.Part(
+    _, model = new_model(f'{stem(lamp.name)}_lamp{number}', static=True)
+    add_pose(model, (round(lamp.x, 4), round(lamp.y, 4), round(lamp.z, 4)))
+    link = add_link(model, 'lamp', [Part(
         'bulb', (0.05,), material=lamp.color, collide=False, emissive=True)], moves=False)
-    light = blocks.add(link, 'light', name='bulb', type='point')
-    blocks.add(light, 'diffuse', blocks.numbers(*lamp.color, 1))
-    blocks.add_plugin(model, 'lamp_controller', 'libros_plugin.so', device_name=lamp.name,
+    light = add(link, 'light', name='bulb', type='point')
+    add(light, 'diffuse', numbers(*lamp.color, 1))
+    add_plugin(model, 'lamp_controller', 'libros_plugin.so', device_name=lamp.name,
                       luminous_flux=round(lamp.flux, 1), level=0)
-    root.remove(model)
     return model
 
 
@@ -293,13 +279,12 @@ def _add_state(world: etree._Element, opened: Iterable[tuple[Hung, str]]) -> Non
     opened = list(opened)
     if not opened:
         return
-    blocks = generator('sdf')
-    state = blocks.add(world, 'state', world_name=world.get('name'))
+    state = add(world, 'state', world_name=world.get('name'))
     for hung, name in opened:
-        model = blocks.add(state, 'model', name=name)
-        blocks.add(model, 'pose', blocks.numbers(*(round(v, 5) for v in hung.hinge),
-                                                 round(hung.heights[0], 5), 0, 0,
-                                                 round(hung.yaw, 6)))
-        joint = blocks.add(model, 'joint', name='sash' if hung.opening.kind == 'window'
+        model = add(state, 'model', name=name)
+        add(model, 'pose', numbers(*(round(v, 5) for v in hung.hinge),
+                                   round(hung.heights[0], 5), 0, 0,
+                                   round(hung.yaw, 6)))
+        joint = add(model, 'joint', name='sash' if hung.opening.kind == 'window'
                            else 'hinge')
-        blocks.add(joint, 'angle', round(hung.turn, 4), axis='0')
+        add(joint, 'angle', round(hung.turn, 4), axis='0')

@@ -8,7 +8,7 @@ from typing import Sequence, TypeVar
 
 Choice = TypeVar('Choice')
 
-QUANTILE = 1.2816  # of the normal distribution, at 10 % and 90 %
+QUANTILE = 1.2816  # quantile of the normal distribution, at 10 % and 90 %
 WIDEST = 1.5  # times the given range: values are clipped to it
 
 
@@ -35,7 +35,7 @@ def around(numbers: Random, low: float, high: float) -> float:
 
 
 def choose(numbers: Random, weighted: Sequence[tuple[Choice, float]]) -> Choice | None:
-    """One of some things by weight; None where all weights are 0."""
+    """One of some things by weight; None if all weights are 0."""
     total = sum(weight for _, weight in weighted)
     if total <= 0:
         return None

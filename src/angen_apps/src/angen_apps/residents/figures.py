@@ -6,7 +6,7 @@ from typing import Sequence
 
 SKIN, CLOTHES = 307.0, 299.0  # K, as those of an actor
 MASS = 70.0  # kg
-SHIRT = '0.20 0.36 0.60'  # as an actor's
+SHIRT = '0.20 0.36 0.60'  # an actor's shirt
 FLESH, TROUSERS = '0.85 0.65 0.53', '0.22 0.22 0.26'
 HAIR, SHOES = '0.25 0.18 0.14', '0.12 0.12 0.13'
 

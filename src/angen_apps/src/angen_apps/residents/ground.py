@@ -2,14 +2,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Sequence
 
 import numpy as np
+from angen import Grid
 from scipy.ndimage import label
 
-from angen_apps.maps.gridmap import OCCUPIED, RESOLUTION, GridMap
-from angen_apps.maps.rays import Caster
+from angen_apps.maps.gridmap import OCCUPIED, RESOLUTION
 from angen_apps.plan.polygons import inside
 from angen_apps.residents.leaves import Leaves, Reach, largest
 from angen_apps.residents.survey import (DEEP, delete, elevation, middles, open_all, opening,
@@ -51,23 +51,23 @@ class Ground:
     def __init__(self, world: Any, home: Home) -> None:
         self.home = home
         delete(world, 'person', 'drive')
-        self._caster = Caster(world)
+        self._world = world
         entrance = self.entrance()
         lives = self.storey_at(entrance.pose[2]) if entrance else min(r.storey for r in home.rooms)
         open_all(world, home)
         self.in_way: set[str] = set()  # doors whose leaves close off a room, if they stand open
         self.reached: set[str] = set()  # rooms that people get to
         self._stops: dict[str, Point] = {}  # where one opens and shuts these
-        leaves = {storey: survey(self._caster, home, storey) for storey in self._storeys(lives)}
+        leaves = {storey: survey(self._world, home, storey) for storey in self._storeys(lives)}
         delete(world, 'door')
-        self.planners = {storey: self._planner(survey(self._caster, home, storey), opened)
+        self.planners = {storey: self._planner(survey(self._world, home, storey), opened)
                          for storey, opened in leaves.items()}
         self.free = {storey: largest(planner.passable)
                      for storey, planner in self.planners.items()}
         self._toward: dict[tuple[int, tuple[int, int]], np.ndarray] = {}  # the last used at the end
-        self._floors: dict[str, np.ndarray] = {}  # of rooms
+        self._floors: dict[str, np.ndarray] = {}  # floors of rooms
         self._places: dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}  # _by_doors()
-        self._names: dict[tuple[int, int, int], str] = {}  # of rooms, by storey, row and column
+        self._names: dict[tuple[int, int, int], str] = {}  # by floor, row and column
 
     def _storeys(self, lives: int) -> list[int]:
         """That of the main entrance, and those that elevators reach from there."""
@@ -101,7 +101,7 @@ class Ground:
                                    y + s * offsets[:, 0] + c * offsets[:, 1],
                                    np.full(len(offsets), z + 0.45)])
         down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
-        return float(z + 0.45 - self._caster.cast(origins, down, 0.9).min())
+        return float(z + 0.45 - self._world.cast(origins, down, 0.9).min())
 
     def storey_at(self, z: float) -> int:
         """The storey whose floor is nearest below a height."""
@@ -117,7 +117,8 @@ class Ground:
                math.floor((x - grid.origin[0]) / grid.resolution))
         name = self._names.get(key)
         if name is None:
-            room = self.home.room_at(*grid.point(*key[1:]), self.elevation(storey) + 0.5)
+            x, y = grid.point(*key[1:])
+            room = self.home.room_at(x, y, self.elevation(storey) + 0.5)
             name = self._names[key] = room.name if room else ''
         return name
 
@@ -146,7 +147,7 @@ class Ground:
             rows, columns = np.indices(free.shape)
             x, y = middles(self.planners[room.storey].grid, rows, columns)
             here = free & inside(room.polygon, x, y)
-            for other in self.home.rooms[:self.home.rooms.index(room)]:  # as Home.room_at()
+            for other in self.home.rooms[:self.home.rooms.index(room)]:  # like Home.room_at()
                 if other.storey == room.storey:
                     here &= ~inside(other.polygon, x, y)
             self._floors[room.name] = largest(here)
@@ -197,7 +198,7 @@ class Ground:
         return named[0] if named else None
 
     def way(self, start: Point, goal: Point, storey: int) -> list[Leg] | None:
-        """Legs from a place to another on a storey; None where there is no way."""
+        """Legs from a place to another on a storey; None if there is no way."""
         planner = self.planners[storey]
         begin = start if planner.is_free(start) else (
             self.near(*start, self.elevation(storey), 0.8) or planner.nearest(start, 0.8))
@@ -271,7 +272,7 @@ class Ground:
         column = ((a[0] - grid.origin[0] + (b[0] - a[0]) * share) / grid.resolution).astype(int)
         return bool(planner.passable[row, column].all())
 
-    def _planner(self, grid: GridMap, opened: GridMap, walls: Sequence[Door] = ()) -> Planner:
+    def _planner(self, grid: Grid, opened: Grid, walls: Sequence[Door] = ()) -> Planner:
         """The ground of a storey with open doors: their leaves are obstacles, except those without
         which a room could not be reached. `grid` is without leaves. A door that opens too little
         for people is a wall, as `walls` are."""
@@ -301,7 +302,7 @@ class Ground:
             cells = grid.cells.copy()
             for door in closed:
                 cells[opening(leaves.x, leaves.y, door, DEEP)] = OCCUPIED
-            return self._planner(replace(grid, cells=cells), opened, [*walls, *closed])
+            return self._planner(grid.with_cells(cells), opened, [*walls, *closed])
         for door in in_way:
             self._add_stop(door, open_alone[door.name], leaves.cells(door), leaves.x, leaves.y)
         self.in_way |= {door.name for door in in_way}

@@ -28,13 +28,13 @@ class Household:
         self.home: Home = simulator.home
         self.places = Places(ground)
         self.first, self.since = day, since
-        self.residents: list[Any] = []  # of resident.Resident
+        self.residents: list[Any] = []  # each a resident.Resident
         self.held: dict[Any, str] = {}  # who has a door, place or room
         self.acts: dict[tuple[str, str], tuple[float, str]] = {}  # time and resident
-        self.count = 0  # of commands to devices
+        self.count = 0  # count of commands to devices
         self.heard: Callable[[], None] = lambda: None  # after each part of time
         self._queue: list[tuple[float, int, Process]] = []
-        self._orders = itertools.count()  # of processes that are due at one time
+        self._orders = itertools.count()  # orders of processes that are due at one time
         self.devices = simulator.devices()
         self._lux: dict[str, str] = {}
         self.lamps: dict[str, list[str]] = {}
@@ -67,7 +67,7 @@ class Household:
             due = self._queue[0][0]
             if due > self.now + 1e-9:
                 self.simulator.run(due - self.now)
-                self.heard()  # which may add a process
+                self.heard()  # hearing may add a process
             _, order, process = heapq.heappop(self._queue)
             wakes = next(process, None)
             if wakes is not None:

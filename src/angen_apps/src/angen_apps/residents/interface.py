@@ -35,7 +35,7 @@ class Simulator(Protocol):
         """Kind, name, model and pose (x y z qx qy qz qw) of each device and sensor."""
 
     def state(self, kind: str, name: str) -> dict[str, Any]:
-        """The state of a device, or the reading of a sensor; empty where there is none."""
+        """The state of a device, or the reading of a sensor; empty if there is none."""
 
     def command(self, kind: str, name: str, text: str) -> None:
         """Commands a device; Rejected says why not."""

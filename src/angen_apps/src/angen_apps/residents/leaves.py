@@ -2,13 +2,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Sequence
 
 import numpy as np
+from angen import Grid
 from scipy.ndimage import label
 
-from angen_apps.maps.gridmap import FREE, OCCUPIED, GridMap
+from angen_apps.maps.gridmap import FREE, OCCUPIED
 from angen_apps.plan.polygons import inside
 from angen_apps.residents.survey import PORCH, middles, opening
 from angen_apps.robot.planner import distances
@@ -34,7 +35,7 @@ class Leaves:
     to each, one passes all where one passes each: each leaf is tried once.
     """
 
-    def __init__(self, grid: GridMap, opened: GridMap, doors: Sequence[Door], body: float) -> None:
+    def __init__(self, grid: Grid, opened: Grid, doors: Sequence[Door], body: float) -> None:
         self.grid, self.doors = grid, list(doors)
         rows, columns = np.indices(grid.cells.shape)
         self.x, self.y = middles(grid, rows, columns)
@@ -59,7 +60,7 @@ class Leaves:
             tried = self.grid.cells[around].copy()
             inner = tuple(slice(a.start - b.start, a.stop - b.start) for a, b in zip(at, around))
             tried[inner][cells] = OCCUPIED
-            clear = distances(replace(self.grid, cells=tried), body)
+            clear = distances(self.grid.with_cells(tried), body)
             leaves[door.name] = Leaf(at, cells, ((clear >= body) & (tried == FREE))[inner])
         return leaves
 
@@ -89,13 +90,13 @@ class Leaves:
         found[leaf.window] = leaf.cells
         return found
 
-    def occupied(self, doors: Sequence[Door]) -> GridMap:
+    def occupied(self, doors: Sequence[Door]) -> Grid:
         """The map with the leaves of these doors open."""
         cells = self.grid.cells.copy()
         for door in doors:
             leaf = self._leaves[door.name]
             cells[leaf.window][leaf.cells] = OCCUPIED
-        return replace(self.grid, cells=cells)
+        return self.grid.with_cells(cells)
 
 
 class Reach:

@@ -10,13 +10,13 @@ from angen_apps.residents.interface import Body, Rejected
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import quaternion, yaw_of
 from angen_tools.common.home import Home, Place
-from angen_tools.live.client import CONNECT_LIMIT, Client
+from angen_tools.session.live import CONNECT_LIMIT, Live as Client
 
 ABOVE = 0.002  # m between the support and a placed figure
 LOOK = 0.02  # s of wall time between two looks at the clock
 START = 120.0  # s of wall time until the simulator has started, which is started beside this
 SILENCE = 10.0  # s of wall time without a clock: the simulator has ended
-TRUTH = '/angen/residents'
+TRUTH = 'angen/residents'
 
 
 class Live:
@@ -34,11 +34,10 @@ class Live:
         self._subscribed: set[str] = set()
         self._here: set[str] = set()  # residents that have a body
         self._topics: dict[tuple[str, str], tuple[str, str]] = {}
-        self._clock = rospy.Subscriber('/clock', Clock, self._tick, queue_size=1)
+        self._clock = rospy.Subscriber('clock', Clock, self._tick, queue_size=1)
         self._truth = rospy.Publisher(TRUTH, String, queue_size=50, latch=True)
         try:
-            self.home = Home.of_message(rospy.wait_for_message('/angen/home', Message,
-                                                               CONNECT_LIMIT))
+            self.home = Home.of(rospy.wait_for_message('angen/home', Message, CONNECT_LIMIT))
         except rospy.ROSException:
             raise Failure('/angen/home is not published') from None
 
@@ -62,11 +61,8 @@ class Live:
                                         for key, value in row.items()}))
 
     def devices(self) -> list[tuple[str, str, str, tuple[float, ...]]]:
-        def seven(pose: Any) -> tuple[float, ...]:
-            at, q = pose.position, pose.orientation
-            return at.x, at.y, at.z, q.x, q.y, q.z, q.w
         self._topics = {(e.kind, e.name): (e.topic, e.type) for e in self._client.entities()}
-        return [(e.kind, e.name, e.model, seven(e.pose)) for e in self._client.entities()]
+        return [(e.kind, e.name, e.model, e.pose) for e in self._client.entities()]
 
     def state(self, kind: str, name: str) -> dict[str, Any]:
         """The latest message of its topic, modes by their names; waits for the first a moment."""
@@ -97,7 +93,7 @@ class Live:
 
     def command(self, kind: str, name: str, text: str) -> None:
         from angen_msgs.srv import SendCommand
-        self._call('/angen/command', SendCommand, target=f'{kind}/{name}', text=text)
+        self._call('angen/command', SendCommand, target=f'{kind}/{name}', text=text)
 
     def appear(self, name: str, x: float, y: float, z: float, yaw: float, speed: float, body: str
                ) -> None:
@@ -110,25 +106,25 @@ class Live:
     def _put(self, name: str, sdf: str, x: float, y: float, z: float, yaw: float) -> None:
         from angen_msgs.srv import Spawn
         self.vanish(name)
-        self._call('/angen/spawn', Spawn, name=name, xml=sdf, on='', pose=_pose(x, y, z, yaw))
+        self._call('angen/spawn', Spawn, name=name, xml=sdf, on='', pose=_pose(x, y, z, yaw))
         self._here.add(name)
 
     def vanish(self, name: str) -> None:
         from angen_msgs.srv import Delete
         if name in self._here:
             self._here.remove(name)
-            self._call('/angen/delete', Delete, name=name)
+            self._call('angen/delete', Delete, name=name)
 
     def fidget(self, name: str, turn: float) -> None:
         from gazebo_msgs.msg import ModelState
         from gazebo_msgs.srv import SetModelState
         body = self.body(name)
-        self._call('/gazebo/set_model_state', SetModelState, model_state=ModelState(
+        self._call('gazebo/set_model_state', SetModelState, model_state=ModelState(
             model_name=name, pose=_pose(body.x, body.y, body.z, body.yaw + turn)))
 
     def body(self, name: str) -> Body:
         from gazebo_msgs.srv import GetModelState
-        answer = self._call('/gazebo/get_model_state', GetModelState, model_name=name,
+        answer = self._call('gazebo/get_model_state', GetModelState, model_name=name,
                             relative_entity_name='')
         at = answer.pose.position
         return Body(at.x, at.y, at.z, yaw_of(answer.pose.orientation))

@@ -25,7 +25,7 @@ LONG = 1.4  # m of free cells in a line, on which a person can lie
 LYING, BESIDE = 0.65, 0.55  # m from the middle of a lying resident to head and feet, and past them
 PART, LEAST = 1.0, 0.05  # m2 of floor that a way has to lead to, and of a room
 OUTSIDE, ENTRANCE = 'outside', 'entrance'
-IN_ROOM = 'in room'  # in place of a posture
+IN_ROOM = 'in room'  # instead of a posture
 UNUSED = ('landing', 'outdoor')
 
 

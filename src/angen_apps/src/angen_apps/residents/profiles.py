@@ -38,7 +38,7 @@ class Scheduled:
     days: str = 'all'
     chance: float = 1.0
     together: bool = False
-    lasts: tuple[float, float] | None = None  # of the first
+    lasts: tuple[float, float] | None = None  # duration of the first
 
 
 @dataclass(frozen=True)

@@ -48,7 +48,7 @@ class Resident(User):
                                              if profile.body == 'person' else {'nap'}))}
 
     def _resolve(self, activity: Activity) -> list[list[Spot]]:
-        """The spots of each step. Without a bed a resident sleeps on the floor; Failure where
+        """The spots of each step. Without a bed a resident sleeps on the floor; Failure if
         no one can lie."""
         places = self.household.places
         found = []

@@ -5,9 +5,9 @@ import math
 from typing import Any
 
 import numpy as np
+from angen import Grid
 
-from angen_apps.maps.gridmap import FREE, OCCUPIED, RESOLUTION, GridMap
-from angen_apps.maps.rays import Caster
+from angen_apps.maps.gridmap import FREE, OCCUPIED, RESOLUTION
 from angen_apps.plan.polygons import in_room
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.home import Door, Home
@@ -33,15 +33,15 @@ def elevation(home: Home, storey: int) -> float:
     return float(next(s.elevation for s in home.storeys if s.number == storey))
 
 
-def survey(caster: Caster, home: Home, storey: int) -> GridMap:
+def survey(world: Any, home: Home, storey: int) -> Grid:
     """The map of a storey: free where only floor is below TALL."""
     rooms = [room for room in home.rooms if room.storey == storey]
     corners = np.array([corner for room in rooms for corner in room.polygon])
     west, south = np.floor((corners.min(axis=0) - MARGIN) / RESOLUTION) * RESOLUTION
     columns, rows = np.ceil((corners.max(axis=0) + MARGIN - (west, south))
                             / RESOLUTION).astype(int)
-    grid = GridMap(np.full((rows, columns), OCCUPIED, np.int8), (float(west), float(south)),
-                   RESOLUTION, storey)
+    grid = Grid(np.full((rows, columns), OCCUPIED), (float(west), float(south)), RESOLUTION,
+                storey)
     row, column = np.indices(grid.cells.shape)
     x, y = (part.ravel() for part in middles(grid, row, column))
     within = np.zeros(len(x), bool)
@@ -53,20 +53,20 @@ def survey(caster: Caster, home: Home, storey: int) -> GridMap:
             outside = door.name == home.entrance
             within |= opening(x, y, door, PORCH + 0.2 if outside else DEEP)
     free = np.zeros(len(x), bool)
-    free[within] = _clear(caster, x[within], y[within], floor)
-    grid.cells[free.reshape(grid.cells.shape) & ~_surfaces(caster, grid, floor)] = FREE
+    free[within] = _clear(world, x[within], y[within], floor)
+    grid.cells[free.reshape(grid.cells.shape) & ~_surfaces(world, grid, floor)] = FREE
     return grid
 
 
-def _clear(caster: Caster, x: np.ndarray, y: np.ndarray, floor: float) -> np.ndarray:
+def _clear(world: Any, x: np.ndarray, y: np.ndarray, floor: float) -> np.ndarray:
     """The cells with only floor below TALL, by rays from above."""
     origins = np.column_stack([x, y, np.full(len(x), floor + TALL)])
     down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
-    ranges = caster.cast(origins, down, TALL + DROP + 0.01)
+    ranges = world.cast(origins, down, TALL + DROP + 0.01)
     return np.asarray((ranges > TALL - STEP) & (ranges < TALL + DROP))
 
 
-def _surfaces(caster: Caster, grid: GridMap, floor: float) -> np.ndarray:
+def _surfaces(world: Any, grid: Grid, floor: float) -> np.ndarray:
     """Which cells (rows, columns) hold an upright surface, as of a wall, by level rays: those
     from above begin inside shapes as high as a wall."""
     found = np.zeros(grid.cells.shape, bool)
@@ -78,7 +78,7 @@ def _surfaces(caster: Caster, grid: GridMap, floor: float) -> np.ndarray:
         ways = np.eye(3)[axis]
         while len(origins):
             reach = end - origins[:, axis]
-            ranges = caster.cast(origins, np.broadcast_to(ways, origins.shape), reach)
+            ranges = world.cast(origins, np.broadcast_to(ways, origins.shape), reach)
             origins = origins[ranges < reach - PAST]
             origins[:, axis] += ranges[ranges < reach - PAST]
             at = np.floor((origins[:, :2] - grid.origin) / RESOLUTION).astype(int)
@@ -87,7 +87,7 @@ def _surfaces(caster: Caster, grid: GridMap, floor: float) -> np.ndarray:
     return found
 
 
-def middles(grid: GridMap, rows: np.ndarray, columns: np.ndarray
+def middles(grid: Grid, rows: np.ndarray, columns: np.ndarray
             ) -> tuple[np.ndarray, np.ndarray]:
     return (grid.origin[0] + (columns + 0.5) * grid.resolution,
             grid.origin[1] + (rows + 0.5) * grid.resolution)

@@ -5,11 +5,12 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from angen_msgs.msg import ElevatorState as State
 from rmf_lift_msgs.msg import LiftRequest, LiftState
 
-DOORS = {State.DOOR_CLOSED: LiftState.DOOR_CLOSED, State.DOOR_OPEN: LiftState.DOOR_OPEN}
-MOTIONS = {State.UP: LiftState.MOTION_UP, State.DOWN: LiftState.MOTION_DOWN}
+from angen_tools.session import State
+
+DOORS = {'CLOSED': LiftState.DOOR_CLOSED, 'OPEN': LiftState.DOOR_OPEN}
+MOTIONS = {'UP': LiftState.MOTION_UP, 'DOWN': LiftState.MOTION_DOWN}
 MODES = {LiftRequest.REQUEST_AGV_MODE: LiftState.MODE_AGV,
          LiftRequest.REQUEST_HUMAN_MODE: LiftState.MODE_HUMAN}
 FLOOR = re.compile(r'floor\s?([0-9]{1,3})', re.IGNORECASE)
@@ -35,15 +36,15 @@ class Lift:
     def __init__(self, name: str) -> None:
         self.name = name
         self.session: Session | None = None
-        self._state: Any = None
+        self._state: State | None = None
         self._floor: int | None = None  # the last floor at which it stopped
 
-    def take(self, state: Any) -> bool:
-        """Takes an angen_msgs/ElevatorState; whether a LiftState differs from the one before."""
+    def take(self, state: State) -> bool:
+        """Takes a state; whether a LiftState differs from the one before."""
         before = self.report(None)
         self._state = state
-        if state.floor >= 0:
-            self._floor = state.floor
+        if state['floor'] >= 0:
+            self._floor = state['floor']
         return bool(self.report(None) != before)
 
     def request(self, message: Any) -> str:
@@ -72,19 +73,19 @@ class Lift:
     def command(self) -> str:
         """The command that brings it where its session wants it; '' where it is on the way."""
         if self.session is None or self._state is None \
-                or self._state.target_floor == self.session.floor:
+                or self._state['target_floor'] == self.session.floor:
             return ''
         return floor_name(self.session.floor)
 
     @property
     def is_standing(self) -> bool:
         """Whether the cabin does not move."""
-        return self._state is not None and self._state.mode == State.IDLE
+        return self._state is not None and self._state['mode'] == 'IDLE'
 
     def _parse(self, text: str) -> int:
         if self._state is None:
             raise ValueError(f'lift {self.name}: it has not reported its floors yet')
-        found, floors = FLOOR.fullmatch(text.strip()), self._state.floors
+        found, floors = FLOOR.fullmatch(text.strip()), self._state['floors']
         if found is None or int(found[1]) >= floors:
             raise ValueError(f"lift {self.name}: there is no floor '{text:.80}', it serves "
                              f'{floor_name(0)} to {floor_name(floors - 1)}')
@@ -97,11 +98,12 @@ class Lift:
             return None
         return LiftState(
             lift_name=self.name, lift_time=now,
-            available_floors=[floor_name(floor) for floor in range(state.floors)],
+            available_floors=[floor_name(floor) for floor in range(state['floors'])],
             current_floor='' if self._floor is None else floor_name(self._floor),
-            destination_floor=floor_name(state.target_floor if session is None else session.floor),
-            door_state=DOORS.get(state.door_mode, LiftState.DOOR_MOVING),
-            motion_state=MOTIONS.get(state.mode, LiftState.MOTION_STOPPED),
+            destination_floor=floor_name(state['target_floor'] if session is None
+                                         else session.floor),
+            door_state=DOORS.get(state['door_mode'], LiftState.DOOR_MOVING),
+            motion_state=MOTIONS.get(state['mode'], LiftState.MOTION_STOPPED),
             available_modes=[LiftState.MODE_HUMAN, LiftState.MODE_AGV],
             current_mode=LiftState.MODE_HUMAN if session is None else session.mode,
             session_id='' if session is None else session.name)

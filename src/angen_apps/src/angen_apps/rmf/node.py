@@ -1,17 +1,18 @@
 """The node that serves doors and elevators to Open-RMF."""
 from __future__ import annotations
 
-import queue
-from typing import Any, Callable, Iterable
+import math
+from typing import Any, Iterable
 
 import rospy
-from angen_msgs.msg import Command
 from rmf_door_msgs.msg import DoorRequest, DoorState
 from rmf_lift_msgs.msg import LiftRequest, LiftState
 
 from angen_apps.rmf.doors import Door
 from angen_apps.rmf.lifts import Lift
-from angen_tools.live.devices import Devices
+from angen_apps.robot.door_client import DoorClient
+from angen_tools.common.failure import Failure
+from angen_tools.session.live import Live
 
 PERIOD = rospy.Duration(1.0)  # simulated, between two states of a door that does nothing
 TURN = 0.05  # s of wall time, for messages to come
@@ -24,67 +25,63 @@ class Node:
 
     def __init__(self) -> None:
         rospy.init_node('rmf')
-        # not a SimpleQueue: while its get() waits, rospy's handlers of signals do not run
-        self._mail: queue.Queue[tuple[Callable[..., None], tuple[Any, ...]]] = queue.Queue()
         self._said: set[str] = set()
         self._now = rospy.Time()
         self._due = rospy.Time()
-        self._commands = rospy.Publisher('/angen/command', Command, queue_size=1000)
+        self._things: dict[tuple[str, str], Any] = {}
         self._door_states = rospy.Publisher('door_states', DoorState, queue_size=1000)
         self._lift_states = rospy.Publisher('lift_states', LiftState, queue_size=1000)
         rospy.loginfo('waiting for the simulator')
-        self._devices: Devices[Any] = Devices(
-            list(KINDS), lambda entity: KINDS[entity.kind](entity.name), self._on_state,
-            self._subscribe)
-        self._subscribe('door_requests', DoorRequest, self._on_door_request)
-        self._subscribe('lift_requests', LiftRequest, self._on_lift_request)
-        rospy.loginfo('serving %d doors and %d lifts', len(self._doors), len(self._lifts))
+        world = Live(patience=math.inf)
+        self._client = DoorClient(world)
+        self._door_requests = world.subscribe('door_requests', DoorRequest)
+        self._lift_requests = world.subscribe('lift_requests', LiftRequest)
+        self._follow()
+        rospy.loginfo('serving %d doors and %d lifts', len(self._of('door')),
+                      len(self._of('elevator')))
 
     def spin(self) -> None:
         """Serves until ROS ends."""
         while not rospy.is_shutdown():
-            try:
-                handle, given = self._mail.get(timeout=TURN)
-                handle(*given)
-            except queue.Empty:
-                pass
+            for request in self._door_requests.take():
+                self._on_door_request(request)
+            for request in self._lift_requests.take():
+                self._on_lift_request(request)
+            self._follow()
             self._advance(rospy.Time.now())
+            rospy.rostime.wallsleep(TURN)
+
+    def _follow(self) -> None:
+        new = self._client.follow()
+        before = self._things
+        self._things = {key: before.get(key) or KINDS[key[0]](key[1])
+                        for key in self._client.entities}
+        first = [state for key, state in self._client.states.items() if key not in before]
+        for state in [*first, *new]:
+            thing = self._things.get((state.kind, state.name))
+            if thing is not None and thing.take(state):
+                self._publish([thing], rospy.Time.from_sec(state.time))
 
     def _advance(self, now: Any) -> None:
         if now < self._now:  # a reset, or another simulator
             self._due = now
-            self._devices.changed = True
-            for lift in self._lifts.values():
+            self._client.is_stale = True
+            for lift in self._of('elevator').values():
                 lift.session = None
         self._now = now
-        if self._devices.changed and self._mail.empty():
-            self._devices.survey()
         if now >= self._due:
             due = self._due + PERIOD
             self._due = due if due > now else now + PERIOD
-            for lift in self._lifts.values():
+            for lift in self._of('elevator').values():
                 if lift.is_standing:  # others can call it too
                     self._send('elevator', lift.name, lift.command())
-            self._publish([*self._doors.values(), *self._lifts.values()], now)
+            self._publish(self._things.values(), now)
 
-    def _subscribe(self, topic: str, kind: type, handle: Callable[..., None], *given: Any) -> Any:
-        """All messages are handled by one thread."""
-        return rospy.Subscriber(topic, kind, lambda m: self._mail.put((handle, (*given, m))))
-
-    @property
-    def _doors(self) -> dict[str, Any]:
-        return self._devices.of('door')
-
-    @property
-    def _lifts(self) -> dict[str, Any]:
-        return self._devices.of('elevator')
-
-    def _on_state(self, thing: Door | Lift, state: Any) -> None:
-        if thing.take(state):
-            self._publish([thing], state.header.stamp)
+    def _of(self, kind: str) -> dict[str, Any]:
+        return {name: thing for (its, name), thing in self._things.items() if its == kind}
 
     def _on_door_request(self, message: Any) -> None:
-        door = self._find(self._doors, 'door', message.door_name)
+        door = self._find(self._of('door'), 'door', message.door_name)
         if door is None:
             return
         try:
@@ -93,7 +90,7 @@ class Node:
             self._say(str(problem))
 
     def _on_lift_request(self, message: Any) -> None:
-        lift = self._find(self._lifts, 'lift', message.lift_name)
+        lift = self._find(self._of('elevator'), 'lift', message.lift_name)
         if lift is None:
             return
         try:
@@ -111,7 +108,10 @@ class Node:
 
     def _send(self, kind: str, name: str, text: str) -> None:
         if text:
-            self._commands.publish(Command(target=f'{kind}/{name}', text=text))
+            try:
+                self._client.world.command(kind, name, text)
+            except Failure as failure:
+                self._say(str(failure))
 
     def _publish(self, things: Iterable[Door | Lift], stamp: Any) -> None:
         for thing in things:

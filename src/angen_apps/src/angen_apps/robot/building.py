@@ -1,14 +1,15 @@
 """A robot's knowledge of a building before it starts: its floors' maps and doors, and itself."""
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Collection
 
 import numpy as np
+from angen import Grid
 from lxml import etree
 
-from angen_apps.maps.gridmap import GridMap, floors, make_map
+from angen_apps.maps.gridmap import floors, make_map
 from angen_apps.robot.doors import door_of
 from angen_apps.robot.entities import Entity
 from angen_apps.robot.pilot import Pose
@@ -30,15 +31,15 @@ class Survey:
                  but: Collection[str] = ()) -> None:
         self.world, self.shut_world = world, shut
         self.home = Home.of_world(world)
-        self.maps: dict[int, GridMap] = {}
-        self.landmarks: dict[int, GridMap] = {}
-        self.shut: dict[int, GridMap] = {}
+        self.maps: dict[int, Grid] = {}
+        self.landmarks: dict[int, Grid] = {}
+        self.shut: dict[int, Grid] = {}
         known = set(floors(world))
         for floor in sorted(known if only is None else only & known):
             self.maps[floor] = make_map(world, floor, 'open', but=but)
             self.shut[floor] = make_map(shut, floor, 'shut')
             both = np.maximum(self.maps[floor].cells, self.shut[floor].cells)
-            self.landmarks[floor] = replace(self.shut[floor], cells=both)
+            self.landmarks[floor] = self.shut[floor].with_cells(both)
         self.doors: dict[int, list[Door]] = {floor: [] for floor in self.maps}
         for described in self.home.doors:
             floor = self.home.storey_at(described.pose[2])
@@ -52,7 +53,7 @@ class Start:
 
     robot: Entity
     laser: Entity
-    pose: Pose  # as it estimates
+    pose: Pose  # its own estimate
     mount: Pose  # the laser on the robot
 
     @property
@@ -61,7 +62,7 @@ class Start:
 
 
 def find_start(route: Route, entities: list[Entity], offset: tuple[float, float, float]) -> Start:
-    """A route's robot, which believes that it starts `offset` beside the truth; Failure where the
+    """A route's robot, which believes that it starts `offset` beside the truth; Failure if the
     world lacks it, its lidar or its elevator."""
     robots = [entity.name for entity in entities if entity.kind == 'drive']
     otherwise = (did_you_mean(route.robot, robots, 'angen list --kind drive') if robots else
@@ -89,7 +90,7 @@ def _one(entities: list[Entity], kind: str, name: str, otherwise: str) -> Entity
 
 def move_robot(root: etree._Element, robot: str, offset: tuple[float, float, float], world: Path
                ) -> None:
-    """Moves a robot in a world's SDF: x, y (m), yaw (rad); Failure where there is none."""
+    """Moves a robot in a world's SDF: x, y (m), yaw (rad); Failure if there is none."""
     robots = [element for element in root.iter('include', 'model')
               if robot == (element.findtext('name') or element.get('name', '')).strip()]
     if not robots:

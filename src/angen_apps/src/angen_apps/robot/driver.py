@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from typing import Any, Callable
 
 import numpy as np
+from angen import Grid
 
-from angen_apps.maps.gridmap import GridMap
 from angen_apps.robot.interface import CYCLE, Robot, collisions
 from angen_apps.robot.localizer import (EVERY, SHARE, Localizer, returns_of, to_world,
                                         unexplained)
@@ -41,7 +41,7 @@ class Driver:
     whether the robot may drive on; while it may not, it waits. `give_up` says whether to end a
     drive before its end."""
 
-    def __init__(self, robot: Robot, route: Route, landmarks: dict[int, GridMap], mount: Pose,
+    def __init__(self, robot: Robot, route: Route, landmarks: dict[int, Grid], mount: Pose,
                  watch: Callable[[], None], may_go: Callable[[], bool] = lambda: True,
                  give_up: Callable[[], bool] = lambda: False) -> None:
         self._robot, self.route, self._landmarks = robot, route, landmarks
@@ -54,7 +54,7 @@ class Driver:
         self._found = np.zeros((0, 2))
         self.text = ''
         self.floor = 0
-        self.left: list[tuple[float, float]] = []  # of the line that it drives
+        self.left: list[tuple[float, float]] = []  # points left of the line that it drives
         self.track = Track()
 
     @property
@@ -161,9 +161,8 @@ class Driver:
                      + (f'; it was touched {touched[-1][1]}' if touched else ''))
 
     def _turn(self, turn: Turn) -> None:
-        mode = 'OPEN' if turn.open else 'CLOSED'
-        self._command('door', turn.door, 'Open' if turn.open else 'Close',
-                      lambda: self._robot.door(turn.door).mode == mode)
+        verb = 'Open' if turn.open else 'Close'
+        self._command('door', turn.door, verb, lambda: self._robot.door(turn.door).has_done(verb))
 
     def _ride(self, ride: Ride) -> None:
         if self.route.elevator is None:

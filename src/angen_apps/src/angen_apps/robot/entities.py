@@ -1,27 +1,20 @@
-"""Devices and sensors of a world, with the rooms that its home says they are in."""
+"""Devices and sensors of a world, with their floors."""
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from angen_apps.robot.pilot import Pose
+from angen_tools import session
 from angen_tools.common.geometry import rotation_of, yaw
-from angen_tools.common.home import Home
 
 
 @dataclass(frozen=True)
-class Entity:
-    """A device or a sensor: of a sensor its own pose, of a device that of its model."""
+class Entity(session.Entity):
+    """A model, device or sensor on a floor."""
 
-    kind: str
-    name: str
-    model: str
-    pose: tuple[float, ...]  # x y z (m) qx qy qz qw, in the world
-    topic: str = ''
     floor: int = 0
-    room: str = ''
 
     @property
     def place(self) -> np.ndarray:
@@ -39,19 +32,8 @@ class Entity:
         return Pose(self.pose[0], self.pose[1], yaw(*self.pose[3:]))
 
 
-def entity_of(message: Any, home: Home) -> Entity:
-    """An angen_msgs/Entity."""
-    at, turned = message.pose.position, message.pose.orientation
-    return Entity(message.kind, message.name, message.model,
-                  (at.x, at.y, at.z, turned.x, turned.y, turned.z, turned.w), message.topic,
-                  home.storey_at(at.z), message.room)
-
-
-def entities_of(world: Any) -> list[Entity]:
-    """All devices and sensors of an angen.World."""
-    home, found = Home.of_world(world), []
-    for kind, name, model, pose in world.entities():
-        x, y, z, *turned = (float(value) for value in pose)
-        found.append(Entity(kind, name, model, (x, y, z, *turned), floor=home.storey_at(z),
-                            room=world.room_at(x, y, z)))
-    return found
+def entities_of(world: session.World) -> list[Entity]:
+    """The entities of a world."""
+    home = world.home
+    return [Entity(**vars(entity), floor=home.storey_at(entity.pose[2]))
+            for entity in world.entities()]

@@ -5,8 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
+from angen_apps.robot.door_client import DoorState
 from angen_apps.robot.pilot import Pose
 from angen_tools.common.failure import Failure
+from angen_tools.session import Event
 from angen_tools.world.models import collisions as collisions_of
 from angen_tools.world.sdf import read
 
@@ -14,24 +16,6 @@ BUMPER = 'patrol_bumper'  # the sensor on the robot that detects all that it tou
 CYCLE = 0.1  # s from one command to the next
 BASE = 'base_footprint'  # the robot's link that carries its body
 ROLLS = ('wheel', 'tread', 'caster')  # a collision with this in its name may touch the floor
-
-
-@dataclass(frozen=True)
-class Event:
-    """As angen_msgs/Event has it; time in s."""
-
-    time: float
-    source: str
-    kind: str
-    event: str
-    detail: str
-
-
-@dataclass(frozen=True)
-class DoorState:
-    """The fields of angen_msgs/DoorState that a robot needs."""
-
-    mode: str
 
 
 @dataclass(frozen=True)
@@ -85,7 +69,7 @@ class Robot(Protocol):
 
 def bumper(world: Path, robot: str) -> tuple[str, str]:
     """SDF of a sensor that samples each step the contacts of the robot's body, and the
-    MODEL::LINK that carries it. Failure where the file of the world has no such robot."""
+    MODEL::LINK that carries it. Failure if the file of the world has no such robot."""
     link = f'{robot}::{BASE}'
     names = collisions_of(read(world), link)
     if not names:

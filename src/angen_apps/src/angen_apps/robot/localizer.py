@@ -5,15 +5,16 @@ import math
 from typing import Any
 
 import numpy as np
+from angen import Grid
 from scipy.ndimage import distance_transform_edt
 
-from angen_apps.maps.gridmap import FREE, OCCUPIED, GridMap
+from angen_apps.maps.gridmap import FREE, OCCUPIED
 from angen_apps.robot.pilot import Pose
 
 GATE = 0.25  # m: a return that is farther from everything on the map is of a door or a person
 ROUNDS = 10
 ENOUGH = 0.0005  # m, rad: a round that moves it less is the last
-EVERY = 3  # of a scan's returns one is taken
+EVERY = 3  # one of so many returns of a scan is taken
 FEWEST = 30  # returns below which a scan is not used
 UNEXPLAINED = 0.15  # m: a return at this distance from all cells of the map is of something else
 # The search for a pose over a whole floor:
@@ -28,7 +29,7 @@ PLACE, TURN, RANGE = 0.02, 0.02, 0.05
 class Field:
     """Meters from a place to the nearest occupied cell of a map, and the way there."""
 
-    def __init__(self, grid: GridMap) -> None:
+    def __init__(self, grid: Grid) -> None:
         self._grid = grid
         far = distance_transform_edt(grid.cells != OCCUPIED) * grid.resolution
         up, right = np.gradient(far, grid.resolution)
@@ -72,12 +73,12 @@ def unexplained(points: np.ndarray, field: Field) -> np.ndarray:
 class Localizer:
     """Keeps a pose in the world, from odometry and laser scans."""
 
-    def __init__(self, grid: GridMap, start: Pose, odometry: Pose) -> None:
+    def __init__(self, grid: Grid, start: Pose, odometry: Pose) -> None:
         self.pose = start
         self._odometry = odometry
         self.enter(grid)
 
-    def enter(self, grid: GridMap) -> None:
+    def enter(self, grid: Grid) -> None:
         """Continues on another map: of the floor where an elevator has taken it."""
         self._grid, self._field = grid, Field(grid)
 

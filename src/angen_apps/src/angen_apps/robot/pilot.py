@@ -10,7 +10,7 @@ LOOK_AHEAD = 0.30  # m
 TURN_FIRST = 0.5  # rad: with a greater error it turns on the spot
 ARRIVED = 0.03  # m
 FINE_TURN = 3.0  # rad/s a rad
-LATE_TURN, LATE_WAY = 0.5, 0.2  # of an error in one command; m by one command: where they are rare
+LATE_TURN, LATE_WAY = 0.5, 0.2  # share of an error, m in one command: if they are rare
 
 
 @dataclass(frozen=True)

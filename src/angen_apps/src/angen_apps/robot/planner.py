@@ -6,18 +6,19 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from angen import Grid
 from scipy.ndimage import distance_transform_edt
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
-from angen_apps.maps.gridmap import FREE, GridMap
+from angen_apps.maps.gridmap import FREE
 
 Point = tuple[float, float]
 NEAR_COST = 4.0  # how much more a cell beside an obstacle costs than one in the open
 OPEN = 0.25  # m beyond the robot's radius where the open begins
 
 
-def distances(grid: GridMap, reach: float) -> np.ndarray:
+def distances(grid: Grid, reach: float) -> np.ndarray:
     """Meters (rows, columns) from a cell's middle to the edge of the next cell that is not free,
     cut at `reach`. Beyond the map nothing is free."""
     free = np.pad(grid.cells == FREE, 1)
@@ -34,7 +35,7 @@ def distances(grid: GridMap, reach: float) -> np.ndarray:
 class Planner:
     """Shortest ways for a round robot of `radius` (m) over a map; prefers the open."""
 
-    def __init__(self, grid: GridMap, radius: float) -> None:
+    def __init__(self, grid: Grid, radius: float) -> None:
         self.grid = grid
         clear = distances(grid, radius + OPEN)
         self._passable = (clear >= radius) & (grid.cells == FREE)
@@ -61,8 +62,7 @@ class Planner:
         if self.is_free(point):
             return point
         rows, columns = np.nonzero(self._passable)
-        away = np.hypot(self.grid.origin[0] + (columns + 0.5) * self.grid.resolution - point[0],
-                        self.grid.origin[1] + (rows + 0.5) * self.grid.resolution - point[1])
+        away = np.hypot(self.grid.x[columns] - point[0], self.grid.y[rows] - point[1])
         best = int(away.argmin()) if len(away) else -1
         if best < 0 or away[best] > reach:
             return None
@@ -76,7 +76,7 @@ class Planner:
         return found.reshape(self._passable.shape) * self.grid.resolution
 
     def way(self, start: Point, goal: Point) -> list[Point] | None:
-        """Points from start to goal, about a cell apart; None where there is no way."""
+        """Points from start to goal, about a cell apart; None if there is no way."""
         if not (self.is_free(start) and self.is_free(goal)):
             return None
         cells = self._search(self.grid.cell(*start), self.grid.cell(*goal))
@@ -86,7 +86,7 @@ class Planner:
         return smooth(points)
 
     def toward(self, goal: Point) -> np.ndarray:
-        """The cell that follows each cell on the way to a goal, below 0 where there is none. Cells
+        """The cell that follows each cell on the way to a goal, below 0 if there is none. Cells
         are counted row by row."""
         columns = self._passable.shape[1]
         row, column = self.grid.cell(*goal)

@@ -21,6 +21,7 @@ from angen_apps.robot.tour import in_order
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import make_folder, write_text
 from angen_tools.common.home import Home, Room
+from angen_tools.session.in_process import InProcess
 from angen_tools.world import sdf
 from angen_tools.world.models import building
 
@@ -57,7 +58,7 @@ def by_rooms(route: Route, world: Path, to: Path) -> tuple[Route, Path, Survey]:
     """The route with a waypoint in each room that the robot reaches, and the world; with a robot
     at the main entrance and a person in the last room in `to`, where the world has none."""
     shut = load_world(str(world))
-    entities = entities_of(shut)
+    entities = entities_of(InProcess(shut))
     survey = Survey(load_world(str(world)), shut, but=_kept_shut(shut, entities, route))
     planners = {floor: Planner(grid, route.clearance) for floor, grid in survey.maps.items()}
     start, floor, heading = _start(route, survey, planners, entities, world)

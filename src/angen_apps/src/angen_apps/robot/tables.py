@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from angen_apps.robot.driver import Track
-from angen_apps.robot.interface import Event
+from angen_tools.session import Event
 from angen_tools.common.files import write_csv
 
 

@@ -34,7 +34,7 @@ class View:
 
 
 def sensor_element(world: etree._Element, entity: Entity) -> etree._Element | None:
-    """The <sensor> of an entity's kind in a world's file; None where it is not found there."""
+    """The <sensor> of an entity's kind in a world's file; None if it is not found there."""
     for entry in world.iterfind('world/*'):
         if (entry.findtext('name') or entry.get('name', '')).strip() != entity.model:
             continue

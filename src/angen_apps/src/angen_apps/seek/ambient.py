@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from angen_apps.robot.interface import Event
+from angen_tools.session import Event
 from angen_apps.seek.belief import DEVICE, LIGHT, Belief
 from angen_apps.seek.home import DOORWAY, Home
 

@@ -35,7 +35,7 @@ class Belief:
         return np.asarray(self.p.sum(axis=0))
 
     def _walks(self, opened: frozenset[str] | None) -> csr_matrix:
-        """The matrix of a STEP of walking; `opened`: the open doors, None where it is not known."""
+        """The matrix of a STEP of walking; `opened`: the open doors, None if it is not known."""
         if opened == self._passed:
             return self._walk
         self._passed = opened
@@ -50,7 +50,7 @@ class Belief:
         degree = np.asarray(beside.sum(axis=1)).ravel()
         most = max(degree.max(), 1.0)
         once = beside / most + diags(1 - degree / most)
-        # of `most` ways one is taken; a step is CELL long: SPEED is the root mean square per s
+        # one of `most` ways is taken; a step is CELL long: SPEED is the root mean square per s
         rounds = max(1, round(most / 4 * 2 * (SPEED * STEP / CELL) ** 2))
         matrix = identity(count, format='csr')
         for _ in range(rounds):
@@ -66,7 +66,7 @@ class Belief:
         return csr_matrix(diags(1 - share) @ matrix + ride)
 
     def step(self, opened: frozenset[str] | None) -> None:
-        """Advances the belief by STEP. `opened`: the open doors, None where it is not known."""
+        """Advances the belief by STEP. `opened`: the open doors, None if it is not known."""
         self._walk = self._walks(opened)
         stand, walk = self.p
         walk = self._walk.T @ walk

@@ -23,8 +23,9 @@ from angen_apps.seek.run import Figures
 from angen_tools.common.output import as_json, show
 from angen_tools.common.progress import Progress
 from angen_tools.common.watchdog import end_with_parent
+from angen_tools.session.in_process import InProcess
 
-HOME_SHARE = 0.05  # of the progress: the survey
+HOME_SHARE = 0.05  # share of the progress: the survey
 
 
 def seek(route_file: Path | None, world: Path | None, seed: int, ambient: bool, limit: float,
@@ -109,7 +110,7 @@ def survey(route_file: Path | None, world: Path | None, out: Path) -> tuple[Home
     empty = out / 'survey.world'
     try:
         run.write_world(world, route, None, empty)
-        entities = entities_of(load_world(str(empty)))
+        entities = entities_of(InProcess(load_world(str(empty))))
         route = served(route, entities)
         return make_home(route, empty, entities, (0.0, 0.0, 0.0), known), route, world
     finally:

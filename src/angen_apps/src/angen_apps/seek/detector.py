@@ -16,7 +16,7 @@ RADIUS = (0.15, 0.36)  # m, of a body at the height of the laser
 CHORD = (0.22, 0.65)  # m, between the first and the last return
 ROUGH = 0.02  # m, root mean square beside the circle
 REACH = 5.5  # m: farther away, a person has too few returns
-STRAIGHT = 0.6  # of the rms beside a line, at most, is that beside the circle
+STRAIGHT = 0.6  # most rms beside the circle, as a share of that beside a line
 
 # A figure in a depth image:
 FRONT, BACK = 0.45, 0.15  # m before and behind the middle of the arc
@@ -71,7 +71,7 @@ def groups(points: np.ndarray, numbers: np.ndarray, chosen: np.ndarray) -> list[
 
 
 def fit_arc(points: np.ndarray, eye: np.ndarray) -> Arc | None:
-    """The circle (least squares) through points (n, 2) that are seen from `eye`; None where they
+    """The circle (least squares) through points (n, 2) that are seen from `eye`; None if they
     are not on the near side of a circle of a person's size."""
     chord = float(np.linalg.norm(points[0] - points[-1]))
     if not CHORD[0] <= chord <= CHORD[1]:
@@ -104,7 +104,7 @@ class Figure:
 
 def find_figure(depth: Any, camera: tuple[float, float, float], pose: Pose, arc: Arc
                 ) -> Figure | None:
-    """The figure of a person at the place of an arc; None where there is none.
+    """The figure of a person at the place of an arc; None if there is none.
 
     `camera`: x, y ahead and left on the robot and height above the floor, m; level, looks ahead.
     """

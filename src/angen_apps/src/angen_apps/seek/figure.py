@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from angen_apps.maps.gridmap import on_floor
 from angen_apps.plan.draw import Scene, draw_storey, extent
 from angen_apps.seek.home import CELL, Home
 from angen_apps.seek.report import pairs
@@ -77,8 +76,7 @@ def _shade(ax: Any, home: Home, floor: int, belief: np.ndarray) -> Any:
     fine = np.argwhere(home.walkable[floor].cells == 0)
     here = np.nonzero(home.floor == floor)[0]
     other = home.walkable[floor]
-    places = np.column_stack([other.origin[0] + (fine[:, 1] + 0.5) * other.resolution,
-                              other.origin[1] + (fine[:, 0] + 0.5) * other.resolution])
+    places = np.column_stack([other.x[fine[:, 1]], other.y[fine[:, 0]]])
     away, nearest = cKDTree(home.at[here]).query(places)
     for (x, y), cell in zip(places[away < 1.5 * CELL], here[nearest[away < 1.5 * CELL]]):
         row, column = grid.cell(x, y)
@@ -116,7 +114,7 @@ def _line(ax: Any, home: Home, rows: np.ndarray, floor: int, color: str, style: 
           mark: str, size: float) -> None:
     if not len(rows):
         return
-    here = on_floor(home.described, rows[:, 3], floor)
+    here = home.described.storeys_at(rows[:, 3]) == floor
     places = np.where(here[:, None], rows[:, 1:3], np.nan)
     ax.plot(places[:, 0], places[:, 1], style, color=color, lw=width, zorder=8)
     if here[-1]:

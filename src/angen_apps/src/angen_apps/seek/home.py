@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from angen import Grid
 from scipy.ndimage import label
 
-from angen_apps.maps.gridmap import FREE, GridMap, load_world, make_map
-from angen_apps.maps.rays import Caster
+from angen_apps.maps.gridmap import FREE, load_world, make_map
+from angen_apps.maps.rays import sees
 from angen_apps.plan.polygons import in_room
 from angen_apps.robot.building import Start, Survey, find_start
 from angen_apps.robot.entities import Entity
@@ -48,10 +49,10 @@ class Home:
     described: DescribedHome
     entities: list[Entity]
     start: Start
-    maps: dict[int, GridMap]
-    landmarks: dict[int, GridMap]
+    maps: dict[int, Grid]
+    landmarks: dict[int, Grid]
     doors: dict[int, list[Door]]
-    walkable: dict[int, GridMap]  # as a person needs it
+    walkable: dict[int, Grid]  # for a person
     floor: np.ndarray
     at: np.ndarray  # (n, 2) m
     room: np.ndarray  # index in `rooms`
@@ -165,12 +166,6 @@ def _distance(room: Room, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return nearest
 
 
-def _middles(grid: GridMap, rows: np.ndarray, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """x and y of cells, m."""
-    return (grid.origin[0] + (columns + 0.5) * grid.resolution,
-            grid.origin[1] + (rows + 0.5) * grid.resolution)
-
-
 def _reached(planner: Planner, at: Point | None, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Which places (m) the robot can be at, coming from `at`."""
     start = at and planner.nearest(at, CELL)
@@ -201,7 +196,7 @@ def _largest(mask: np.ndarray, reached: np.ndarray) -> np.ndarray:
 class _Cells:
     """Cuts the walkable floor into cells."""
 
-    def __init__(self, walkable: dict[int, GridMap], named: dict[int, Rooms],
+    def __init__(self, walkable: dict[int, Grid], named: dict[int, Rooms],
                  doors: dict[int, list[Door]], planners: dict[int, Planner],
                  starts: dict[int, Point]) -> None:
         """`starts`: where the robot comes to a floor."""
@@ -213,13 +208,13 @@ class _Cells:
         first_room = 0
         for floor, grid in walkable.items():
             rows, columns = np.nonzero((distances(grid, BODY) >= BODY) & (grid.cells == FREE))
-            x, y = _middles(grid, rows, columns)
+            x, y = grid.x[columns], grid.y[rows]
             masks = np.zeros((2, *grid.cells.shape), bool)
             for mask, which in zip(masks, (named[floor].hold(x, y), _reached(
                     planners[floor], starts.get(floor), x, y))):
                 mask[rows[which], columns[which]] = True
             rows, columns = np.nonzero(_largest(*masks))
-            x, y = _middles(grid, rows, columns)
+            x, y = grid.x[columns], grid.y[rows]
             key = np.stack([np.floor(x / CELL), np.floor(y / CELL), named[floor].at(x, y)],
                            axis=1).astype(int)
             kept, which = np.unique(key, axis=0, return_inverse=True)
@@ -255,7 +250,7 @@ class _Sight:
     """Rays in the building with doors open, and with doors shut."""
 
     def __init__(self, world: Any, shut: Any) -> None:
-        self._open, self._shut = Caster(world), Caster(shut)
+        self._open, self._shut = world, shut
 
     def pir(self, entity: Entity, described: Any, targets: np.ndarray) -> Pir:
         """The cells that a PIR sees; `targets` (n, heights, 3) points of a person in each."""
@@ -264,20 +259,20 @@ class _Sight:
         points = targets.reshape(-1, 3)
         held = np.nonzero(view.holds(points))[0]
         seen = [np.zeros(len(points), bool), np.zeros(len(points), bool)]
-        for mask, caster in zip(seen, (self._shut, self._open)):
-            mask[held] = caster.sees(view.position, points[held])
+        for mask, world in zip(seen, (self._shut, self._open)):
+            mask[held] = sees(world, view.position, points[held])
         shut, opened = (mask.reshape(targets.shape[:2]).any(axis=1) for mask in seen)
         period = float(sensor.findtext('plugin/nod_period') or 0) if sensor is not None else 0.0
         return Pir(entity.name, shut, opened & ~shut, period)
 
-    def around(self, at: np.ndarray, floor: np.ndarray, cell: int, maps: dict[int, GridMap]
+    def around(self, at: np.ndarray, floor: np.ndarray, cell: int, maps: dict[int, Grid]
                ) -> np.ndarray:
         """The cells in which a laser at a cell sees a person, with doors shut."""
         z = maps[int(floor[cell])].height + LASER
         found = (floor == floor[cell]) & (np.hypot(*(at - at[cell]).T) <= SEES)
         rows = np.nonzero(found)[0]
         points = np.column_stack([at[rows], np.full(len(rows), z)])
-        found[rows] = self._shut.sees(np.array([*at[cell], z]), points, BODY)
+        found[rows] = sees(self._shut, np.array([*at[cell], z]), points, BODY)
         return found
 
 

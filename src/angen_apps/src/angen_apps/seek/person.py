@@ -29,7 +29,7 @@ class _Beside(Simulated):
 def add_person(world: object, ground: Ground, home: Home, route: Route, name: str, seed: int
                ) -> Household:
     """A household of one who walks about; its run() is called before each of the robot's cycles.
-    Failure where the building has no place to walk to."""
+    Failure if the building has no place to walk to."""
     simulator = _Beside(world, home.described)
     household = Household(simulator, ground, seed, 'seek', first_day(home.described),
                           home.described.time_of_day)

@@ -35,10 +35,10 @@ class Figures:
     ambient: bool
     found: bool
     time_s: float
-    room: str  # as reported
+    room: str  # the reported one
     x_m: float
     y_m: float
-    error_m: float  # of the reported place
+    error_m: float  # error of the reported place
     true_room: str
     distance_m: float
     collisions: int

@@ -152,7 +152,7 @@ class Search:
         opened = None
         if self._ambient:
             opened = frozenset(door.name for _, door in self._home.all_doors()
-                               if self._simulation.door(door.name).mode != 'CLOSED')
+                               if not self._simulation.door(door.name).has_done('Close'))
         self.belief.step(opened)
         if self._ambient:
             self._ambient.step(events, self._robot, now)
@@ -211,7 +211,7 @@ class Search:
     def _shut_ahead(self) -> bool:
         line = self._driver.left[:60]
         for door in self._home.doors[self._driver.floor]:
-            if self._simulation.door(door.name).mode == 'OPEN':
+            if self._simulation.door(door.name).has_done('Open'):
                 continue
             if any(door.crosses(a, b) for a, b in zip(line, line[1:])):
                 return True
@@ -223,7 +223,7 @@ class Search:
         """For each viewpoint the probability to see the person there, by the time until then."""
         pose = self._driver.pose
         shut = {door.name for _, door in self._home.all_doors()
-                if self._simulation.door(door.name).mode != 'OPEN'}
+                if not self._simulation.door(door.name).has_done('Open')}
         times = self._ways.times((pose.x, pose.y), self._driver.floor, shut)
         gain = self._views @ self.belief.cells
         for cell, when in self._avoid.items():
@@ -235,7 +235,7 @@ class Search:
 
     def run(self, limit: float) -> Found | None:
         """Waits for LEAD s, in which ambient sensors already work, then searches until it has found
-        him or for `limit` s; None where it has not."""
+        him or for `limit` s; None if it has not."""
         while self._simulation.now < LEAD - 1e-6:
             self._simulation.wait()
             if self._simulation.now >= self._step_due - 1e-6:
@@ -312,7 +312,8 @@ class Search:
             raise Failure('the robot is at a place where it does not fit')
         goal = Waypoint(home.rooms[home.room[cell]], int(home.floor[cell]), home.point(cell), 0)
         shut: dict[int, list[Door]] = {
-            number: [door for door in doors if self._simulation.door(door.name).mode != 'OPEN']
+            number: [door for door in doors
+                     if not self._simulation.door(door.name).has_done('Open')]
             for number, doors in home.doors.items()}
         router = Router(replace(self._route, waypoints=[goal]), self._planners, shut)
         return [action for action in router.actions(here, floor)

@@ -33,7 +33,7 @@ class Ways:
             self._views[floor] = numbers, cells[:, 0], cells[:, 1]
 
     def times(self, at: Point, floor: int, shut: set[str]) -> np.ndarray:
-        """Seconds to each viewpoint, infinite where there is no way; `shut`: names of doors."""
+        """Seconds to each viewpoint, infinite if there is no way; `shut`: names of doors."""
         home = self._home
         found = np.full(len(home.viewpoints), np.inf)
         here = self._planners[floor].nearest(at, 0.5)

@@ -19,7 +19,7 @@ from angen_tools.common.files import pyplot, save_figure, write_text
 
 COLUMNS = 4
 WIDE, HIGH = 3.4, 3.1  # inches of a situation
-LETTERS = 46  # of a line
+LETTERS = 46  # letters of a line
 EVERY = 0.1  # s between two places of a way
 PASSED, FAILED = '#2a7a3c', '#c8372d'
 

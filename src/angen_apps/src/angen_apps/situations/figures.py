@@ -15,7 +15,7 @@ from angen_apps.situations.puppet import Joints, Puppet, Script, Segment, Shape,
 Point = tuple[float, float]
 COMFORT = 295.15  # K of the air in which skin is as warm as person_controller has it
 THIGH, SHIN, HIP, SHOULDER = 0.45, 0.47, 0.92, 0.5  # lengths; SHOULDER above the hip
-STRIDE = 1.4      # of two steps
+STRIDE = 1.4      # length of two steps
 
 
 def skin(air: float) -> float:

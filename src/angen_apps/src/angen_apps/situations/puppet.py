@@ -15,7 +15,7 @@ MOMENT = 0.5     # kg m^2
 
 Vector = tuple[float, float, float]
 Joints = Mapping[str, float]            # positions in rad or m by joint; those left out are 0
-Script = Callable[[float], Joints]      # of the time in s
+Script = Callable[[float], Joints]      # a function of the time in s
 
 
 @dataclass(frozen=True)

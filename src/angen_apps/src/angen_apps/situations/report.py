@@ -13,7 +13,7 @@ from angen_tools.common.output import table
 if TYPE_CHECKING:
     from rich.table import Table
 
-Results = Sequence[Sequence[Outcome]]  # of each row, one or two models
+Results = Sequence[Sequence[Outcome]]  # each row's, of one or two models
 MARKED = re.compile(r'(<!-- situations -->\n).*?(<!-- end -->)', re.DOTALL)
 FAILED = 'red'
 
@@ -57,7 +57,7 @@ def counts(results: Results) -> str:
 
 
 def check_page(page: Path) -> str:
-    """The text of a page; Failure where it cannot be read, or has no place for the table."""
+    """The text of a page; Failure if it cannot be read, or has no place for the table."""
     try:
         text = page.read_text(encoding='utf-8')
     except (OSError, UnicodeDecodeError) as error:

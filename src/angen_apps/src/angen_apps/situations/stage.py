@@ -30,11 +30,11 @@ class Row:
     """A situation, and the expectation of physics or data sheets for each model of a PIR."""
     group: str
     scene: str
-    expect: str                # of the pyroelectric model: motion, still
+    expect: str                # expectation of the pyroelectric model: motion, still
     why: str
     source: str                # a key of the sources
     cast: tuple[Mapping[str, Any], ...]
-    expect_range: str = ''     # of range differences, if that is defined
+    expect_range: str = ''     # expectation of range differences, if that is defined
     mount: str = 'wall'
     air: float = AIR           # degrees Celsius
     settings: tuple[tuple[str, str], ...] = ()

@@ -20,7 +20,7 @@ LIMIT = 120.0  # s that scene and home take to come: until a large world is load
 
 def screen() -> tuple[int, int] | None:
     """Width and height of the display in pixels; None without one."""
-    x11 = ctypes.CDLL('libX11.so.6')  # which rviz needs, too
+    x11 = ctypes.CDLL('libX11.so.6')  # rviz needs it, too
     x11.XOpenDisplay.restype = ctypes.c_void_p
     display = ctypes.c_void_p(x11.XOpenDisplay(None))
     if not display:
@@ -35,8 +35,8 @@ def received(config: dict[str, Any]) -> dict[str, Any]:
     """A configuration of rviz with views of the running world; this process is a node."""
     import rospy
     from angen_msgs.msg import Home, Scene
-    scene = rospy.wait_for_message('/angen/scene', Scene, LIMIT)
-    home = rospy.wait_for_message('/angen/home', Home, LIMIT)
+    scene = rospy.wait_for_message('angen/scene', Scene, LIMIT)
+    home = rospy.wait_for_message('angen/home', Home, LIMIT)
     return framed(config, bounds(scene), home.storeys, screen())
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 AROUND = np.array([400.0, 180.0])  # pixels of a window of angen.rviz around its picture
 SMALLEST = 200.0  # pixels of a picture
-FILLS = 0.94  # of the picture
+FILLS = 0.94  # share of the picture
 ROUNDS = 8  # to center a perspective
 ORTHO_HEIGHT = 500.0  # m above the world's origin, where rviz has the camera of TopDownOrtho
 BELOW_NEXT = 0.1  # m below the next floor, where the view of a floor cuts
@@ -38,7 +38,7 @@ def framed(config: dict[str, Any], box: np.ndarray, storeys: Sequence[Any],
     place = manager['Displays'].index(maps[0])
     others = [display for display in manager['Displays'] if display not in maps]
     manager['Displays'] = others[:place] + [
-        {**maps[0], 'Name': f'Map {number}', 'Topic': f'/floor{number}/map'}
+        {**maps[0], 'Name': f'Map {number}', 'Topic': f'floor{number}/map'}
         for number in numbers] + others[place:]
     views = manager['Views']
     whole = orbit(views['Current'], box, panel)

@@ -14,7 +14,7 @@ from angen_apps.data.run import Data
 from angen_apps.residents.profiles import DAY
 from angen_tools.common.files import writing
 
-LEVEL = 4  # of gzip
+LEVEL = 4  # gzip's level
 ON = ('ON', 'OPEN', 'PRESENT')
 
 

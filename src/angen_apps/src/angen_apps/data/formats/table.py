@@ -32,7 +32,7 @@ def write(folder: Path, data: Data) -> list[Path]:
 
 
 def pyarrow() -> Any:
-    """The optional library; Failure where it is not installed."""
+    """The optional library; Failure if it is not installed."""
     try:
         import pyarrow
         import pyarrow.parquet

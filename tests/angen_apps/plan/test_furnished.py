@@ -1,0 +1,129 @@
+"""Furniture of homes by seed: what residents need is there, apart, and people get to it."""
+from __future__ import annotations
+
+from collections import Counter
+from itertools import combinations
+from math import cos, sin
+from pathlib import Path
+from random import Random
+
+import pytest
+
+import angen
+from angen_apps.plan.apartment import apartment
+from angen_apps.plan.furnished import furnish
+from angen_apps.plan.model import Piece, Plan, Room, Storey
+from angen_apps.plan.polygons import contains, overlap, rectangle
+from angen_apps.plan.tower import building
+from angen_apps.plan.writer import write_world
+from angen_tools.common.failure import Failure
+
+BATHROOM = {'toilet', 'sink', 'shower', 'washing_machine'}
+
+
+def pieces_in(plan: Plan, use: str) -> list[Counter[str]]:
+    """The pieces of each room of a use."""
+    found = []
+    for storey in plan.storeys:
+        for room in storey.rooms:
+            if room.use == use:
+                found.append(Counter(piece.thing for piece in storey.pieces
+                                     if contains(room.polygon, piece.x, piece.y)))
+    return found
+
+
+@pytest.mark.parametrize('rooms', [1, 2, 3, 4, 5])
+def test_a_home_has_what_its_residents_need(rooms: int) -> None:
+    for seed in range(1, 9):
+        plan = apartment(rooms, 1, seed)
+        assert all(BATHROOM <= set(found) for found in pieces_in(plan, 'bathroom'))
+        assert all({'stove', 'sink', 'fridge'} <= set(found)
+                   for found in pieces_in(plan, 'kitchen'))
+        assert all({'bed', 'wardrobe'} <= set(found) for found in pieces_in(plan, 'bedroom'))
+        assert all({'sofa', 'tv', 'table'} <= set(found) for found in pieces_in(plan, 'living'))
+        assert all({'desk', 'chair'} <= set(found) for found in pieces_in(plan, 'work'))
+        dining, = pieces_in(plan, 'living') or pieces_in(plan, 'kitchen')
+        assert dining['chair'] >= min(4, 2 * len(pieces_in(plan, 'bedroom')))
+        assert {room.name for room in plan.all_rooms()} == {
+            room.name for storey in plan.storeys for lamp in storey.lamps
+            for room in storey.rooms if contains(room.polygon, lamp.x, lamp.y)}
+
+
+def test_every_apartment_of_a_building_has_a_kitchen_with_its_things() -> None:
+    kitchens = pieces_in(building(1, 2, 3, 4), 'kitchen')
+    assert len(kitchens) == 6
+    assert all({'stove', 'sink', 'fridge', 'table', 'chair'} <= set(found) for found in kitchens)
+
+
+def outline(piece: Piece) -> list[tuple[float, float]]:
+    return rectangle(piece.x, piece.y, piece.yaw, (-piece.depth / 2, -piece.width / 2),
+                     (piece.depth / 2, piece.width / 2))
+
+
+@pytest.mark.parametrize('seed', range(6))
+def test_pieces_are_apart_and_within_their_rooms(seed: int) -> None:
+    storey, = apartment(1 + seed % 5, 1, seed).storeys
+    for one, other in combinations(storey.pieces, 2):
+        assert overlap(outline(one), outline(other)) <= 0.0, (one, other)
+    for piece in storey.pieces:
+        rooms = {room.name for room in storey.rooms
+                 if any(contains(room.polygon, x, y) for x, y in outline(piece))}
+        assert len(rooms) == 1, piece
+
+
+def test_what_has_no_place_is_named() -> None:
+    corners = ((0.0, 0.0), (1.5, 0.0), (1.5, 1.5), (0.0, 1.5))
+    storey = Storey(0, 'Floor 0', 0.0, 3.0, 0.49)
+    storey.rooms = [Room('bathroom0', 'bathroom', corners, 0.0, 2.5)]
+    missing = furnish(storey, Random(1))
+    assert missing and all(text.endswith(' in bathroom0') for text in missing)
+    assert {text.split()[0] for text in missing} | {p.thing for p in storey.pieces} == BATHROOM
+
+
+def test_a_home_in_which_something_has_no_place_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr('angen_apps.plan.furnished.WAY', 3.0)
+    monkeypatch.setattr('angen_apps.plan.furnished.TRIES', 1)
+    monkeypatch.setattr('angen_apps.plan.furnished.VARIANTS', 1)
+    with pytest.raises(Failure, match='seed 3: no place for .*; take another seed'):
+        apartment(2, 1, 3)
+
+
+@pytest.mark.parametrize('rooms', [1, 3])
+def test_a_person_walks_to_each_thing(rooms: int, tmp_path: Path) -> None:
+    plan = apartment(rooms, 1, 2)
+    storey, = plan.storeys
+    path = tmp_path / 'home.world'
+    write_world(plan, path, 'none')
+    world = angen.World(str(path), seed=1)
+    hall = next(room for room in storey.rooms if room.use == 'hall')
+    x, y = hall.polygon[0][0] + 2.0, hall.polygon[0][1] + 0.7
+    world.spawn('<actor name="ann"><plugin name="person" filename="libperson_controller.so"/>'
+                '</actor>', 'ann', [x, y, 0.0, 0.0, 0.0, 0.0])
+    for door in world.devices('door'):
+        if 'hall' in door or 'entrance' not in door:
+            world.command('door', door, 'Open')
+    world.run(5.0)
+    for piece in storey.pieces:
+        if piece.thing not in ('bed', 'stove', 'sink', 'fridge', 'toilet', 'shower', 'wardrobe',
+                               'washing_machine', 'sofa', 'chair'):
+            continue
+        assert any(arrives(world, goal) for goal in users(piece)), piece
+
+
+def users(piece: Piece) -> list[tuple[float, float]]:
+    """Places before a piece; of a chair behind it and beside it."""
+    c, s = cos(piece.yaw), sin(piece.yaw)
+    places = [(-0.6, 0.0), (0.0, 0.6), (0.0, -0.6)] if piece.thing == 'chair' else [
+        (piece.depth / 2 + 0.45, 0.0)]
+    return [(piece.x + u * c - v * s, piece.y + u * s + v * c) for u, v in places]
+
+
+def arrives(world: angen.World, goal: tuple[float, float]) -> bool:
+    """Whether the person comes within 0.5 m of a place in 60 s."""
+    world.command('person', 'ann', f'GoTo {goal[0]:.3f} {goal[1]:.3f}')
+    for _ in range(60):
+        world.run(1.0)
+        state = world.device('person', 'ann')
+        if (state['x'] - goal[0]) ** 2 + (state['y'] - goal[1]) ** 2 < 0.25:
+            return True
+    return False
