@@ -1,24 +1,27 @@
-"""Runs all tests in units, the longest first; Ctrl-C ends all processes that tests start."""
+"""Runs all tests in units, the longest first; Ctrl-C ends all processes that tests start.
+
+The tests in ROS share a master of their own.
+"""
 from __future__ import annotations
 
+import os
 import re
 import signal
-from typing import Any
+from typing import Any, Iterator
 
 import pytest
+from harness import Master, end
 
 # Parts of tests' names, the longest units first: a unit runs on one worker, and should not begin
 # last. Without an entry a test runs after these.
 LONG = ('[docs/tutorial.md]', '[docs/robot.md]', '[docs/build_apartment.md]',
-        '[docs/spawn_and_delete.md]', 'ros/test_bench.py', 'docs/test_commands.py',
+        'docs/test_commands.py', 'ros/test_bench.py',
         'docs/test_thesis.py', 'ros/test_soak.py', 'ros/test_patrol_run.py', 'py/test_limits.py',
         'ros/test_cli.py', 'ros/test_replay_run.py', 'ros/test_web.py', 'ros/test_traffic.py',
         'ros/test_rmf.py', 'ros/test_lifetime.py', 'walktest/test_command.py',
         'seek/test_command.py', 'py/test_replay.py', 'py/test_simulation.py',
-        'worlds/test_world_geometry.py')
-PAGES = re.compile(r'docs/test_commands\.py::.*\[docs/('
-                   r'build_apartment|robot|run|spawn_and_delete|tutorial|plugins|devices/|'
-                   r'sensors/)')
+        'angen_models/test_world_geometry.py')
+PAGES = re.compile(r'docs/test_commands\.py::.*\[docs/(build_apartment|robot|tutorial|plugins)')
 
 # A shell ignores SIGINT in a process that it starts by &, and children inherit that.
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
@@ -54,3 +57,21 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
             return unit(nodeid)
 
     return Units(config, log)
+
+
+@pytest.fixture(scope='session')
+def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Master]:
+    started = Master(tmp_path_factory.mktemp('ros'))
+    yield started
+    end(started.process)
+
+
+@pytest.fixture(scope='session')
+def rospy_node(master: Master) -> None:
+    """This process as a ROS node of that master."""
+    for key in ('ROS_MASTER_URI', 'ROS_IP', 'ROS_LOG_DIR', 'ROS_HOME'):
+        os.environ[key] = master.environment[key]
+    os.environ.pop('ROS_HOSTNAME', None)
+    master.api.setParam('/test', '/use_sim_time', True)
+    import rospy
+    rospy.init_node('angen_tests', disable_signals=True)

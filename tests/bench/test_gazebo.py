@@ -10,7 +10,7 @@ import pytest
 from angen_bench.gazebo import parse
 from angen_tools.cli import main as cli
 
-SCRIPT = Path(__file__).resolve().parents[2] / 'bench/gazebo/make_chroot'
+SCRIPT = Path(__file__).resolve().parents[2] / 'bench/angen_bench/chroot/make_chroot'
 
 
 @pytest.mark.parametrize('line,said', [
@@ -69,7 +69,7 @@ def test_the_bench_says_the_rejection_in_one_line(tmp_path: Path, monkeypatch: p
     script.write_text('#!/bin/sh\necho "it cannot be made"\nexit 1\n')
     script.chmod(0o755)
     monkeypatch.setattr('angen_bench.gazebo.script', lambda: script)
-    words = ['bench', 'sensors', '--kind', 'pir', '--vs', 'gazebo', '-o', str(tmp_path / 'out')]
+    words = ['bench', 'sensors', '--kind', 'pir', '--vs', 'gazebo', '--out', str(tmp_path / 'out')]
     assert cli.run(words) == 1
     assert capsys.readouterr().err == 'angen: it cannot be made\n'
     assert not (tmp_path / 'out').exists()

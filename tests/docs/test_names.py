@@ -13,7 +13,8 @@ import pytest
 from angen_tools.cli import main as cli
 from tests.docs.pages import PAGES, ROOT, files
 
-TESTS = sorted((ROOT / 'tests/angen_sim').glob('*/*_test.cpp'))
+TESTS = sorted((ROOT / 'tests').glob('angen_*/*/*_test.cpp'))
+PACKAGES = (ROOT / 'src/angen_sim', ROOT / 'src/angen_gazebo')
 ACROSS = set(re.findall(r'`(\w+/\w+)_test`', (ROOT / 'CONTRIBUTING.md').read_text()))
 FOLDERS = ('bench', 'docs', 'examples', 'launch', 'src', 'tests', 'worlds')
 OURS = re.compile(r'.*\.(cpp|h|py|msg|srv|yaml|apt|in)')  # names of files
@@ -23,8 +24,8 @@ PLACEHOLDER = re.compile(r'\b([xX](_\w+|Msg)?|NAME|KIND|TARGET|FILE)\b')
 @pytest.mark.parametrize('test', TESTS, ids=lambda path: f'{path.parent.name}/{path.stem}')
 def test_a_test_has_the_name_of_its_source(test: Path) -> None:
     name = test.stem.removesuffix('_test')
-    sources = (ROOT / 'src/angen_sim' / test.parent.name).rglob(f'{name}.*')
-    assert any(sources) != (f'{test.parent.name}/{name}' in ACROSS)
+    module = ROOT / 'src' / test.parent.parent.name / test.parent.name
+    assert any(module.rglob(f'{name}.*')) != (f'{test.parent.name}/{name}' in ACROSS)
 
 
 def test_the_tests_across_files_exist() -> None:
@@ -60,13 +61,13 @@ def file_names() -> set[str]:
 
 def is_path(span: str) -> bool:
     first, slash, _ = span.partition('/')
-    module = (ROOT / 'src/angen_sim' / first).is_dir() and bool(OURS.fullmatch(span))
+    module = any((package / first).is_dir() for package in PACKAGES) and bool(OURS.fullmatch(span))
     return bool(slash and (first in FOLDERS or module)
                 and re.fullmatch(r'[\w.*/-]+', span) and not PLACEHOLDER.search(span))
 
 
 def exists(path: str) -> bool:
-    return any(any(folder.glob(path.rstrip('/'))) for folder in (ROOT, ROOT / 'src/angen_sim'))
+    return any(any(folder.glob(path.rstrip('/'))) for folder in (ROOT, *PACKAGES))
 
 
 def unknown(span: str, own: set[str]) -> list[str]:

@@ -26,4 +26,4 @@ def test_lines_fit(page: Path) -> None:
 
 @pytest.mark.parametrize('page', PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_a_page_tells_no_history(page: Path) -> None:
-    assert not PAST.search(page.read_text())
+    assert not PAST.search(re.sub(r'`[^`\n]+`', '', page.read_text()))

@@ -171,7 +171,7 @@ def test_roslaunch_rejects_it_too(environment, word, part):
     result = subprocess.run([ROOT / 'angen', 'shell', '-c',
                              f'roslaunch angen_sim angen.launch {word}'],
                             capture_output=True, text=True, env=environment, timeout=120)
-    assert result.returncode == 1 and f'{word}: ' in result.stderr and part in result.stderr
+    assert result.returncode == 2 and f'{word}: ' in result.stderr and part in result.stderr
     assert marked(environment) == []
 
 

@@ -36,7 +36,9 @@ def test_two_are_rejected_and_one_is_not(workspace: Path) -> None:
              for _, package in topological_order(str(workspace / "src"))]
     assert ("gazebo_msgs", "2.9.2") in order and "angen_sim" in dict(order)
     names = [name for name, _ in order]
-    assert names.index("gazebo_msgs") < names.index("angen_sim")
+    assert names.index("gazebo_msgs") < names.index("angen_sim") < names.index("angen_gazebo")
+    # those in a cycle have no place
+    assert set(names) == {path.parent.name for path in (ROOT / "src").glob("*/package.xml")}
 
 
 def test_an_overlay_may_have_another(workspace: Path) -> None:

@@ -1,4 +1,5 @@
 """Files and libraries that a world may name: those of the paths, unless every path is allowed."""
+import re
 from pathlib import Path
 
 import pytest
@@ -45,10 +46,15 @@ def world_file(tmp_path: Path, outside: Path) -> Path:
 
 
 def test_a_world_names_no_file_elsewhere(world_file: Path) -> None:
+    lenient = angen.World(str(world_file))
+    warning, = lenient.warnings
+    assert re.search(REJECTED, warning) and warning.startswith(f'{world_file}:1: ')
+    assert lenient.models == []
+    assert angen.World(str(world_file), allow_paths=True).models == ['m']
+    world_file.write_text(world_file.read_text().replace('"w"', '"w" angen:strict="true"'))
     with pytest.raises(angen.Error, match=REJECTED) as error:
         angen.World(str(world_file))
     assert str(error.value).startswith(f'{world_file}:1: ')
-    assert angen.World(str(world_file), allow_paths=True).models == ['m']
 
 
 def test_a_text_that_is_spawned_names_no_file_elsewhere(outside: Path) -> None:

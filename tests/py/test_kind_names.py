@@ -8,9 +8,9 @@ import pytest
 
 import angen
 
-SOURCES = Path(__file__).resolve().parents[2] / 'src/angen_sim'
+SOURCES = Path(__file__).resolve().parents[2] / 'src'
 KINDS = {plugin['kind'] for plugin in angen.plugins()}
-ALLOWED = {('tf/joints.cpp', 'joint_states')}  # a topic of that name
+ALLOWED = {('angen_sim/tf/joints.cpp', 'joint_states')}  # a topic of that name
 REGISTERS = 'ANGEN_REGISTER_ROS_KIND({'
 
 
@@ -24,7 +24,8 @@ def named_in(path: Path) -> set[tuple[str, str]]:
     return {(name, word) for word in re.findall(r'"(\w+)"', path.read_text()) if word in KINDS}
 
 
-@pytest.mark.parametrize('folder', ['ros', 'tf', 'rviz', 'gazebo', 'node'])
+@pytest.mark.parametrize('folder', ['angen_sim/ros', 'angen_sim/tf', 'angen_sim/rviz',
+                                    'angen_sim/node', 'angen_gazebo/gazebo'])
 def test_a_folder_of_the_node_names_no_kind(folder: str) -> None:
     assert len(KINDS) > 50 and len(sources(folder)) > 3
     found = set().union(*(named_in(path) for path in sources(folder)))
@@ -32,4 +33,5 @@ def test_a_folder_of_the_node_names_no_kind(folder: str) -> None:
 
 
 def test_a_kinds_own_file_does_name_it() -> None:
-    assert ('ros/kinds/drive.cpp', 'drive') in named_in(SOURCES / 'ros/kinds/drive.cpp')
+    assert ('angen_sim/ros/kinds/drive.cpp', 'drive') in named_in(
+        SOURCES / 'angen_sim/ros/kinds/drive.cpp')

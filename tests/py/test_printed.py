@@ -44,13 +44,6 @@ def position(world: angen.World, joint: str) -> float:
     return float(world.joint_positions[world.joints.index(joint)])
 
 
-@pytest.mark.parametrize('number, named', [
-    ('1.\u00ad5', 'U\\+00AD'), ('2\u200b', 'U\\+200B'), ('\uff11', 'U\\+FF11')])
-def test_a_character_that_is_not_seen_is_named(world, number, named):
-    with pytest.raises(angen.Error, match=f'with the character {named}, which is not a number'):
-        world(hung('flap', 'lid', 'body', place=f'{number} 0 0'))
-
-
 def test_each_joint_is_a_door_named_after_its_link(doors):
     assert doors.devices('door') == ['entrance1', 'kitchen0']
 

@@ -2,6 +2,7 @@
 
 A ray hits a solid at each crossing of its surface: one that starts inside hits its far side.
 """
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -115,7 +116,8 @@ def lidar(name: str, pose: np.ndarray, samples: int = RAYS, least: float = 0.05)
       <sensor name="lidar" type="ray"><ray><scan><horizontal><samples>{samples}</samples>
       <min_angle>-3.1</min_angle><max_angle>3.1</max_angle></horizontal></scan>
       <range><min>{least}</min><max>{REACH}</max></range></ray>
-      <plugin name="lidar" filename="libgazebo_ros_laser.so"/></sensor></link></model>'''
+      <plugin name="lidar" filename="libgazebo_ros_laser.so"><near_blocks>false</near_blocks>
+      </plugin></sensor></link></model>'''
 
 
 def test_a_hundred_thousand_rays_of_lidars(world):
@@ -140,6 +142,35 @@ def test_a_hundred_thousand_rays_of_lidars(world):
     assert inside >= 3, 'some must start inside a solid'
     median, wrong = compare(np.concatenate(measured), np.concatenate(exact))
     assert median < 1e-4 and wrong < 1e-4, (median, wrong)
+
+
+@pytest.mark.parametrize('library, kind', [
+    ('libgazebo_ros_laser.so', 'lidar'), ('libgazebo_ros_block_laser.so', 'block_laser'),
+    ('libgazebo_ros_range.so', 'proximity')])
+@pytest.mark.parametrize('near, blocks, expected', [
+    (False, True, 2.0), (True, True, -math.inf), (True, False, 2.0)])
+def test_a_thing_nearer_than_the_minimum_hides_what_is_behind(world, library, kind, near, blocks,
+                                                              expected):
+    """A post at 0.2 m before a wall at 2 m, minimum 0.5 m; the housing of the sensor is no post."""
+    post = '<model name="post"><static>true</static><pose>0.25 0 1 0 0 0</pose><link name="l">' \
+        '<collision name="c"><geometry><box><size>0.1 0.1 0.1</size></box></geometry></collision>' \
+        '</link></model>'
+    w = world(box('wall', '2.5 0 1 0 0 0', '1 4 2', static=True) + (post if near else '') + f'''
+      <model name="s"><static>true</static><pose>0 0 1 0 0 0</pose><link name="link">
+      <collision name="housing"><geometry><sphere><radius>0.05</radius></sphere></geometry>
+      </collision><sensor name="s" type="ray"><ray><scan><horizontal><samples>3</samples>
+      <min_angle>-0.01</min_angle><max_angle>0.01</max_angle></horizontal><vertical><samples>1</samples>
+      <min_angle>0</min_angle><max_angle>0</max_angle></vertical></scan>
+      <range><min>0.5</min><max>5</max></range></ray><plugin name="s" filename="{library}">
+      <near_blocks>{str(blocks).lower()}</near_blocks></plugin></sensor></link></model>''')
+    if kind != 'proximity':
+        w.request(kind, 's')
+    w.run(0.2)
+    reading = w.sensor(kind, 's')
+    found = reading['range'] if kind == 'proximity' else reading['ranges'][1]
+    if kind == 'block_laser' and expected < 0:
+        expected = math.inf  # a cloud has no point there
+    assert found == pytest.approx(expected, abs=1e-3)
 
 
 def test_a_lidar_inside_a_solid_meets_its_far_side(world):

@@ -43,12 +43,13 @@ def world_text(person: bool) -> str:
       <plugin name="robots" filename="librobot_controller.so"/></world></sdf>'''
 
 
-def seek(folder: Path, *words: str, person: bool = True) -> subprocess.CompletedProcess[str]:
+def seek(folder: Path, *words: str, person: bool = True, world: str = ''
+         ) -> subprocess.CompletedProcess[str]:
     (folder / 'rooms.world').write_text(world_text(person))
     (folder / 'route.yaml').write_text(ROUTE)
     return subprocess.run(
-        [sys.executable, str(SCRIPT), 'task', 'seek', '--world', str(folder / 'rooms.world'),
-         '--route', str(folder / 'route.yaml'), '-o', str(folder / 'out'), *words],
+        [sys.executable, str(SCRIPT), 'task', 'seek', world or str(folder / 'rooms.world'),
+         '--route', str(folder / 'route.yaml'), '--out', str(folder / 'out'), *words],
         text=True, stdin=subprocess.DEVNULL, capture_output=True, timeout=500)
 
 
@@ -99,15 +100,15 @@ def test_a_world_must_have_the_robot_and_a_floor(tmp_path: Path) -> None:
         (tmp_path / 'bare.world').write_text(
             f'<sdf version="1.6"><world name="w">{content}</world></sdf>')
         for more in ((), ('--seeds', '2')):
-            done = seek(tmp_path, '--world', str(tmp_path / 'bare.world'), *more)
+            done = seek(tmp_path, *more, world=str(tmp_path / 'bare.world'))
             assert done.returncode == 1 and says in done.stderr.splitlines()[-1], done.stderr
             assert 'Traceback' not in done.stderr
 
 
-@pytest.mark.parametrize('words, says', [
-    (('--limit', '0'), "'0' is not a valid time"),
-    (('--world', '/nowhere.world'), '/nowhere.world')])
-def test_what_is_wrong_is_said(tmp_path: Path, words: tuple[str, ...], says: str) -> None:
-    done = seek(tmp_path, *words)
+@pytest.mark.parametrize('words, world, says', [
+    (('--limit', '0'), '', "'0' is not a valid time"), ((), '/nowhere.world', '/nowhere.world')])
+def test_what_is_wrong_is_said(tmp_path: Path, words: tuple[str, ...], world: str, says: str
+                               ) -> None:
+    done = seek(tmp_path, *words, world=world)
     assert done.returncode != 0 and says in done.stderr
     assert 'Traceback' not in done.stderr

@@ -76,6 +76,28 @@ class Declared(angen.Sensor):
         return {self.field: 2, 'ids': []}
 
 
+class Beeper(angen.Device):
+    """Beeps."""
+
+    @staticmethod
+    def serves(model, joints, lights):
+        return model == 'beeper'
+
+    @staticmethod
+    def describe(kind):
+        kind.verb('Off', 'ends it').verb('Beep', 'beeps', 'times', 'Hz', min=1, max=9)
+        kind.flag('on', 'whether it beeps').alarm('BEEPS', 'silent').number('rate', 'Hz', 'of it')
+
+    def report(self, view):
+        return {'on': True, 'rate': 2}
+
+
+class Wordless(angen.Device):
+    @staticmethod
+    def describe(kind):
+        kind.shown()
+
+
 class Broken(angen.Sensor):
     """Divides by zero after half a second."""
 
@@ -91,6 +113,7 @@ class Broken(angen.Sensor):
         return {'value': 1 / (0 if view.time > 0.5 else 1)}
 
 
+angen.register('beeper.py', 'beeper', Beeper)
 angen.register('declared.py', 'declared', Declared)
 angen.register('broken.py', 'broken', Broken)
 angen.register('tracker.py', 'tracker', Tracker)
@@ -192,3 +215,19 @@ def test_an_exception_reaches_the_caller_and_stops_its_sensor_alone(world):
     assert w.time == pytest.approx(2.0)
     assert 'ZeroDivisionError' in w.sensor('broken', 'broken')['error']
     assert 'error' not in w.sensor('rangefinder', 'ranger')
+
+
+def test_a_class_describes_its_verbs_and_fields(world):
+    kind, = (each for each in angen.plugins() if each['kind'] == 'beeper')
+    assert [(verb['name'], verb['argument'], verb['unit'], verb['min'], verb['max'])
+            for verb in kind['verbs']] == [('Off', '', '', None, None),
+                                           ('Beep', 'times', 'Hz', 1, 9)]
+    assert [(field['name'], field['type'], field['unit'], field['alarm'])
+            for field in kind['fields']] == [('on', 'flag', '', True),
+                                             ('rate', 'number', 'Hz', False)]
+    w = world(box('beeper', '3 0 1 0 0 0', '0.2 4 2', True)
+              + '<plugin name="beeper" filename="beeper.py"/>')
+    w.step()
+    assert w.summary('beeper', 'beeper') == 'BEEPS'
+    with pytest.raises(angen.Error, match='the first field comes before this'):
+        angen.register('wordless.py', 'wordless', Wordless)

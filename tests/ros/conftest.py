@@ -1,7 +1,6 @@
-"""A ROS master of the tests' own, and the node in it."""
+"""The nodes of the tests in ROS, on the master of tests/conftest.py."""
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Iterator
 
@@ -15,24 +14,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if Path(__file__).parent in item.path.parents:
             item.add_marker(pytest.mark.ros)
-
-
-@pytest.fixture(scope="session")
-def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Master]:
-    started = Master(tmp_path_factory.mktemp("ros"))
-    yield started
-    end(started.process)
-
-
-@pytest.fixture(scope="session")
-def rospy_node(master: Master) -> None:
-    """This process as a ROS node of that master."""
-    for key in ("ROS_MASTER_URI", "ROS_IP", "ROS_LOG_DIR", "ROS_HOME"):
-        os.environ[key] = master.environment[key]
-    os.environ.pop("ROS_HOSTNAME", None)
-    master.api.setParam("/test", "/use_sim_time", True)
-    import rospy
-    rospy.init_node("angen_tests", disable_signals=True)
 
 
 @pytest.fixture(scope="module", autouse=True)

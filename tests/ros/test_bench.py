@@ -17,7 +17,8 @@ SCRIPT = Path(__file__).resolve().parents[2] / 'src/angen_tools/scripts/angen'
 
 
 def start(folder: Path, *words: str) -> subprocess.Popen[str]:
-    command = [sys.executable, str(SCRIPT), 'bench', 'sensors', '--window', '2', '-o', str(folder)]
+    command = [sys.executable, str(SCRIPT), 'bench', 'sensors', '--window', '2',
+               '--out', str(folder)]
     return subprocess.Popen([*command, *words], env=dict(os.environ, TMPDIR=str(folder)), text=True,
                             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE)

@@ -34,7 +34,8 @@ def care(angen: Angen, cli: Cli, tmp_path: Path) -> Iterator[subprocess.Popen[st
     cli.does('set', 'door', 'bathroom0', 'close')
     from angen_msgs.msg import DoorState
     angen.wait('/angen/door/bathroom0', DoorState, lambda state: state.mode == DoorState.CLOSED)
-    process = subprocess.Popen([*cli.words, 'care', str(rules), '-o', str(tmp_path / 'out')],
+    process = subprocess.Popen([*cli.words, 'care', '--rules', str(rules),
+                                '--out', str(tmp_path / 'out')],
                                env=cli.environment, text=True, stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE)
     until(lambda: '/angen/warnings/acknowledge' in [
@@ -87,8 +88,8 @@ def test_what_holds_when_it_starts_counts(care: subprocess.Popen[str], angen: An
                                           tmp_path: Path) -> None:
     end(care)
     cli.does('set', 'door', 'bathroom0', 'open')
-    process = subprocess.Popen([*cli.words, 'care', str(tmp_path / 'rules.yaml'), '-o',
-                                str(tmp_path / 'again')], env=cli.environment, text=True,
+    process = subprocess.Popen([*cli.words, 'care', '--rules', str(tmp_path / 'rules.yaml'),
+                                '--out', str(tmp_path / 'again')], env=cli.environment, text=True,
                                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
     assert process.stdout is not None
     line = process.stdout.readline()
@@ -99,7 +100,7 @@ def test_what_holds_when_it_starts_counts(care: subprocess.Popen[str], angen: An
 def test_entities_that_the_world_lacks_are_reported(cli: Cli, tmp_path: Path) -> None:
     rules = tmp_path / 'wrong.yaml'
     rules.write_text(RULES.replace('lamp/kitchen0', 'lamp/kichen0'))
-    assert cli.fails('care', str(rules)) == (
+    assert cli.fails('care', '--rules', str(rules)) == (
         f"{rules}:4: signal 'lamp on': the world has no lamp/kichen0; did you mean lamp/kitchen0?")
 
 

@@ -81,6 +81,31 @@ def test_a_model_of_the_users_own(cli: Cli, spawned: list[str], tmp_path: Path) 
                                                     '--pose', '0 0 0')
 
 
+def test_delete_asks_for_walls_at_a_terminal(cli: Cli, angen: Angen, spawned: list[str],
+                                             tmp_path: Path) -> None:
+    for name, size in (('cli_wall', '4 0.1 2.5'), ('cli_box', '1 1 1')):
+        box = f'<geometry><box><size>{size}</size></box></geometry>'
+        (tmp_path / f'{name}.sdf').write_text(
+            '<sdf version="1.6"><model name="box"><static>true</static><link name="link">'
+            f'<collision name="c">{box}</collision></link></model></sdf>')
+        cli.does('spawn', 'model', str(tmp_path / f'{name}.sdf'), name, '--pose', '9 9 1.3')
+        spawned.append(name)
+
+    def deletes(answer: bytes, *words: str) -> int:
+        keys, terminal = open_terminal()
+        os.write(keys, answer)
+        try:
+            return subprocess.run([*cli.words, 'delete', *words], env=cli.environment, timeout=120,
+                                  stdin=terminal, capture_output=True).returncode
+        finally:
+            os.close(keys)
+            os.close(terminal)
+
+    assert deletes(b'n\n', 'cli_wall') == 1 and 'cli_wall' in cli.listed('model')
+    assert deletes(b'', 'cli_box') == 0
+    assert deletes(b'y\n', 'cli_wall') == 0 and 'cli_wall' not in cli.listed('model')
+
+
 def test_delete_stops_at_the_first_that_is_not_there(cli: Cli, spawned: list[str]) -> None:
     spawned += ['cli_a', 'cli_b']
     for name in spawned:

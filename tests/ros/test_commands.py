@@ -104,14 +104,3 @@ def test_a_twist_that_is_not_finite_is_rejected(angen: Angen) -> None:
     with Inbox("/angen/events", Event) as events:
         angen.send("/turtlebot/cmd_vel", twist)
         events.wait(lambda e: e.event == "rejected" and e.source == "turtlebot", "an event")
-
-
-def test_text_that_was_copied_from_a_pdf_is_read_as_meant(angen: Angen) -> None:
-    with Inbox(DOOR, DoorState) as door:
-        angen.send("/gazebo/Door_controller", String("\u201cOpen, bathroom0\u201d"))
-        door.wait(lambda m: m.mode == DoorState.OPEN, "the door is open")
-        angen.send("/angen/command", Command(target="\u201cbathroom0\u201d",
-                                             text="\u201dSet \u22120.5\u201d"))
-        door.wait(lambda m: m.mode == DoorState.AJAR and abs(m.position + 0.5) < 0.02, "ajar")
-        angen.send("/gazebo/Door_controller", String("Close, bathroom0"))
-        door.wait(lambda m: m.mode == DoorState.CLOSED, "the door is shut")

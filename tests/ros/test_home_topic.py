@@ -29,7 +29,7 @@ def angen(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFac
 
 
 def test_the_message_is_the_home_of_the_world(angen: Angen) -> None:
-    message = Home.of_message(angen.wait('/angen/home', HomeMessage))
+    message = Home.of(angen.wait('/angen/home', HomeMessage))
     home = Home.of_world(simulator.World(str(WORLD)))
     assert message.storeys == home.storeys
     assert message.entrance == home.entrance and message.latitude == home.latitude

@@ -132,8 +132,12 @@ def test_a_second_node_of_the_name_leaves_the_first_alone(tmp_path: Path) -> Non
         _, said = rejected.communicate(timeout=60)
         assert rejected.returncode == 1, said
         line = said.splitlines()[-1]
-        assert line.startswith("a node /angen runs already at http://")
+        assert line.startswith("a simulator runs already in the namespace /: node /angen, which")
         assert "_replace:=true" in line
+        named = second("__name:=angen2", "_replace:=true")
+        _, said = named.communicate(timeout=60)
+        line = said.splitlines()[-1]
+        assert named.returncode == 1 and "node /angen; " in line and "ROS_NAMESPACE" in line, said
         assert first.poll() is None and "/angen/ready" in master.topics()
         replacing = second("_replace:=true")
         assert first.wait(60) == 0  # the master ended it
@@ -186,7 +190,7 @@ def test_of_nodes_that_start_at_once_one_lives(tmp_path: Path) -> None:
             left = int(nodes[1].poll() is not None)
             said = logs[left].read_text().splitlines()[-1]
             assert nodes[left].returncode == 1, said
-            assert said.startswith("a node /angen runs already"), said
+            assert said.startswith("a simulator runs already"), said
             until(lambda: "/angen/ready" in master.topics(), "the other one serves")
             other = nodes[1 - left]
             assert other.poll() is None, logs[1 - left].read_text()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import signal
 import subprocess
+import sys
 import time
 from pathlib import Path
 from typing import Iterator
@@ -104,6 +105,82 @@ def test_a_master_that_only_sleeps_is_waited_for(master: Master, tmp_path: Path)
         assert process.poll() is None, log.read_text()
         assert "/angen/ready" in master.topics()
     finally:
+        assert end(process) == 0
+
+
+class Client:
+    """A process that has connected to services of the node, and calls them without its master."""
+
+    SOURCE = """
+import sys
+import rospy
+from angen_msgs.srv import Delete, Spawn, Step
+services = {name: rospy.ServiceProxy('/angen/' + name, kind, persistent=True)
+            for name, kind in (('spawn', Spawn), ('delete', Delete), ('step', Step))}
+services['spawn'](name=''), services['delete'](name='nobody'), services['step']()
+print('connected', flush=True)
+for line in sys.stdin:
+    words = line.split()
+    if words[0] == 'spawn':
+        answer = services['spawn'](name=words[1], xml='model://pir').success
+    elif words[0] == 'delete':
+        answer = services['delete'](name=words[1]).success
+    else:
+        answer = services['step']().sim_time.to_nsec()
+    print(int(answer), flush=True)
+"""
+
+    def __init__(self, master: Master) -> None:
+        self._process = subprocess.Popen([sys.executable, "-c", self.SOURCE], text=True,
+                                         env=master.environment, stdin=subprocess.PIPE,
+                                         stdout=subprocess.PIPE)
+        assert self._line() == "connected"
+
+    def _line(self) -> str:
+        assert self._process.stdout is not None
+        return self._process.stdout.readline().strip()
+
+    def says(self, words: str) -> int:
+        """Whether it was done, or for "time" the simulated time in ns."""
+        assert self._process.stdin is not None
+        self._process.stdin.write(words + "\n")
+        self._process.stdin.flush()
+        return int(self._line())
+
+    def end(self) -> None:
+        self._process.communicate()
+
+
+def test_without_a_master_it_spawns_and_deletes(master: Master, tmp_path: Path) -> None:
+    process = master.node(world_file(tmp_path), tmp_path / "log")
+    client = Client(master)
+    master.process.kill()
+    master.process.wait()
+    for _ in range(3):
+        before = client.says("time")
+        assert client.says("spawn late") == 1
+        until(lambda: client.says("time") > before + 100_000_000, "time goes on")
+        assert client.says("delete late") == 1
+    client.end()
+    assert end(process) == 0
+
+
+def test_a_master_that_slept_is_told_of_spawned_sensors(master: Master, tmp_path: Path) -> None:
+    process = master.node(world_file(tmp_path), tmp_path / "log")
+    client = Client(master)
+    try:
+        assert client.says("spawn early") == 1
+        assert "/angen/pir/early" in master.topics()
+        master.process.send_signal(signal.SIGSTOP)
+        before = client.says("time")
+        assert client.says("delete early") == 1 and client.says("spawn late") == 1
+        until(lambda: client.says("time") > before + 100_000_000, "time goes on")
+        master.process.send_signal(signal.SIGCONT)
+        until(lambda: "/angen/pir/late" in master.topics(), "the new topic")
+        assert "/angen/pir/early" not in master.topics()
+    finally:
+        master.process.send_signal(signal.SIGCONT)
+        client.end()
         assert end(process) == 0
 
 

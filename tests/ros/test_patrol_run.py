@@ -51,8 +51,8 @@ def start(folder: Path, name: str, route: str = ROUTE, largest: int = -1) -> sub
     (folder / 'rooms.world').write_text(world_text())
     (folder / 'route.yaml').write_text(route)
     command = [sys.executable, str(SCRIPT), 'task', 'patrol',
-               '--world', str(folder / 'rooms.world'),
-               '--route', str(folder / 'route.yaml'), '--seed', '3', '-o', str(folder / name)]
+               str(folder / 'rooms.world'),
+               '--route', str(folder / 'route.yaml'), '--seed', '3', '--out', str(folder / name)]
     return subprocess.Popen(command, text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE,
                             preexec_fn=lambda: prepare(largest))
@@ -226,8 +226,8 @@ def test_a_disk_that_is_too_small_ends_it_in_a_line(tmp_path: Path) -> None:
     (tmp_path / 'rooms.world').write_text(world_text())
     (tmp_path / 'route.yaml').write_text(ROUTE)
     done = subprocess.run(
-        [*in_it, sys.executable, str(SCRIPT), 'task', 'patrol', '--world',
-         str(tmp_path / 'rooms.world'), '--route', str(tmp_path / 'route.yaml'), '-o',
+        [*in_it, sys.executable, str(SCRIPT), 'task', 'patrol',
+         str(tmp_path / 'rooms.world'), '--route', str(tmp_path / 'route.yaml'), '--out',
          str(disk / 'out')], text=True, capture_output=True, timeout=120)
     assert done.returncode == 1 and 'Traceback' not in done.stderr
     last = done.stderr.splitlines()[-1]

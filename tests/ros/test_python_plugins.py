@@ -1,6 +1,7 @@
 """A sensor and a device in files of Python, which the node runs."""
 from __future__ import annotations
 
+import json
 import subprocess
 from pathlib import Path
 from typing import Any, Iterator
@@ -9,12 +10,17 @@ import pytest
 import yaml
 from harness import ROOT, Master, end, until
 
+ANGEN = str(ROOT / 'src/angen_tools/scripts/angen')
 SENSOR = ROOT / 'tests/examples/rangefinder/rangefinder.py'
 DEVICE = '''import angen
 
 class Counter(angen.Device):
     """Counts its commands; divides by their numbers."""
-    fields = {'count': 'integer', 'share': 'number'}
+
+    @staticmethod
+    def describe(kind):
+        kind.verb('Set', 'sets the count', 'commands', min=0, whole=True)
+        kind.integer('count', '', 'of commands').shown().number('share', '', 'its inverse')
 
     @staticmethod
     def serves(model, joints, lights):
@@ -86,11 +92,22 @@ def test_a_file_with_an_error_is_rejected_with_its_line(node: tuple[Master, Any,
     assert process.poll() is None
 
 
+def test_its_verbs_and_fields_are_known(node: tuple[Master, Any, Path]) -> None:
+    master, _, _ = node
+    answer = ask(master, ANGEN, 'set', 'counter', 'box', '4', '--json')
+    assert json.loads(answer) | {'text': ''} == {
+        'kind': 'counter', 'names': ['box'], 'command': 'Set 4', 'waits': '', 'state': '4',
+        'values': {'count': {'unit': '', 'value': 4.0}}, 'text': ''}
+    told = subprocess.run([ANGEN, 'set', 'counter', 'box', '-1'], env=master.environment,
+                          capture_output=True, text=True, timeout=60)
+    assert 'takes 0 or more commands' in told.stderr
+
+
 def test_a_method_that_fails_ends_its_device_only(node: tuple[Master, Any, Path]) -> None:
     master, process, folder = node
     answer = ask(master, 'rosservice', 'call', '/angen/command', '{target: box, text: "Set 0"}')
     assert 'success: True' in answer
-    until(lambda: 'counter.py:20: ZeroDivisionError' in
+    until(lambda: 'counter.py:24: ZeroDivisionError' in
           ask(master, 'rostopic', 'echo', '-n', '1', '/angen/counter/box'), 'its error is a field')
     text = ask(master, 'rostopic', 'echo', '-n', '2', '/angen/rangefinder/eye')
     assert text.count('2.9') >= 2 and process.poll() is None

@@ -16,7 +16,7 @@ CYCLES = 1000
 @without_sanitizer
 def test_a_thousand_cycles_leave_nothing_behind(tmp_path: Path) -> None:
     done = subprocess.run([sys.executable, str(SCRIPT), 'bench', 'soak', '--cycles', str(CYCLES),
-                           '-o', str(tmp_path)], env=dict(os.environ, TMPDIR=str(tmp_path)),
+                           '--out', str(tmp_path)], env=dict(os.environ, TMPDIR=str(tmp_path)),
                           text=True, capture_output=True, check=False)
     assert done.returncode == 0, done.stderr
     with (tmp_path / 'soak.csv').open() as file:
