@@ -30,15 +30,15 @@ PICTURES = {
     'rviz': Made("xvfb-run -a -s '-screen 0 1500x1060x24' python3 docs/rviz_picture.py"),
     'residents': Made("xvfb-run -a -s '-screen 0 1500x1060x24' python3 docs/residents_picture.py"),
     'web': Made('python3 docs/web_pictures.py'),
-    'care': Made('angen care --world worlds/care/wrong.world --day worlds/care/wrong.csv -o OUT',
+    'care': Made('angen care worlds/care/wrong.world --day worlds/care/wrong.csv --out OUT',
                  {'care.png': 'care.png'}),
-    'locate': Made('angen locate --world worlds/angen.world --for 240 -o OUT',
+    'locate': Made('angen locate worlds/angen.world --for 240 --out OUT',
                    {'locate.png': 'locate.png'}),
     'situations': Made('angen situations --only furniture --plan OUT/situations.png',
                        {'situations.png': 'situations.png'}),
     'task': Made('angen task patrol --out OUT', {'floor_0.png': 'patrol_floor_0.png',
                                                  'floor_1.png': 'patrol_floor_1.png'}),
-    'controllers': Made('angen pid door -o OUT && angen pid elevator -o OUT',
+    'controllers': Made('angen pid door --out OUT && angen pid elevator --out OUT',
                         {'pid_door.png': 'pid_door.png', 'pid_elevator.png': 'pid_elevator.png'}),
 }
 

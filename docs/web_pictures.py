@@ -87,7 +87,8 @@ def show(page: Page, kind: str, name: str) -> None:
 def drag_goal(page: Page) -> None:
     """Sets the robot's goal, as a mouse does."""
     page.press('#tab-robot')
-    page.press('#panel button', 'Set goal …')
+    page.run('''const goals = document.querySelector("#panel .goals");
+        goals.value = ""; goals.dispatchEvent(new Event("change"))''')  # a place …
     begin, end = (page.run('return angen.view.viewpoint.screen(arguments[0])', at)
                   for at in (PLACE, AHEAD))
     actions = ActionChains(page.driver, duration=200)
@@ -134,7 +135,7 @@ def live(sandbox: Sandbox) -> None:
 def replay(sandbox: Sandbox) -> None:
     """A generated day."""
     day = sandbox.folder / 'day'
-    subprocess.run(['angen', 'generate', '--days', '1', '--seed', '7', '-o', str(day)],
+    subprocess.run(['angen', 'generate', '--days', '1', '--seed', '7', '--out', str(day)],
                    check=True, stdout=subprocess.DEVNULL)
     with page_of(sandbox, (WIDTH, HEIGHT), '--replay', str(day)) as page:
         page.run('angen.setTheme("light")')
@@ -147,7 +148,7 @@ def replay(sandbox: Sandbox) -> None:
 def tower(sandbox: Sandbox) -> None:
     """Ten floors."""
     world = sandbox.folder / 'tower.world'
-    subprocess.run(['angen', 'world', 'home', '--storeys', '10', '--apartments', '5', '--rooms',
+    subprocess.run(['angen', 'world', 'home', '--floors', '10', '--apartments', '5', '--rooms',
                     '5', '--sensors', 'seed', '-o', str(world)], check=True,
                    stdout=subprocess.DEVNULL)
     sandbox.node(world, 1.0)

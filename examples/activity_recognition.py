@@ -57,7 +57,8 @@ def main() -> None:
     for seed, profile in ((1, 'retired'), (2, 'worker'), (3, 'retired')):
         homes.append(args.out / f'learn{seed}')
         subprocess.run(['angen', 'generate', '--days', args.days, '--residents', profile,
-                        '--seed', str(seed), '--format', 'csv', '-o', str(homes[-1])], check=True)
+                        '--seed', str(seed), '--format', 'csv', '--out', str(homes[-1])],
+                       check=True)
     tables = [windows(home) for home in homes]
     x, y = pd.concat([t[0] for t in tables[:2]]), pd.concat([t[1] for t in tables[:2]])
     model = RandomForestClassifier(100, min_samples_leaf=3, class_weight='balanced_subsample',
