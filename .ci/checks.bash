@@ -30,6 +30,8 @@ check_flake8() { python3 -m flake8; }
 
 check_mypy() { python3 -m mypy; }
 
+check_catkin_lint() { catkin_lint --offline -W2 src; } # packages as catkin and rosdep expect them
+
 check_tsc() { tsc -p src/angen_apps/jsconfig.json; } # types of the page's JavaScript, as its comments say
 
 check_ctest() { # [WORDS]
@@ -240,11 +242,11 @@ run_coverage() { # [--floor CPP PYTHON]: fails where a smaller share of the line
   set +u
   source "$tree/devel/setup.bash"
   set -u
-  pytest_arguments=(tests --cov=angen_tools --cov=angen_apps --cov=angen_bench "--cov-report=html:$tree/python" --cov-report=term
+  pytest_arguments=(tests --cov=angen_models --cov=angen_tools --cov=angen_apps --cov=angen_bench "--cov-report=html:$tree/python" --cov-report=term
     "--cov-fail-under=${floors[1]}")
   suite ctest check_ctest
   suite pytest check_pytest
-  suite gcovr gcovr --root . --object-directory "$tree" --filter src/angen_sim/ --exclude-unreachable-branches \
+  suite gcovr gcovr --root . --object-directory "$tree" --filter src/angen_ --exclude-unreachable-branches \
     --html-details "$tree/cpp.html" --print-summary --output "$tree/cpp.txt" --fail-under-line "${floors[0]}"
   say "by line: $tree/cpp.html (C++), $tree/python/index.html"
   report
@@ -257,7 +259,7 @@ run_tidy() { # [FILE...]
   install dev
   locked build_tree "$tree" -DCMAKE_UNITY_BUILD=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -- \
     angen_msgs_generate_messages_cpp gazebo_msgs_generate_messages_cpp kobuki_msgs_generate_messages_cpp
-  ((${#files[@]})) || files=("$root/src/angen_sim/")
+  ((${#files[@]})) || files=("$root/src/angen_sim/" "$root/src/angen_gazebo/")
   suite clang-tidy run-clang-tidy -quiet -p "$tree" -j "$(jobs)" \
     -extra-arg=-Wno-unknown-warning-option "${files[@]}"
   report

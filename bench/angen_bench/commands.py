@@ -77,10 +77,10 @@ def add_commands(commands: Any) -> None:
                          default='added',
                          help='added: they are in the world when it starts; deployed: spawned '
                          'while it runs; both: one after the other, and all in one figure; '
-                         'desired: flats with every sensor that they should have, '
+                         'desired: floors with every sensor that they should have, '
                          'of all kinds (added)')
     sensors.add_argument('--counts', metavar='N,N,…', type=checked(counts),
-                         help='of sensors (0,1,10,50,100,200,500), with desired of flats '
+                         help='of sensors (0,1,10,50,100,200,500), with desired of floors '
                          '(1,2,3,10)')
     sensors.add_argument('--repeats', metavar='N', type=checked(at_least(1, 1000)), default=3,
                          help='of each count; figures are medians (3)')

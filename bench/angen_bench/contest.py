@@ -19,17 +19,18 @@ from angen_bench.measure import Meter, load, share, topic_of
 from angen_bench.report import Session as OwnSession
 from angen_bench.report import combine
 from angen_bench.sensors import WARM_UP, Bench, Case, rate_of, robot_round
+from angen_models.devices import SEPARATION, WHEEL_RADIUS
+from angen_models.sdf import numbers
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
 from angen_tools.common.output import as_json
 from angen_tools.common.progress import Steps
 from angen_tools.common.wait import wait
-from angen_tools.live.client import Client, Mailbox
+from angen_tools.session.live import Live
 from angen_tools.live.sandbox import Sandbox
-from angen_tools.live.spawn import call_spawn
 from angen_tools.world import sdf
 from angen_tools.world.models import find
-from angen_tools.world.placing import Placement, generator
+from angen_tools.world.placing import Placement
 
 LEAST_READINGS = 5  # a sensor, for a share to be meaningful
 TRIALS = 3  # spawns and deletions a repeat
@@ -103,9 +104,9 @@ def _speed(sensors: Sequence[Placement], first: Tick, last: Tick) -> tuple[float
 
 def _wheels() -> tuple[float, float]:
     """rad/s of the left and the right wheel on the robot's round."""
-    (speed, turn), robot = robot_round(), generator('devices')
-    return ((speed - turn * robot.SEPARATION / 2) / robot.WHEEL_RADIUS,
-            (speed + turn * robot.SEPARATION / 2) / robot.WHEEL_RADIUS)
+    speed, turn = robot_round()
+    return ((speed - turn * SEPARATION / 2) / WHEEL_RADIUS,
+            (speed + turn * SEPARATION / 2) / WHEEL_RADIUS)
 
 
 def _new_model() -> str:
@@ -117,33 +118,29 @@ def _new_model() -> str:
     model = root.find('model')
     model.set('name', NEW.name)
     pose = etree.Element('pose')
-    pose.text = generator('sdf').numbers(*NEW.pose)
+    pose.text = numbers(*NEW.pose)
     model.insert(0, pose)
     return sdf.text(root)
 
 
-def _spawn_and_delete(meter: Meter, client: Client) -> tuple[float, float]:
+def _spawn_and_delete(meter: Meter, client: Live) -> tuple[float, float]:
     """ms from the call to the first message of the new topic, and to the event of the deletion."""
-    from angen_msgs.srv import Delete
     topic = topic_of(NEW)
-    news = Mailbox(client)
-    news.subscribe('/angen/events', 'angen_msgs/Event')
-    news.connected('/angen/events')
+    client.events()
     meter.subscribe([topic])
     readings, ends = [], []
     for trial in range(TRIALS):
         meter.first.pop(topic, None)
         ordered = time.monotonic()
-        call_spawn(client, NEW.name, f'model://{NEW.model}', '', NEW.pose)
+        client.spawn(NEW.name, f'model://{NEW.model}', NEW.pose)
         wait(lambda: topic in meter.first, 'a spawned sensor has not published', NEWS_LIMIT)
         readings.append(1000 * (meter.first[topic] - ordered))
         ordered = time.monotonic()
-        client.call('/angen/delete', Delete, name=NEW.name)
-        if not news.until(lambda _, event: (event.source, event.event) == (NEW.name, 'deleted'),
-                          NEWS_LIMIT):
+        client.delete(NEW.name)
+        if not client.until(lambda: any((event.source, event.event) == (NEW.name, 'deleted')
+                                        for event in client.events()), NEWS_LIMIT):
             raise Failure('the deletion of a sensor is not published on /angen/events')
         ends.append(1000 * (time.monotonic() - ordered))
-    news.unsubscribe('/angen/events')
     return median(readings), median(ends)
 
 

@@ -39,7 +39,7 @@ def default_chroot() -> Path:
 
 def script() -> Path:
     """The program that makes the chroot."""
-    return Path(__file__).resolve().parent.parent / 'gazebo/make_chroot'
+    return Path(__file__).resolve().parent / 'chroot/make_chroot'
 
 
 def prepare(root: Path) -> None:

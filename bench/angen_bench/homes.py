@@ -88,7 +88,7 @@ def in_world(imported: Imported) -> dict[str, int]:
             'doorOrWindow': counts['doors'] + counts['windows'] + counts['openings'] - sum(
                 opening.source == 'passage' for opening in imported.plan.all_openings()),
             'light': counts['lamps'],
-            'level': counts['storeys'] if len(imported.plan.storeys) > 1 else 0,
+            'level': counts['floors'] if len(imported.plan.storeys) > 1 else 0,
             'pieceOfFurniture': counts['pieces']}
 
 
@@ -105,7 +105,6 @@ def areas_in_file(xml: bytes) -> list[float]:
 
 def through(world: Any, plan: Plan) -> dict[str, bool]:
     """For each opening, whether a ray passes its middle from one face of the wall to the other."""
-    from angen_apps.maps.rays import Caster
     names, origins, directions, reach = [], [], [], []
     for opening in plan.all_openings():
         low, high = opening.band[0] - 0.06, opening.band[1] + 0.06
@@ -120,7 +119,7 @@ def through(world: Any, plan: Plan) -> dict[str, bool]:
         reach.append(high - low)
     if not names:
         return {}
-    ranges = Caster(world).cast(np.array(origins), np.array(directions), np.array(reach))
+    ranges = world.cast(np.array(origins), np.array(directions), np.array(reach))
     return {name: bool(r >= far - 1e-6) for name, r, far in zip(names, ranges, reach)}
 
 

@@ -19,15 +19,15 @@ from angen_bench import listeners
 from angen_bench.measure import load as cpu_load
 from angen_bench.measure import machine_time
 from angen_bench.report import REAL_TIME, cell
+from angen_models import plan
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_csv
 from angen_tools.common.output import as_json, show, table
 from angen_tools.common.progress import Steps
 from angen_tools.common.wait import wait
-from angen_tools.live.client import Client
+from angen_tools.session.live import Live
 from angen_tools.live.sandbox import Sandbox, end
 from angen_tools.world.apartment import write_apartment
-from angen_tools.world.placing import generator
 
 FLOORS = 10
 SEED = 1
@@ -95,7 +95,7 @@ def quantile(values: Sequence[float], share: float) -> float:
 class Watch:
     """The seconds of a node, by its /angen/stats. A context: its end unsubscribes."""
 
-    def __init__(self, client: Client, node: subprocess.Popen[bytes]) -> None:
+    def __init__(self, client: Live, node: subprocess.Popen[bytes]) -> None:
         import psutil
         import rospy
 
@@ -167,7 +167,7 @@ class Callers:
             thread.join(STATS_LIMIT)
 
 
-def start_calls(callers: Callers, client: Client) -> None:
+def start_calls(callers: Callers, client: Live) -> None:
     """Commands to doors, spawns and deletions of sensors."""
     import rospy
     from geometry_msgs.msg import Point, Pose, Quaternion
@@ -185,7 +185,6 @@ def start_calls(callers: Callers, client: Client) -> None:
     there: deque[tuple[float, str]] = deque()
     command = service('/angen/command', SendCommand)
     spawn, delete = service('/angen/spawn', Spawn), service('/angen/delete', Delete)
-    plan = generator('plan')
 
     def one_command() -> Any:
         target, verb = rng.choice(targets)
@@ -227,7 +226,7 @@ def run(sandbox: Sandbox, topics: str, sensors: int, seconds: float) -> Row:
     with ExitStack() as open_now:
         node = sandbox.node(world, 1.0, topics=topics)
         open_now.callback(end, node)
-        client = Client()
+        client = Live()
         watch = open_now.enter_context(Watch(client, node))
         wait(lambda: bool(watch.seconds) and watch.seconds[-1].sim >= SETTLED,
              'the world has not come to rest', SETTLE_LIMIT)

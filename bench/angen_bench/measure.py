@@ -11,8 +11,7 @@ from typing import Any, Callable, Sequence
 
 from angen_tools.common.failure import Failure
 from angen_tools.common.wait import wait
-from angen_tools.live.client import Client
-from angen_tools.live.spawn import call_spawn
+from angen_tools.session.live import Live
 from angen_tools.world.placing import Placement
 
 SUBSCRIBED = 10  # topics that are subscribed to; more would measure the subscriber
@@ -47,7 +46,7 @@ def machine_time() -> float:
 class Meter:
     """Watches a node. A context: its end takes the subscriptions away."""
 
-    def __init__(self, client: Client, server: subprocess.Popen[bytes]) -> None:
+    def __init__(self, client: Live, server: subprocess.Popen[bytes]) -> None:
         import psutil
         import rospy
 
@@ -171,7 +170,7 @@ def spread(sensors: Sequence[Placement], most: int) -> list[Placement]:
     return list(sensors[::step])
 
 
-def handled(client: Client, limit: float = 6 * STATS_LIMIT) -> None:
+def handled(client: Live, limit: float = 6 * STATS_LIMIT) -> None:
     """Returns when the simulator has handled all that it has received. The tick in which lamps
     shine on many sensors for the first time takes longer than a service waits."""
     end = time.monotonic() + limit
@@ -185,14 +184,14 @@ def handled(client: Client, limit: float = 6 * STATS_LIMIT) -> None:
             time.sleep(1.0)
 
 
-def deploy(client: Client, meter: Meter, sensors: Sequence[Placement]) -> Deployed:
+def deploy(client: Live, meter: Meter, sensors: Sequence[Placement]) -> Deployed:
     """Spawns the sensors one after the other; those with a subscriber show how soon they read."""
     watched = {topic_of(s) for s in spread(sensors, SUBSCRIBED)}
     subscribed: dict[str, float] = {}
     start, (server, viewer) = time.monotonic(), meter.processor()
     for sensor in sensors:
         subscribed[topic_of(sensor)] = time.monotonic()
-        call_spawn(client, sensor.name, f'model://{sensor.model}', '', sensor.pose)
+        client.spawn(sensor.name, f'model://{sensor.model}', sensor.pose)
     seconds, (server_end, viewer_end) = time.monotonic() - start, meter.processor()
     wait(lambda: watched <= meter.first.keys(), 'a spawned sensor has not published', STATS_LIMIT)
     waits = [1000 * (meter.first[topic] - subscribed[topic]) for topic in watched]

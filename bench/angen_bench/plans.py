@@ -102,6 +102,6 @@ def scans(folder: Path) -> list[Case]:
 
 def in_plan(case: Case, plan: Plan, counts: dict[str, int]) -> dict[str, int]:
     """The parts of `case.said` that were built."""
-    built = {'wall': counts['walls'], 'door': counts['doors'], 'level': counts['storeys'],
+    built = {'wall': counts['walls'], 'door': counts['doors'], 'level': counts['floors'],
              'lift': counts['lifts'], 'room': counts['rooms']}
     return {key: built[key] for key in case.said}

@@ -34,7 +34,7 @@ class Session:
 
 @dataclass
 class Row(Session):
-    """The medians of a count's repeats. `count` is of sensors, or with `desired` of flats."""
+    """The medians of a count's repeats. `count` is of sensors, or with `desired` of floors."""
     mode: str = ''
     kind: str = ''
     count: int = 0
@@ -130,9 +130,9 @@ def _percent(value: float | None) -> str:
 
 
 def describe_fit(rows: Sequence[Row]) -> list[str]:
-    """The cost of one more sensor, or flat, for the server and the client; of the rows in real
+    """The cost of one more sensor, or floor, for the server and the client; of the rows in real
     time, as a processor that is full shows no cost."""
-    thing = 'flat' if rows and rows[0].mode == 'desired' else 'sensor'
+    thing = 'floor' if rows and rows[0].mode == 'desired' else 'sensor'
     slow = [row.count for row in rows if not row.real_time]
     lines = [f'not fitted, as not in real time: {", ".join(map(str, slow))}'] if slow else []
     for who in ('server', 'client'):
@@ -157,12 +157,12 @@ def draw(path: Path, rows: Sequence[Row]) -> None:
         len(panels), 1, sharex=True, squeeze=False, figsize=(6.4, 1 + 2.2 * len(panels)),
         layout='constrained')
     for axis, panel in zip(axes[:, 0], panels):
-        _panel(axis, panel, rows, 'flat' if desired else 'sensor')
+        _panel(axis, panel, rows, 'floor' if desired else 'sensor')
     axes[-1, 0].xaxis.set_major_locator(MaxNLocator(integer=True))
-    axes[-1, 0].set_xlabel('flats' if desired else f'{rows[0].kind} sensors')
+    axes[-1, 0].set_xlabel('floors' if desired else f'{rows[0].kind} sensors')
     figure.suptitle({'added': 'Sensors in the world when it starts',
                      'deployed': 'Sensors spawned while it runs',
-                     'desired': 'Flats with all the sensors that they should have'}[rows[0].mode])
+                     'desired': 'Floors with all the sensors that they should have'}[rows[0].mode])
     files.save_figure(figure, path, dpi=100)
 
 

@@ -14,15 +14,16 @@ from angen_bench.measure import (SUBSCRIBED, Meter, Sample, client_load, deploy,
                                  load, share, spread, topic_of)
 from angen_bench.report import (Row, Session, as_cells, combine, describe, describe_fit, draw,
                                 draw_together, write_csv)
+from angen_models import plan
 from angen_tools.common.failure import Failure
 from angen_tools.common.output import as_json
 from angen_tools.common.progress import Steps
-from angen_tools.live.client import Client
+from angen_tools.session.live import Live
 from angen_tools.live.sandbox import Sandbox, end
 from angen_tools.world import sdf
 from angen_tools.world.apartment import apartment, write_apartment
 from angen_tools.world.models import find
-from angen_tools.world.placing import KINDS, Placement, floors_for, generator
+from angen_tools.world.placing import KINDS, Placement, floors_for
 
 FLOORS = 2
 SEED = 1
@@ -34,7 +35,7 @@ COUNTS['deployed'] = COUNTS['added']
 
 @dataclass(frozen=True)
 class Case:
-    """One world: a count of a kind, or a number of flats with all that it should have."""
+    """One world: a count of a kind, or a number of floors with all that it should have."""
     mode: str
     kind: str
     count: int
@@ -69,7 +70,7 @@ def cases(mode: str, kind: str, counts: Sequence[int] | None, mover: str = 'pers
     counts = sorted(set(counts if counts is not None else COUNTS[mode]))
     if mode == 'desired':
         if counts[0] < 1:
-            raise Failure('desired counts flats; give 1 or more')
+            raise Failure('desired counts floors; give 1 or more')
         return [[Case(mode, 'all', count, count) for count in counts]]
     groups = []
     for name in KINDS if kind == 'all' else (kind,):
@@ -123,7 +124,7 @@ class Bench:
         write_apartment(self.world, case.floors, {} if deployed else case.counts, SEED,
                         case.elevator and not deployed, case.mover, one_link)
 
-    def in_time(self, case: Case, found: Session, meter: Meter, client: Client) -> None:
+    def in_time(self, case: Case, found: Session, meter: Meter, client: Live) -> None:
         """The cost of a node at rate 1."""
         sensors = case.sensors()
         subscribed = spread(sensors, SUBSCRIBED)
@@ -150,7 +151,7 @@ class Bench:
         found.received = share(last.received - first.received,
                                expected(case, subscribed, first.sim, last.sim))
 
-    def fast(self, case: Case, found: Session, meter: Meter, client: Client) -> None:
+    def fast(self, case: Case, found: Session, meter: Meter, client: Live) -> None:
         """The speed of a node at rate 0."""
         sensors = case.sensors()
         if case.mode == 'deployed' and sensors:
@@ -167,13 +168,13 @@ class Bench:
         return last.readings - first.readings - self.furniture * (last.sim - first.sim)
 
     def start(self, open_now: ExitStack, case: Case, rate: float, shows: bool
-              ) -> tuple[Meter, Client]:
+              ) -> tuple[Meter, Live]:
         """A node with the case's world and all lamps on, and with rviz if it `shows`."""
         from geometry_msgs.msg import Twist, Vector3
         from std_msgs.msg import String
         node = self.sandbox.node(self.world, rate)
         open_now.callback(end, node)
-        client = Client()
+        client = Live()
         meter = open_now.enter_context(Meter(client, node))
         self._send(open_now, client, '/gazebo/Light_controller', String('On, all'))
         if case.mover == 'robot':
@@ -190,7 +191,7 @@ class Bench:
         return meter, client
 
     @staticmethod
-    def _send(open_now: ExitStack, client: Client, topic: str, message: Any) -> None:
+    def _send(open_now: ExitStack, client: Live, topic: str, message: Any) -> None:
         publisher = client.publisher(topic, type(message))
         open_now.callback(publisher.unregister)
         publisher.publish(message)
@@ -207,7 +208,6 @@ def expected(case: Case, sensors: Sequence[Placement], begin: float, end: float)
 
 def robot_round() -> tuple[float, float]:
     """m/s and rad/s of the robot that moves in a bench's world."""
-    plan = generator('plan')
     return plan.ROUND_SPEED, plan.ROUND_SPEED / plan.ROUND[2]
 
 

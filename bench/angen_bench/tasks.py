@@ -29,7 +29,7 @@ def measure(folder: Path, files: Sequence[Path] = ()) -> list[dict[str, Any]]:
             for name, words in TASKS.items():
                 progress.update(i / len(plans), f'{case.name}: {name}')
                 row = {'plan': case.name, 'task': name,
-                       **run([*words, '--world', str(world)], folder / f'{world.stem}_{name}')}
+                       **run([*words, str(world)], folder / f'{world.stem}_{name}')}
                 progress.note(', '.join(f'{key} {value}' for key, value in row.items()))
                 rows.append(row)
     return rows

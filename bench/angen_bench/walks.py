@@ -10,8 +10,7 @@ from typing import Any, Mapping
 import numpy as np
 from scipy.ndimage import label
 
-from angen_apps.plan.shapes import read_shapes
-from angen_bench.free_map import CELL, STEP_OVER, TALL, free_map
+from angen_bench.free_map import CELL, free_map, solids
 
 BODY = 0.25  # m, half a person's width
 ROOMY = 0.32  # m from a place to something, at best
@@ -108,10 +107,8 @@ def _doorway(door: Mapping[str, Any], named: Mapping[str, Mapping[str, Any]]) ->
 def _beside(path: Path, door: Mapping[str, Any]) -> list[str]:
     """The models beside a door, walls among them."""
     x, y, z, _ = door['pose']
-    shapes = read_shapes(path)
-    return sorted({shape.model for shape in shapes.solids if shape.model not in shapes.moving
-                   and shape.bottom < z + TALL and shape.top > z + STEP_OVER
-                   and not all(hypot(px - x, py - y) > BESET for px, py in shape.corners)})
+    return sorted({shape.model for shape in solids(path, z)
+                   if not all(hypot(px - x, py - y) > BESET for px, py in shape.corners)})
 
 
 def _there_and_back(text: str, z: float, door: Mapping[str, Any], first: Spot, second: Spot
