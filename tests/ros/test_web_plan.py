@@ -164,7 +164,9 @@ def test_taps_on_doors_hit_doors(home: Angen, page: Page, kind: str) -> None:
 
 
 @pytest.mark.parametrize('kind', SIZES)
-def test_what_is_near_a_tap_is_found_and_a_room_in_the_open(page: Page, kind: str) -> None:
+def test_what_is_near_a_tap_is_found_and_a_room_in_the_open(home: Angen, page: Page, kind: str) -> None:
+    home.call('/gazebo/pause_physics', Empty)  # the person would walk to where nobody was
+    page.until('return angen.home.stats.paused')
     page.driver.set_window_size(*SIZES[kind])
     page.run('angen.setStorey(0); angen.card.close()')
     x, y = page.run(f'''{AT} const e = angen.home.entities.find((e) => e.kind === "lamp"
@@ -175,15 +177,17 @@ def test_what_is_near_a_tap_is_found_and_a_room_in_the_open(page: Page, kind: st
         found.append(page.until('return document.querySelector("#card h2")?.textContent'))
         page.run('angen.card.close()')
     assert found == ['bedroom0', 'bedroom0']
-    free = page.run(f'''{AT} for (const r of angen.home.rooms.filter((r) => r.storey === 0))
+    free = page.run(f'''{AT} const pixel = (x, y) => at(x, y).map(Math.round);
+        for (const r of angen.home.rooms.filter((r) => r.storey === 0))
         for (let x = r.polygon[0][0] - 6; x < r.polygon[0][0] + 6; x += 0.1)
             for (let y = r.polygon[0][1] - 6; y < r.polygon[0][1] + 6; y += 0.1)
                 if ([-0.1, 0.1].every((d) => angen.home.roomAt(x + d, y + d, 0.1) === r)
-                    && !angen.plan.hit(...at(x, y)).entity)
-                    return [r.name, ...at(x, y)]''')
+                    && !angen.plan.hit(...pixel(x, y)).entity)
+                    return [r.name, ...pixel(x, y)]''')
     tap(page, kind, [free[1:]])
-    assert page.run('return angen.card.shown.room.name') == free[0]
+    assert page.until('return angen.card.shown?.room?.name') == free[0]
     page.run('angen.card.close()')
+    home.call('/gazebo/unpause_physics', Empty)
 
 
 @pytest.mark.parametrize('kind', SIZES)
