@@ -79,12 +79,13 @@ function(angen_plugin file)
           DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION} OPTIONAL)
 endfunction()
 
-# angen_plugin_folder(NAME more sources...): the plug-in libraries of one folder. A source that begins with the line
+# angen_plugin_folder(NAME more sources... [USES modules...]): the plug-in libraries of one folder. A source that begins with the line
 # `// libX.so` is, with all others that begin so, the plug-in library X; further names on this line, or on a second one,
 # are links to it. What no library has is what they share: the module angen_NAME.
 function(angen_plugin_folder name)
   file(GLOB sources CONFIGURE_DEPENDS *.cpp */*.cpp)
-  set(shared ${ARGN})
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "USES")
+  set(shared ${arg_UNPARSED_ARGUMENTS})
   set(libraries)
   foreach(source ${sources})
     file(STRINGS ${source} names REGEX "^// lib[a-z0-9_]+\\.so( lib[a-z0-9_]+\\.so)*$")
@@ -99,7 +100,7 @@ function(angen_plugin_folder name)
     list(APPEND sources_of_${library} ${source})
     list(APPEND links_of_${library} ${names})
   endforeach()
-  angen_module(${name} SOURCES ${shared} USES plugin)
+  angen_module(${name} SOURCES ${shared} USES plugin ${arg_USES})
   list(REMOVE_DUPLICATES libraries)
   foreach(library ${libraries})
     angen_plugin(${library} ${sources_of_${library}})

@@ -1,11 +1,11 @@
 // The limbs of a person who walks swing against each other, and hang down when it stands.
-#include "devices/gait.h"
+#include "people/gait.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-namespace angen::devices {
+namespace angen::people {
 namespace {
 
 const Vec3 kFoot(0.0, 0.09, 0.05);
@@ -56,4 +56,4 @@ TEST(Gait, WhoStandsOrIsPlacedElsewhereTakesNoStep) {
 }
 
 }  // namespace
-}  // namespace angen::devices
+}  // namespace angen::people

@@ -1,4 +1,4 @@
-#include "devices/surroundings.h"
+#include "people/surroundings.h"
 
 #include <algorithm>
 #include <array>
@@ -9,28 +9,35 @@
 #include <queue>
 #include <utility>
 
+#include "people/floor_map.h"
 #include "plugin/view.h"
 
-namespace angen::devices {
+namespace angen::people {
 
 namespace {
 
 using Vec2 = Surroundings::Vec2;
 
 constexpr int kDirections = 48;
-constexpr double kKnee = 0.5;                                // m
-constexpr double kChest = 1.2;                               // m
-constexpr double kHeights[] = {0.15, kKnee, 0.738, kChest};  // m; one is in the tops of tables
-constexpr double kLow = 0.2;                                 // m, of what is walked over
-constexpr double kHead = 1.6;                                // m
-constexpr double kBeyond = 0.1;                              // m
-constexpr double kGraze = 1e-3;                              // m
-constexpr double kOwn = 0.255;                               // m, up to the person's own surface
-constexpr double kOwnPlace = 0.1;    // m: who is nearer is the person itself
-constexpr double kSameStorey = 1.0;  // m, between the feet of two people
+constexpr double kKneeHeight = 0.5;  // m
+constexpr double kChest = 1.2;       // m
+constexpr double kHeights[] = {0.15, kKneeHeight, 0.738,
+                               kChest};  // m; one is in the tops of tables
+constexpr double kBeyond = 0.1;          // m
+constexpr double kGraze = 1e-3;          // m
+constexpr double kOwn = 0.255;           // m, up to the person's own surface
+constexpr double kOwnPlace = 0.1;        // m: who is nearer is the person itself
+constexpr double kSameStorey = 1.0;      // m, between the feet of two people
+
+// m around: where it looks for the end of the floor, by turns; who runs needs the way to stop.
+constexpr double kEdgesAt[] = {0.6, 1.3};
+constexpr double kEdgeWide = 0.15;  // m: a gap that is narrower is stepped over
+constexpr double kAbove = 0.2;      // m above its feet, where that look begins
+constexpr double kDrop = 0.4;       // m: it steps down less than this
+constexpr int kEdgeHalvings = 6;    // an edge is found to 1 or 2 cm
 
 constexpr float kSlope = 0.94F;      // cosine of 20 degrees: a less steep surface is walked up
-constexpr double kStride = 0.1;      // m, in which a slope is looked at …
+constexpr double kSlopeStep = 0.1;   // m, in which a slope is looked at …
 constexpr double kRise = 0.05;       // m … and rises or falls at most
 constexpr double kStepAhead = 0.35;  // m, of a step aside
 constexpr double kStepAside = 0.6;   // m, at most
@@ -40,16 +47,20 @@ constexpr double kCell = 0.1;  // m
 constexpr int kHalf = 30;      // cells from the middle to the edge
 constexpr int kSide = 2 * kHalf + 1;
 constexpr std::size_t kCells = std::size_t{kSide} * kSide;
-constexpr double kWide = 0.33;    // m
-constexpr double kRoomy = 0.5;    // m: nearer to something costs more
-constexpr double kTight = 3.0;    // cost a meter, per meter nearer than kRoomy
-constexpr double kLeft = 0.3;     // cost a meter, per meter to the left of the straight way
-constexpr double kStuck = 0.15;   // m around the person that it may leave in any case
-constexpr double kNearer = 0.3;   // m, at least, that a way must lead nearer
-constexpr double kLongest = 3.0;  // times the straight way …
-constexpr double kExtra = 2.0;    // … and these meters more
+constexpr double kWide = 0.33;       // m
+constexpr double kRoomy = 0.5;       // m: nearer to something costs more
+constexpr double kTight = 3.0;       // cost a meter, per meter nearer than kRoomy
+constexpr double kLeft = 0.3;        // cost a meter, per meter to the left of the straight way
+constexpr double kStuck = 0.15;      // m around the person that it may leave in any case
+constexpr double kNearer = 0.3;      // m, at least, that a way must lead nearer
+constexpr double kLongestWay = 3.0;  // times the straight way …
+constexpr double kExtra = 2.0;       // … and these meters more
 
 bool is_obstacle(const rays::Hit& hit) { return hit.hit() && hit.normal.z() < kSlope; }
+
+rays::Ray down_at(const Vec3& feet, const Vec2& place) {
+  return {Vec3(place.x(), place.y(), feet.z() + kAbove), -Vec3::UnitZ(), 0.0, kAbove + kDrop};
+}
 
 class Grid {
  public:
@@ -162,8 +173,44 @@ void Surroundings::scan(const View& view, const Vec3& feet) {
     if (!is_obstacle(hits_[i])) continue;
     seen.emplace_back((rays_[i].origin + hits_[i].range * rays_[i].direction).head<2>());
   }
+  find_edges(view, feet, seen);
   fresh_ = seen.size();
   points_.insert(points_.begin(), seen.begin(), seen.end());
+}
+
+// The ends of the floor that it sees, as points that it does not walk over.
+void Surroundings::find_edges(const View& view, const Vec3& feet, std::vector<Vec2>& seen) const {
+  const auto has_floor = [&](const Vec2& place) {
+    std::vector<rays::Hit> hits;
+    view.cast({down_at(feet, place)}, hits);
+    return hits[0].hit();
+  };
+  const double reach = kEdgesAt[turned_ ? 0 : 1];
+  std::vector<Vec2> directions;
+  std::vector<rays::Ray> down;
+  for (std::size_t i = 0; i < rays_.size(); i += std::size(kHeights)) {
+    const auto first = hits_.begin() + static_cast<std::ptrdiff_t>(i);
+    const bool hidden = std::any_of(first, first + std::size(kHeights), [&](const rays::Hit& hit) {
+      return hit.hit() && hit.range < reach + kEdgeWide;
+    });
+    if (hidden) continue;
+    directions.emplace_back(rays_[i].direction.head<2>());
+    down.push_back(down_at(feet, feet.head<2>() + reach * directions.back()));
+  }
+  std::vector<rays::Hit> hits;
+  view.cast(down, hits);
+  for (std::size_t i = 0; i < down.size(); ++i) {
+    const Vec2 at = feet.head<2>();
+    if (hits[i].hit() || has_floor(at + (reach + kEdgeWide) * directions[i])) continue;
+    if (!has_floor(at)) return;  // it falls
+    double floor = 0.0;
+    double edge = reach;
+    for (int half = 0; half < kEdgeHalvings; ++half) {
+      const double middle = 0.5 * (floor + edge);
+      (has_floor(at + middle * directions[i]) ? floor : edge) = middle;
+    }
+    seen.emplace_back(at + edge * directions[i]);
+  }
 }
 
 std::vector<DeviceView> Surroundings::other_people(const View& view, const Vec3& feet) {
@@ -179,7 +226,7 @@ std::vector<DeviceView> Surroundings::other_people(const View& view, const Vec3&
 }
 
 void Surroundings::remove_gone(const View& view, const Vec3& feet, std::vector<Vec2>& points) {
-  constexpr std::size_t kRays = std::size(kHeights);
+  constexpr std::size_t kRays = std::size(kHeights) + 1;
   std::vector<rays::Ray> rays;
   for (const Vec2& point : points) {
     const Vec2 way = point - feet.head<2>();
@@ -187,6 +234,7 @@ void Surroundings::remove_gone(const View& view, const Vec3& feet, std::vector<V
     for (const double height : kHeights) {
       rays.push_back({feet + height * Vec3::UnitZ(), direction, kOwn, way.norm() + kBeyond});
     }
+    rays.push_back(down_at(feet, point));
   }
   std::vector<rays::Hit> hits;
   view.cast(rays, hits);
@@ -194,7 +242,8 @@ void Surroundings::remove_gone(const View& view, const Vec3& feet, std::vector<V
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto first = hits.begin() + static_cast<std::ptrdiff_t>(i * kRays);
     const bool stays = (points[i] - feet.head<2>()).norm() > kSight ||
-                       std::any_of(first, first + kRays, is_obstacle);
+                       std::any_of(first, first + kRays - 1, is_obstacle) ||
+                       !first[kRays - 1].hit();
     if (stays) points[kept++] = points[i];
   }
   points.resize(kept);
@@ -247,7 +296,7 @@ bool Surroundings::is_walkable(const View& view, const Vec3& feet, const Vec2& t
     return view.crossings(from, end, rays::only(rays::Mobility::kStatic));
   };
   const Vec2 way = to - feet.head<2>();
-  const int steps = static_cast<int>(std::ceil(way.norm() / kStride));
+  const int steps = static_cast<int>(std::ceil(way.norm() / kSlopeStep));
   Vec3 last = feet;
   for (int i = 1; i <= steps; ++i) {
     const Vec2 place = feet.head<2>() + (static_cast<double>(i) / steps) * way;
@@ -256,7 +305,7 @@ bool Surroundings::is_walkable(const View& view, const Vec3& feet, const Vec2& t
     if (below.empty() || below[0].normal.z() < kSlope) return false;
     const Vec3 next = above - below[0].enter * Vec3::UnitZ();
     if (std::abs(next.z() - last.z()) > kRise) return false;
-    for (const double height : {kKnee, kChest}) {
+    for (const double height : {kKneeHeight, kChest}) {
       const Vec3 up = height * Vec3::UnitZ();
       if (!crossed(last + up, next + up).empty()) return false;
     }
@@ -284,11 +333,11 @@ std::optional<Surroundings::Vec2> Surroundings::way_round(const Vec2& from, cons
   const double left = (to - grid.place(way.back())).norm();
   const double length = kCell * static_cast<double>(way.size());
   if (straight - left < std::min(kNearer, 0.5 * straight)) return std::nullopt;
-  if (length > kLongest * (straight - left) + kExtra) return std::nullopt;
+  if (length > kLongestWay * (straight - left) + kExtra) return std::nullopt;
   for (std::size_t i = way.size() - 1; i > 1; --i) {
     if (is_free(from, grid.place(way[i]), body)) return grid.place(way[i]);
   }
   return grid.place(way[std::min<std::size_t>(1, way.size() - 1)]);
 }
 
-}  // namespace angen::devices
+}  // namespace angen::people

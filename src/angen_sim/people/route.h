@@ -3,9 +3,9 @@
 #include <utility>
 #include <vector>
 
-#include "devices/floor_map.h"
+#include "people/floor_map.h"
 
-namespace angen::devices {
+namespace angen::people {
 
 /// A way on a map, and how far a person has come on it.
 class Route {
@@ -28,4 +28,4 @@ class Route {
   std::size_t next_ = 0;      // the place of the way nearest to the person
 };
 
-}  // namespace angen::devices
+}  // namespace angen::people

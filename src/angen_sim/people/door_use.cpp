@@ -1,15 +1,15 @@
-#include "devices/door_use.h"
+#include "people/door_use.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <unordered_map>
 
-#include "devices/floor_map.h"
+#include "people/floor_map.h"
 #include "plugin/outputs.h"
 #include "plugin/view.h"
 
-namespace angen::devices {
+namespace angen::people {
 
 namespace {
 
@@ -332,4 +332,4 @@ DoorUse::Advice DoorUse::pass(const Vec2& at, Nanoseconds now, Outputs& outputs)
   return {Advice::Step::kStand, handle()};
 }
 
-}  // namespace angen::devices
+}  // namespace angen::people

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "core/time.h"
-#include "devices/surroundings.h"
+#include "people/surroundings.h"
 
-namespace angen::devices {
+namespace angen::people {
 
 /// A person's surroundings are scanned so often.
 constexpr Nanoseconds kScanPeriod = kSecond / 10;
@@ -28,4 +28,4 @@ class Braking {
   Vec2 along_ = Vec2::Zero();  // … in this direction; zero: not known
 };
 
-}  // namespace angen::devices
+}  // namespace angen::people

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <iterator>
 
-#include "devices/person.h"
+#include "people/person.h"
 #include "plugin/registration.h"
 
-namespace angen::devices {
+namespace angen::people {
 
 const Kind& PersonPlugin::kind() const {
   static const Kind kind =
@@ -17,7 +17,7 @@ const Kind& PersonPlugin::kind() const {
           .pair_verb("PushTo", "x y", "m", {}, "walks there straight, and pushes obstacles")
           .verb("Speak", "speaks until Quiet")
           .verb("Quiet", "speaks no more")
-          .choice("mode", {std::begin(kPersonModes), std::end(kPersonModes)},
+          .choice("mode", {std::begin(kModes), std::end(kModes)},
                   "BLOCKED: an obstacle is in the way")
           .shown()
           .number("x", "m", "in the world")
@@ -42,6 +42,6 @@ bool PersonPlugin::serves(const ModelInfo& model) const {
   return std::find(model.links.begin(), model.links.end(), "body") != model.links.end();
 }
 
-}  // namespace angen::devices
+}  // namespace angen::people
 
-ANGEN_REGISTER_PLUGIN(angen::devices::PersonPlugin)
+ANGEN_REGISTER_PLUGIN(angen::people::PersonPlugin)

@@ -1,10 +1,10 @@
-#include "devices/braking.h"
+#include "people/braking.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace angen::devices {
+namespace angen::people {
 
 namespace {
 
@@ -31,4 +31,4 @@ double Braking::limit(const Surroundings& surroundings, const Vec2& at, const Ve
   return std::sqrt(2.0 * kDeceleration * left * share);
 }
 
-}  // namespace angen::devices
+}  // namespace angen::people

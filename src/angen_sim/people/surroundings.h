@@ -12,10 +12,10 @@ struct DeviceView;
 
 }  // namespace angen
 
-namespace angen::devices {
+namespace angen::people {
 
-/// A person's surroundings: surfaces between shin and chest height, up to kSight away. Hidden
-/// places count as free, and so do slopes that a person walks up.
+/// A person's surroundings: surfaces between shin and chest height, up to kSight away, and where
+/// the floor ends. Hidden places count as free, and so do slopes that a person walks up.
 class Surroundings {
  public:
   using Vec2 = Eigen::Vector2d;
@@ -56,6 +56,7 @@ class Surroundings {
 
  private:
   std::optional<Vec2> way_round(const Vec2& from, const Vec2& to, double body) const;
+  void find_edges(const View& view, const Vec3& feet, std::vector<Vec2>& seen) const;
 
   std::vector<Vec2> points_;  // points of the last scan first
   std::size_t fresh_ = 0;     // number of points of the last scan
@@ -64,4 +65,4 @@ class Surroundings {
   std::vector<rays::Hit> hits_;
 };
 
-}  // namespace angen::devices
+}  // namespace angen::people

@@ -3,7 +3,7 @@
 #include "core/anatomy.h"
 #include "core/pose.h"
 
-namespace angen::devices {
+namespace angen::people {
 
 /// The swing of the limbs of a walking person: thighs, shanks, upper arms and forearms, left and
 /// right. Those of a standing person do not swing.
@@ -26,4 +26,4 @@ class Gait {
   double swing_ = 0.0;  // rad, of the thighs to both sides
 };
 
-}  // namespace angen::devices
+}  // namespace angen::people

@@ -4,7 +4,7 @@
 
 #include "core/time.h"
 
-namespace angen::devices {
+namespace angen::people {
 
 /// Waypoints on the floor, in straight lines, each reached at its time.
 class Path {
@@ -39,4 +39,4 @@ class Path {
   bool loop_ = false;
 };
 
-}  // namespace angen::devices
+}  // namespace angen::people

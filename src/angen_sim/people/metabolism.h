@@ -1,6 +1,6 @@
 #pragma once
 
-namespace angen::devices {
+namespace angen::people {
 
 /// Heat and vapor that a person gives to the air of a room.
 struct Metabolism {
@@ -16,4 +16,4 @@ double metabolic_rate(double speed);
 /// body of 1.8 m^2: ISO 7730, 4.1.
 Metabolism metabolism(double rate, double celsius, double humidity);
 
-}  // namespace angen::devices
+}  // namespace angen::people

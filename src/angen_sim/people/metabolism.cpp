@@ -1,4 +1,4 @@
-#include "devices/metabolism.h"
+#include "people/metabolism.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 #include "devices/room_air.h"
 
-namespace angen::devices {
+namespace angen::people {
 
 namespace {
 
@@ -31,7 +31,7 @@ double metabolic_rate(double speed) {
 }
 
 Metabolism metabolism(double rate, double celsius, double humidity) {
-  const double pressure = vapor_pressure(celsius, humidity);
+  const double pressure = devices::vapor_pressure(celsius, humidity);
   const double diffusion = std::max(0.0, 3.05e-3 * (5733.0 - 6.99 * rate - pressure));
   const double sweat = 0.42 * std::max(0.0, rate - 58.15);
   const double breath = std::max(0.0, 1.7e-5 * rate * (5867.0 - pressure));
@@ -39,4 +39,4 @@ Metabolism metabolism(double rate, double celsius, double humidity) {
   return {kBodyArea * rate - moist, 3600.0 * moist / kEvaporation};
 }
 
-}  // namespace angen::devices
+}  // namespace angen::people

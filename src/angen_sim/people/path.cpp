@@ -1,4 +1,4 @@
-#include "devices/path.h"
+#include "people/path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "plugin/plugin.h"
 
-namespace angen::devices {
+namespace angen::people {
 
 namespace {
 
@@ -74,4 +74,4 @@ bool Path::is_pause(const Waypoint& from, const Waypoint& to) {
   return std::hypot(to.x - from.x, to.y - from.y) < kNear;
 }
 
-}  // namespace angen::devices
+}  // namespace angen::people

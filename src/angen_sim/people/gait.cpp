@@ -1,10 +1,10 @@
-#include "devices/gait.h"
+#include "people/gait.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace angen::devices {
+namespace angen::people {
 
 namespace {
 
@@ -79,4 +79,4 @@ Pose Gait::limb(int number) const {
   return limb.parent < 0 ? own : this->limb(limb.parent) * own;
 }
 
-}  // namespace angen::devices
+}  // namespace angen::people

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "devices/surroundings.h"
+#include "people/surroundings.h"
 #include "plugin/plugin.h"
 
-namespace angen::devices {
+namespace angen::people {
 
 /// A door between two rooms, as a person sees it.
 struct DoorSeen {
@@ -90,4 +90,4 @@ class DoorUse {
   Nanoseconds tries_at_ = 0;  // again, after those
 };
 
-}  // namespace angen::devices
+}  // namespace angen::people

@@ -1,8 +1,8 @@
-#include "devices/route.h"
+#include "people/route.h"
 
 #include <algorithm>
 
-namespace angen::devices {
+namespace angen::people {
 
 namespace {
 
@@ -33,4 +33,4 @@ Route::Vec2 Route::follow(const Vec2& at) {
 
 double Route::left(const Vec2& at) const { return left_[next_] + (way_[next_] - at).norm(); }
 
-}  // namespace angen::devices
+}  // namespace angen::people

@@ -7,7 +7,10 @@
 
 #include "plugin/plugin.h"
 
-namespace angen::devices {
+namespace angen::people {
+
+constexpr double kLow = 0.2;   // m: lower things are walked over
+constexpr double kHead = 1.6;  // m: higher ones are passed below
 
 /// The cells of 5 cm where a person fits between the static shapes of a storey. Everything
 /// that can move, such as doors and chairs, is left out of it unless it is added.
@@ -38,6 +41,8 @@ class FloorMap {
   bool is_free(const Vec2& place) const;
   /// Whether a person who walks straight stays free.
   bool is_clear(const Vec2& from, const Vec2& to) const;
+  /// Whether there is floor all along a straight way.
+  bool has_floor(const View& view, const Vec2& from, const Vec2& to) const;
   /// The best way on floor, as places at most two cells apart, to within `tolerance` (m) of `to`;
   /// none if no way leads there. Ways along the middle of a passage are better than ways along a
   /// wall.
@@ -63,6 +68,8 @@ class FloorMap {
   /// m to the next obstacle, at most kRoomyMap.
   float gap(int cell) const;
   bool can_stand(const View& view, int cell);
+  /// From a step above a place of the floor to a step below it.
+  rays::Ray down_at(const Vec2& place) const;
 
   std::uint64_t revision_ = 0;  // revision of the static shapes
   Eigen::AlignedBox2d area_;    // m, of the storey
@@ -76,4 +83,4 @@ class FloorMap {
   std::vector<char> known_;                              // whether its floor was looked at
 };
 
-}  // namespace angen::devices
+}  // namespace angen::people

@@ -1,4 +1,4 @@
-#include "devices/floor_map.h"
+#include "people/floor_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +10,12 @@
 
 #include "plugin/view.h"
 
-namespace angen::devices {
+namespace angen::people {
 
 namespace {
 
 constexpr rays::Mobilities kStatic = rays::only(rays::Mobility::kStatic);
 constexpr double kScanHeights[] = {0.15, 0.5, 0.738, 1.2};  // m, as a person sees
-constexpr double kLow = 0.2;                                // m, of what is walked over
-constexpr double kHead = 1.6;                               // m
 constexpr double kProbeStep = 0.2;                          // m
 constexpr double kDetour = 20.0;                            // m around both places
 constexpr double kBorder = 1.0;                             // m around the static shapes
@@ -248,11 +246,25 @@ float FloorMap::gap(int cell) const { return static_cast<float>(std::sqrt(square
 bool FloorMap::can_stand(const View& view, int cell) {
   if (gap(cell) < kClearance) return false;
   if (std::exchange(known_[cell], 1) != 0) return true;
-  const Vec2 at = place(cell);
   static thread_local std::vector<rays::Hit> hits;
-  view.cast({{Vec3(at.x(), at.y(), floor_ + kStep), -Vec3::UnitZ(), 0.0, 2.0 * kStep}}, hits);
+  view.cast({down_at(place(cell))}, hits);
   if (!hits[0].hit()) squares_[cell] = 0.0;
   return hits[0].hit();
+}
+
+rays::Ray FloorMap::down_at(const Vec2& place) const {
+  return {Vec3(place.x(), place.y(), floor_ + kStep), -Vec3::UnitZ(), 0.0, 2.0 * kStep};
+}
+
+bool FloorMap::has_floor(const View& view, const Vec2& from, const Vec2& to) const {
+  const int steps = static_cast<int>((to - from).norm() / kCell) + 1;
+  std::vector<rays::Ray> down;
+  for (int i = 0; i <= steps; ++i) {
+    down.push_back(down_at(from + (to - from) * (static_cast<double>(i) / steps)));
+  }
+  std::vector<rays::Hit> hits;
+  view.cast(down, hits);
+  return std::all_of(hits.begin(), hits.end(), [](const rays::Hit& hit) { return hit.hit(); });
 }
 
 /// A* over the free cells.
@@ -313,4 +325,4 @@ std::optional<std::vector<FloorMap::Vec2>> FloorMap::way(const View& view, const
   return way;
 }
 
-}  // namespace angen::devices
+}  // namespace angen::people

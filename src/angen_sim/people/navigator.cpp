@@ -1,0 +1,88 @@
+#include "people/navigator.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "plugin/view.h"
+
+namespace angen::people {
+
+namespace {
+
+constexpr double kNearGoal = 0.06;              // m: a place that fits instead of the goal
+constexpr double kOpenToll = 3.0;               // m that a door which it can open counts
+constexpr double kWaitToll = 30.0;              // m that another shut door counts
+constexpr double kSeenCell = 0.02;              // m
+constexpr std::size_t kMaxKeptCells = 500'000;  // 6.5 MB
+
+}  // namespace
+
+void Navigator::forget() {
+  route_.reset();
+  target_.reset();
+  seen_.clear();
+  failed_.clear();
+}
+
+bool Navigator::plan(const View& view, const Vec3& feet, const Vec2& to, bool with_seen) {
+  const Vec2 at = feet.head<2>();
+  route_.reset();
+  const std::vector<DoorSeen> doors = doors_seen(view, feet.z());
+  if (!with_seen && !door_on_way(doors, at, to)) {
+    FloorMap strip(view, feet, to, FloorMap::Extent::kStraight);
+    if (strip.is_clear(at, to) && strip.has_floor(view, at, to)) return true;
+  }
+  FloorMap map = map_of_storey(view, feet, to);
+  if (with_seen) map.add_points(seen_);
+  for (const DoorSeen& door : doors) {
+    if (door.is_passable()) continue;
+    map.add_toll(door.hinge, door.edge(), opens_doors_ ? kOpenToll : kWaitToll);
+  }
+  std::optional<std::vector<Vec2>> way = map.way(view, at, to, kNearGoal);
+  if (!way) return !with_seen && Surroundings::is_walkable(view, feet, to);
+  route_.emplace(std::move(map), std::move(*way));
+  return true;
+}
+
+// Most goals are places on the same storey of a home, whose static shapes stay.
+FloorMap Navigator::map_of_storey(const View& view, const Vec3& feet, const Vec2& to) {
+  if (storey_ && storey_->serves(view, feet, to)) return *storey_;
+  FloorMap map(view, feet, to);
+  if (map.cells() <= kMaxKeptCells) storey_ = map;
+  return map;
+}
+
+const Navigator::Vec2& Navigator::advance(const Vec2& at, const Vec2& to) {
+  return target_.emplace(route_ ? route_->follow(at) : to);
+}
+
+double Navigator::left(const Vec2& at, const Vec2& to) const {
+  return route_ ? route_->left(at) : (to - at).norm();
+}
+
+void Navigator::learn(const View& view, const Vec3& feet, const Surroundings& seen) {
+  Surroundings::remove_gone(view, feet, seen_);
+  for (const Vec2& point : seen.points()) {
+    seen_.push_back(kSeenCell * (point / kSeenCell).array().round().matrix());
+  }
+  const auto before = [](const Vec2& a, const Vec2& b) {
+    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+  };
+  std::sort(seen_.begin(), seen_.end(), before);
+  seen_.erase(std::unique(seen_.begin(), seen_.end()), seen_.end());
+  // A shut door is no obstacle, and what was behind it may be gone.
+  for (const DoorSeen& door : doors_seen(view, feet.z())) {
+    if (std::count(failed_.begin(), failed_.end(), door.name) > 0) continue;
+    const auto is_hidden = [&](const Vec2& at) { return door.hides(at, feet.head<2>()); };
+    seen_.erase(std::remove_if(seen_.begin(), seen_.end(), is_hidden), seen_.end());
+  }
+}
+
+void Navigator::note_failed(const DoorSeen& door) {
+  for (double at = 0.0; at < door.width; at += kSeenCell) {
+    seen_.push_back(door.hinge + at * door.along);
+  }
+  failed_.push_back(door.name);
+}
+
+}  // namespace angen::people

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "people/door_use.h"
+#include "people/floor_map.h"
+#include "people/route.h"
+#include "people/surroundings.h"
+
+namespace angen::people {
+
+/// Plans a person's way to a goal on its storey: straight over free floor, or on a map of what
+/// cannot move, with the obstacles that it has seen on the way there.
+class Navigator {
+ public:
+  using Vec2 = Surroundings::Vec2;
+
+  Navigator() = default;
+  /// Whether the person opens doors.
+  explicit Navigator(bool opens_doors) : opens_doors_(opens_doors) {}
+
+  /// Another goal: what it has seen on the way to the last one counts no more.
+  void forget();
+  /// A way for a person at `feet` (world, m); `with_seen`: past the obstacles that it has seen,
+  /// too. False if no way leads there.
+  bool plan(const View& view, const Vec3& feet, const Vec2& to, bool with_seen);
+  /// Straight to the goal, through what is there.
+  void go_straight() { route_.reset(); }
+
+  /// The place to make for on the way, kept until the next call.
+  const Vec2& advance(const Vec2& at, const Vec2& to);
+  const std::optional<Vec2>& target() const { return target_; }
+  void drop_target() { target_.reset(); }
+  /// m of the way to the goal.
+  double left(const Vec2& at, const Vec2& to) const;
+
+  /// Adds the points that it sees to those that it knows, and removes those that are gone.
+  void learn(const View& view, const Vec3& feet, const Surroundings& seen);
+  void note_obstacle(const Vec2& point) { seen_.push_back(point); }
+  /// A door that does not open is a wall until the goal changes.
+  void note_failed(const DoorSeen& door);
+  bool knows_obstacles() const { return !seen_.empty(); }
+
+ private:
+  FloorMap map_of_storey(const View& view, const Vec3& feet, const Vec2& to);
+
+  bool opens_doors_ = true;
+  std::optional<Route> route_;      // none: straight
+  std::optional<FloorMap> storey_;  // the last one, for other goals
+  std::vector<Vec2> seen_;
+  std::vector<std::string> failed_;
+  std::optional<Vec2> target_;
+};
+
+}  // namespace angen::people

@@ -1,0 +1,235 @@
+#include "people/person.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "core/text.h"
+#include "plugin/outputs.h"
+#include "plugin/rooms.h"
+#include "plugin/view.h"
+#include "plugin/wiring.h"
+
+namespace angen::people {
+
+namespace {
+
+constexpr double kGrounds = 20.0;  // m around all rooms, where people go
+// N/m, of chest and pelvis: ISO/TS 15066:2016, table A.3, effective spring constant.
+constexpr double kSideStiffness = 25e3;
+
+// Why a place is none to go to; empty if it is one.
+std::string why_not(const Point2& place, const Home& home) {
+  Eigen::AlignedBox2d grounds;
+  for (const Room& room : home.rooms) {
+    for (const Point2& corner : room.outline) grounds.extend(corner);
+  }
+  if (grounds.isEmpty()) return "";
+  const Point2 low = grounds.min().array() - kGrounds;
+  const Point2 high = grounds.max().array() + kGrounds;
+  if (Eigen::AlignedBox2d(low, high).contains(place)) return "";
+  std::ostringstream why;
+  why << place.x() << ' ' << place.y() << " is outside of the world; x is " << std::round(low.x())
+      << " to " << std::round(high.x()) << ", y " << std::round(low.y()) << " to "
+      << std::round(high.y()) << " m";
+  return why.str();
+}
+
+Path read_path(Params& params) {
+  std::vector<Path::Waypoint> waypoints;
+  for (const std::vector<double>& row :
+       params.rows("waypoint", 5, "s m m m rad", "t x y z yaw of a place on the way")) {
+    waypoints.push_back({from_seconds(row[0]), row[1], row[2], row[4]});
+    const std::size_t count = waypoints.size();
+    if (count > 1 && waypoints[count - 1].time <= waypoints[count - 2].time) {
+      throw params.error("waypoint", "the times of waypoints must rise");
+    }
+  }
+  return Path(std::move(waypoints), params.flag("loop", true, "walks it again and again"));
+}
+
+Stroll read_stroll(Params& params) {
+  Path path = read_path(params);
+  const Nanoseconds delay =
+      -from_seconds(params.number("delay_start", 0.0, "s", "time before the first", kNotNegative));
+  const double given = params.number("path_time", to_seconds(delay), "s",
+                                     "where on its path it is at the start, as a time of its "
+                                     "waypoints; before the first by delay_start unless given");
+  return {std::move(path), params.has("path_time") ? from_seconds(given) : delay};
+}
+
+std::optional<Errand> read_errand(Params& params) {
+  std::optional<Errand> errand;
+  for (const bool pushes : {false, true}) {
+    const std::vector<std::vector<double>> sent =
+        params.rows(pushes ? "push_to" : "go_to", 2, "m",
+                    pushes ? "x y of its goal at the start, as after PushTo"
+                           : "x y of its goal at the start, as after GoTo");
+    if (!sent.empty()) errand.emplace(Errand::Vec2(sent.back()[0], sent.back()[1]), pushes);
+  }
+  return errand;
+}
+
+}  // namespace
+
+Nanoseconds Person::Step::now() const { return view.time(); }
+
+void Person::configure(Params& params, Wiring& wiring) {
+  stroll_ = read_stroll(params);
+  paused_ = params.flag("stopped", false, "waits at the start, as after Stop");
+  const double force =
+      params.number("force_max", 150.0, "N", "greatest force of its legs", kPositive);
+  gives_.configure(params, wiring);
+  refresh_ = devices::Refresh(params.number("update_rate", 20.0, "Hz",
+                                            "how often its state is published while it walks",
+                                            devices::kRefreshRate));
+  avoids_ = params.flag(
+      "avoid", true, "walks round obstacles that it sees, or stops before them; otherwise pushes");
+  const bool opens = params.flag(
+      "opens_doors", true, "opens shut doors on its way by hand; otherwise waits before them");
+  const bool closes = params.flag("closes_doors", false, "shuts the doors that it has opened");
+  doors_ = DoorUse(opens, closes);
+  navigator_ = Navigator(opens);
+  speed_ = params.number("speed", 1.0, "m/s", "of its walk to where it is sent", kPositive);
+  errand_ = read_errand(params);
+  link_ = wiring.link("body");
+  walker_ = Walker(link_, force);
+  behave();
+  wiring.anatomy(link_, {true, kSideStiffness, Gait::visuals(), {}});
+}
+
+Verdict Person::command(const Command& command, const View& view) {
+  if (command.verb == "Speak" || command.verb == "Quiet") {
+    return Verdict::accept([this, speaks = command.verb == "Speak"] { gives_.speak(speaks); });
+  }
+  if (command.verb == "GoTo" || command.verb == "PushTo") {
+    const Vec2 to(command.values.at(0), command.values.at(1));
+    if (std::string why = why_not(to, view.home()); !why.empty()) {
+      return Verdict::reject(std::move(why));
+    }
+    return Verdict::accept([this, to, pushes = command.verb == "PushTo"] {
+      errand_.emplace(to, pushes);
+      paused_ = false;
+      start_anew();
+    });
+  }
+  return Verdict::accept([this, stop = command.verb == "Stop"] {
+    paused_ = stop;
+    if (stop || !errand_ || !errand_->is_over()) return;
+    errand_.reset();
+    start_anew();
+  });
+}
+
+void Person::start_anew() {
+  behave();
+  stroll_.stay_on_path();
+  walker_.aim_straight();
+  walker_.look_anew();  // a way is planned at once
+  navigator_.forget();
+  doors_.reset();
+  progress_.reset();
+  state_ = Walks{};
+}
+
+// Who was sent looks in any case.
+void Person::behave() {
+  const bool pushes = errand_ && errand_->pushes();
+  walker_.behave({avoids_ || errand_, !pushes, !avoids_ || pushes});
+}
+
+void Person::update(const View& view, Outputs& outputs) {
+  const bool renew = refresh_.due(view.time(), view.step());
+  walker_.begin(view.step());
+  const Step step{view, view.link(link_), outputs, renew};
+  if (!started_) start(step.body);
+  gives_.update(view, step.body, outputs);
+  if (paused_) {
+    if (!walker_.rests()) stand(outputs);
+    if (renew) show(Mode::kStanding, step);
+    return;
+  }
+  if (errand_) return run_errand(step);
+  const Path::Place place = stroll_.now();
+  if (walker_.rests() && place.still() && !renew) return stroll_.advance(view.step());
+  stroll(place, step);
+}
+
+void Person::start(const LinkView& body) {
+  started_ = true;
+  progress_.count_from(body.pose.position.head<2>());
+  shown_ = body;
+  if (!stroll_.has_path()) stroll_.stay_at(body.pose);
+}
+
+void Person::stand(Outputs& outputs) {
+  walker_.stand(outputs);
+  progress_.rest();
+}
+
+void Person::show(Mode mode, const Step& step) {
+  const bool changes = mode != mode_;
+  if (changes) step.outputs.event(kModeEvents[static_cast<int>(mode)], "");
+  mode_ = mode;
+  if (changes || step.renew) shown_ = step.body;
+}
+
+Nanoseconds Person::idle_until(const View& view) const {
+  const Nanoseconds needed = rests_until(view);
+  if (climates(view).empty()) return needed;
+  return std::min(needed, Body::feels_next(view.time()));
+}
+
+Nanoseconds Person::rests_until(const View& view) const {
+  if (!walker_.rests()) return 0;
+  const auto* wait = std::get_if<Progress::Wait>(&state_);
+  if (wait != nullptr && view.time() < wait->away_until) return 0;
+  const bool waits = !is<Walks>();
+  if (mode_ != Mode::kStanding && !waits) return 0;
+  const LinkView body = view.link(link_);
+  if (body.pose != shown_.pose || body.linear_velocity != shown_.linear_velocity) {
+    return refresh_.next(view.time());
+  }
+  if (paused_) return kForever;
+  if (waits) return (view.time() / kSecond + 1) * kSecond;
+  const Vec2 at = body.pose.position.head<2>();
+  if (errand_) {
+    const bool stays = errand_->phase() == Errand::Phase::kGaveUp || errand_->stays(at);
+    return stays ? kForever : refresh_.next(view.time());
+  }
+  if ((stroll_.place_in(0) - at).norm() >= kPushedAway) return refresh_.next(view.time());
+  const Nanoseconds still = stroll_.still_for();
+  return still == kForever ? kForever : view.time() + view.step() + still;
+}
+
+void Person::save(SavedParams& params) const {
+  params.number("path_time", to_seconds(stroll_.clock()));
+  params.flag("stopped", paused_);
+  gives_.save(params);
+  params.unset("go_to");
+  params.unset("push_to");
+  if (!errand_) return;
+  params.text(errand_->pushes() ? "push_to" : "go_to",
+              number_text(errand_->to().x()) + " " + number_text(errand_->to().y()));
+}
+
+void Person::skip(Nanoseconds time) {
+  if (!paused_ && !errand_ && is<Walks>()) stroll_.advance(time);
+}
+
+void Person::report(const View& view, Reading& state) const {
+  const LinkView body = started_ ? shown_ : view.link(link_);
+  state.set("mode", choice_of(mode_, kModes));
+  state.set("x", body.pose.position.x());
+  state.set("y", body.pose.position.y());
+  state.set("z", body.pose.position.z());
+  state.set("yaw", yaw_of(body.pose.rotation));
+  state.set("speed", body.linear_velocity.head<2>().norm());
+  state.set("unreachable", errand_ && errand_->phase() == Errand::Phase::kGaveUp);
+  const double speed = shown_.linear_velocity.head<2>().norm();
+  gives_.report(view, mode_ == Mode::kWalking ? std::optional(speed) : std::nullopt, state);
+}
+
+}  // namespace angen::people

@@ -1,0 +1,107 @@
+// A person's way to where it was sent.
+#include <algorithm>
+#include <sstream>
+
+#include "people/person.h"
+#include "plugin/outputs.h"
+#include "plugin/view.h"
+
+namespace angen::people {
+
+namespace {
+
+constexpr double kUnseen = 0.3;  // m to an obstacle that it does not see
+
+}  // namespace
+
+void Person::run_errand(const Step& step) {
+  Errand& errand = *errand_;
+  const Vec2 at = step.at();
+  const bool rests = walker_.rests();
+  const bool there = errand.is_there(at, rests, progress_.is_held());
+  if (!there && errand.begin(at, step.now())) {
+    progress_.restart(step.now());
+    if (!plan(step, false)) give_up(step.outputs);
+  }
+  const bool over = there || errand.phase() == Errand::Phase::kGaveUp;
+  if (!there && errand.lingers(at, step.now(), is<WaitsAtDoor>(), rests, speed_) && !over) {
+    give_up(step.outputs);
+  }
+  if (there || errand.phase() == Errand::Phase::kGaveUp) {
+    if (!rests) errand.stop_at(at);
+    if (errand.phase() != Errand::Phase::kGaveUp) errand.arrive();
+    progress_.free();
+    if (!rests) stand(step.outputs);
+    return show(Mode::kStanding, step);
+  }
+  if (gives_way(step)) return;
+  const Look look = is<WaitsAtDoor>() ? Look::kNone : walker_.look(step.view, step.feet());
+  if (look != Look::kNone || !navigator_.target()) navigator_.advance(at, errand.to());
+  if (uses_door(*navigator_.target(), look != Look::kNone, step)) return;
+  if (look == Look::kPlans && navigator_.knows_obstacles()) explore(step);
+  if (look == Look::kPlans) walker_.aim_for(step.view, step.feet(), *navigator_.target());
+  const double left = navigator_.left(at, errand.to());
+  const bool nearer = errand.come(left);
+  if (errand.is_free(left)) progress_.free();
+  note({nearer, nearer, walker_.goes_round()}, step);
+  walker_.walk(step.body, *navigator_.target(), speed_, step.outputs);
+  show(progress_.is_held() ? Mode::kBlocked : Mode::kWalking, step);
+}
+
+bool Person::plan(const Step& step, bool with_seen) {
+  if (errand_->pushes()) {
+    navigator_.go_straight();
+    return true;
+  }
+  return navigator_.plan(step.view, step.feet(), errand_->to(), with_seen);
+}
+
+void Person::give_up(Outputs& outputs) {
+  errand_->give_up();
+  if (is<Progress::Wait>()) state_ = Walks{};
+  std::ostringstream goal;
+  goal << errand_->to().x() << " " << errand_->to().y();
+  outputs.event("unreachable", goal.str());
+}
+
+// Once an obstacle has held it on its way, it plans again with all that it sees.
+void Person::explore(const Step& step) {
+  navigator_.learn(step.view, step.feet(), walker_.surroundings());
+  if (!plan(step, true)) return wait(step);
+  errand_->set_left(navigator_.left(step.at(), errand_->to()));
+  navigator_.advance(step.at(), errand_->to());
+}
+
+// Instead of the way through a door that does not open.
+void Person::take_other_way(const Step& step) {
+  navigator_.note_failed(doors_.door());
+  doors_.reset();
+  state_ = Walks{};
+  navigator_.drop_target();
+  if (plan(step, true)) {
+    errand_->set_left(navigator_.left(step.at(), errand_->to()));
+  } else {
+    give_up(step.outputs);
+  }
+}
+
+// With the obstacles that it sees, and one ahead if it is held by something unseen.
+bool Person::finds_new_way(const Step& step) {
+  const Vec2 at = step.at();
+  const Surroundings& seen = walker_.surroundings();
+  navigator_.learn(step.view, step.feet(), seen);
+  const Vec2 ahead = (navigator_.target().value_or(errand_->to()) - at).normalized();
+  if (seen.free_way(at, ahead) > kUnseen) navigator_.note_obstacle(at + kUnseen * ahead);
+  const bool found = plan(step, true);
+  navigator_.drop_target();
+  if (found) begin_new_way(at);
+  return found;
+}
+
+void Person::begin_new_way(const Vec2& at) {
+  const double left = navigator_.left(at, errand_->to());
+  errand_->set_left(left);
+  errand_->hold_at(left);
+}
+
+}  // namespace angen::people

@@ -1,0 +1,124 @@
+// A person at doors, and its behavior when something holds it.
+#include "people/person.h"
+#include "plugin/outputs.h"
+#include "plugin/view.h"
+
+namespace angen::people {
+
+namespace {
+
+constexpr double kStepBack = 1.2;               // m, out of the way of a leaf that opens towards it
+constexpr Nanoseconds kGivesUp = 15 * kSecond;  // without progress towards where it was sent
+
+}  // namespace
+
+bool Person::uses_door(const Vec2& to, bool looks, const Step& step) {
+  if (!walker_.manner().looks || !walker_.manner().rounds) return false;
+  using Advice = DoorUse::Advice::Step;
+  const DoorUse::Advice advice = doors_.update(step.view, step.feet(), to, looks, step.outputs);
+  const bool waits = advice.step == Advice::kWait || advice.step == Advice::kFailed;
+  state_ = waits ? State(WaitsAtDoor{}) : State(Walks{});
+  if (advice.step == Advice::kWalk) return false;
+  const Vec2 at = step.at();
+  progress_.come(at, step.now());
+  if (waits) {
+    hold(at);
+    if (advice.step == Advice::kFailed && errand_) take_other_way(step);
+    if (!walker_.rests()) stand(step.outputs);
+    show(Mode::kBlocked, step);
+    return true;
+  }
+  if (advice.step == Advice::kStand) {
+    walker_.face(step.body, advice.to - at, step.outputs);
+  } else {
+    if (looks) walker_.aim_for(step.view, step.feet(), advice.to);
+    walker_.walk(step.body, advice.to, errand_ ? speed_ : kReturnSpeed, step.outputs);
+  }
+  show(progress_.is_held() ? Mode::kBlocked : Mode::kWalking, step);
+  return true;
+}
+
+// A door that opens towards a person before it needs room: the person steps back the way it came,
+// waits there, and continues when it sees a free way. Rarely it tries without seeing one.
+bool Person::gives_way(const Step& step) {
+  if (progress_.must_make_room()) make_room(step);
+  auto* const wait = std::get_if<Progress::Wait>(&state_);
+  if (wait == nullptr) return false;
+  if (step.now() < wait->away_until) {
+    walker_.look(step.view, step.feet());
+    walker_.aim_straight();
+    walker_.walk(step.body, wait->back_to, kReturnSpeed, step.outputs, 0.0);
+    progress_.count_from(step.at());
+    show(Mode::kBlocked, step);
+    return true;
+  }
+  if (step.now() / kSecond != wait->checked_at) {
+    wait->checked_at = step.now() / kSecond;
+    if (is_freed(*wait, step)) {
+      state_ = Walks{};
+      walker_.look_anew();
+      progress_.resume(step.at(), step.now());
+      return false;
+    }
+    if (walker_.manner().rounds && errand_ && step.now() - wait->since > kGivesUp) {
+      give_up(step.outputs);
+      return false;
+    }
+  }
+  if (!walker_.rests()) stand(step.outputs);
+  show(Mode::kBlocked, step);
+  return true;
+}
+
+bool Person::is_freed(const Progress::Wait& wait, const Step& step) {
+  const bool plans = errand_ && !errand_->pushes();
+  if (step.now() >= wait.blind_at && !plans) return true;
+  if (step.now() < wait.retry_at) return false;
+  const Surroundings& seen = walker_.scan(step.view, step.feet());
+  if (plans) {
+    navigator_.learn(step.view, step.feet(), seen);
+    if (!plan(step, true)) return false;
+    begin_new_way(step.at());
+    navigator_.drop_target();
+  } else if (!seen.reaches(step.at(), errand_ ? errand_->to() : stroll_.place_in(kPathAhead))) {
+    return false;
+  }
+  progress_.err();  // unless it comes on
+  return true;
+}
+
+// First it looks for another way to where it was sent.
+void Person::make_room(const Step& step) {
+  progress_.rest();
+  if (errand_ && !errand_->pushes() && finds_new_way(step)) {
+    progress_.restart(step.now());
+  } else {
+    wait(step);
+  }
+}
+
+void Person::wait(const Step& step) {
+  const Vec2 at = step.at();
+  hold(at);
+  Progress::Wait wait = progress_.wait(step.now());
+  if (errand_) {
+    const Vec2 ahead = (navigator_.target().value_or(errand_->to()) - at).normalized();
+    wait.back_to = at - kStepBack * ahead;
+  } else {
+    wait.back_to = stroll_.back_from(at, kStepBack);
+  }
+  state_ = wait;
+}
+
+void Person::note(const Progress::Step& progress, const Step& step) {
+  if (progress_.note(step.at(), progress, step.now(), step.view.step())) hold(step.at());
+}
+
+void Person::hold(const Vec2& at) {
+  if (progress_.is_held()) return;
+  progress_.hold();
+  stroll_.hold();
+  if (errand_) errand_->hold_at(navigator_.left(at, errand_->to()));
+}
+
+}  // namespace angen::people
