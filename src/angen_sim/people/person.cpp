@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -16,26 +16,9 @@ namespace angen::people {
 
 namespace {
 
-constexpr double kGrounds = 20.0;  // m around all rooms, where people go
 // N/m, of chest and pelvis: ISO/TS 15066:2016, table A.3, effective spring constant.
 constexpr double kSideStiffness = 25e3;
-
-// Why a place is none to go to; empty if it is one.
-std::string why_not(const Point2& place, const Home& home) {
-  Eigen::AlignedBox2d grounds;
-  for (const Room& room : home.rooms) {
-    for (const Point2& corner : room.outline) grounds.extend(corner);
-  }
-  if (grounds.isEmpty()) return "";
-  const Point2 low = grounds.min().array() - kGrounds;
-  const Point2 high = grounds.max().array() + kGrounds;
-  if (Eigen::AlignedBox2d(low, high).contains(place)) return "";
-  std::ostringstream why;
-  why << place.x() << ' ' << place.y() << " is outside of the world; x is " << std::round(low.x())
-      << " to " << std::round(high.x()) << ", y " << std::round(low.y()) << " to "
-      << std::round(high.y()) << " m";
-  return why.str();
-}
+constexpr int kNoFloor = std::numeric_limits<int>::min();
 
 Path read_path(Params& params) {
   std::vector<Path::Waypoint> waypoints;
@@ -94,6 +77,9 @@ void Person::configure(Params& params, Wiring& wiring) {
   navigator_ = Navigator(opens);
   speed_ = params.number("speed", 1.0, "m/s", "of its walk to where it is sent", kPositive);
   errand_ = read_errand(params);
+  const int floor =
+      params.integer("go_floor", kNoFloor, "", "floor of go_to; its own unless given");
+  if (errand_ && floor != kNoFloor) floor_ = floor;
   link_ = wiring.link("body");
   walker_ = Walker(link_, force);
   behave();
@@ -105,22 +91,26 @@ Verdict Person::command(const Command& command, const View& view) {
     return Verdict::accept([this, speaks = command.verb == "Speak"] { gives_.speak(speaks); });
   }
   if (command.verb == "GoTo" || command.verb == "PushTo") {
-    const Vec2 to(command.values.at(0), command.values.at(1));
-    if (std::string why = why_not(to, view.home()); !why.empty()) {
-      return Verdict::reject(std::move(why));
-    }
-    return Verdict::accept([this, to, pushes = command.verb == "PushTo"] {
-      errand_.emplace(to, pushes);
+    Found found = find_goal(command, view, view.link(link_).pose.position);
+    if (!found.why_not.empty()) return Verdict::reject(std::move(found.why_not));
+    return Verdict::accept([this, goal = found.goal, pushes = command.verb == "PushTo"] {
+      floor_ = goal.floor;
+      ride_.reset();
       paused_ = false;
-      start_anew();
+      walk_to(goal.to, pushes);
     });
   }
   return Verdict::accept([this, stop = command.verb == "Stop"] {
     paused_ = stop;
-    if (stop || !errand_ || !errand_->is_over()) return;
+    if (stop || ride_ || !errand_ || !errand_->is_over()) return;
     errand_.reset();
     start_anew();
   });
+}
+
+void Person::walk_to(const Vec2& to, bool pushes) {
+  errand_.emplace(to, pushes);
+  start_anew();
 }
 
 void Person::start_anew() {
@@ -151,7 +141,11 @@ void Person::update(const View& view, Outputs& outputs) {
     if (renew) show(Mode::kStanding, step);
     return;
   }
-  if (errand_) return run_errand(step);
+  if (errand_) {
+    if (floor_) begin_ride(step);
+    if (!ride_ || follow_ride(step)) run_errand(step);
+    return;
+  }
   const Path::Place place = stroll_.now();
   if (walker_.rests() && place.still() && !renew) return stroll_.advance(view.step());
   stroll(place, step);
@@ -193,7 +187,7 @@ Nanoseconds Person::rests_until(const View& view) const {
     return refresh_.next(view.time());
   }
   if (paused_) return kForever;
-  if (waits) return (view.time() / kSecond + 1) * kSecond;
+  if (waits || ride_) return (view.time() / kSecond + 1) * kSecond;
   const Vec2 at = body.pose.position.head<2>();
   if (errand_) {
     const bool stays = errand_->phase() == Errand::Phase::kGaveUp || errand_->stays(at);
@@ -210,9 +204,12 @@ void Person::save(SavedParams& params) const {
   gives_.save(params);
   params.unset("go_to");
   params.unset("push_to");
+  params.unset("go_floor");
   if (!errand_) return;
+  const Vec2& to = ride_ ? ride_->goal() : errand_->to();
   params.text(errand_->pushes() ? "push_to" : "go_to",
-              number_text(errand_->to().x()) + " " + number_text(errand_->to().y()));
+              number_text(to.x()) + " " + number_text(to.y()));
+  if (ride_ || floor_) params.number("go_floor", ride_ ? ride_->floor() : *floor_);
 }
 
 void Person::skip(Nanoseconds time) {
@@ -227,7 +224,7 @@ void Person::report(const View& view, Reading& state) const {
   state.set("z", body.pose.position.z());
   state.set("yaw", yaw_of(body.pose.rotation));
   state.set("speed", body.linear_velocity.head<2>().norm());
-  state.set("unreachable", errand_ && errand_->phase() == Errand::Phase::kGaveUp);
+  state.set("unreachable", !ride_ && errand_ && errand_->phase() == Errand::Phase::kGaveUp);
   const double speed = shown_.linear_velocity.head<2>().norm();
   gives_.report(view, mode_ == Mode::kWalking ? std::optional(speed) : std::nullopt, state);
 }

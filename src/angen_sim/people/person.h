@@ -11,7 +11,9 @@
 #include "people/errand.h"
 #include "people/modes.h"
 #include "people/navigator.h"
+#include "people/places.h"
 #include "people/progress.h"
+#include "people/ride.h"
 #include "people/stroll.h"
 #include "people/walker.h"
 #include "plugin/plugin.h"
@@ -69,7 +71,12 @@ class Person : public Device {
   void go_round(const Step& step);
   void find_rejoin(const Step& step);
 
+  // To another floor.
+  void begin_ride(const Step& step);
+  bool follow_ride(const Step& step);
+
   // Where it was sent.
+  void walk_to(const Vec2& to, bool pushes);
   void run_errand(const Step& step);
   bool plan(const Step& step, bool with_seen);
   bool finds_new_way(const Step& step);
@@ -100,6 +107,8 @@ class Person : public Device {
   State state_ = Walks{};
   Stroll stroll_;
   std::optional<Errand> errand_;  // instead of its path
+  std::optional<Ride> ride_;      // the errand is a part of it
+  std::optional<int> floor_;      // the floor of an errand that has not begun
   double speed_ = 1.0;            // m/s, on an errand
   bool avoids_ = true;
   bool paused_ = false;

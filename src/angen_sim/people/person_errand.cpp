@@ -1,6 +1,7 @@
 // A person's way to where it was sent.
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "people/person.h"
 #include "plugin/outputs.h"
@@ -14,22 +15,56 @@ constexpr double kUnseen = 0.3;  // m to an obstacle that it does not see
 
 }  // namespace
 
+void Person::begin_ride(const Step& step) {
+  const Home& home = step.view.home();
+  const int floor = *std::exchange(floor_, std::nullopt);
+  const int here = floor_at(home.storeys, step.feet().z());
+  if (floor == here) return;
+  ride_ = Ride::between(home, here, floor, errand_->to());
+  if (ride_) ride_->start_at(step.at(), step.now());
+  if (!ride_) give_up(step.outputs);
+}
+
+// Returns whether it walks.
+bool Person::follow_ride(const Step& step) {
+  const Ride::Advice next = ride_->update(step.view, errand_->phase(), step.outputs);
+  switch (next.step) {
+    case Ride::Advice::Step::kStand:
+      if (!walker_.rests()) stand(step.outputs);
+      show(Mode::kStanding, step);
+      return false;
+    case Ride::Advice::Step::kWalk:
+      if (errand_->to() != next.to) walk_to(next.to, false);
+      return true;
+    case Ride::Advice::Step::kLeft:
+      ride_.reset();
+      walk_to(next.to, false);
+      return true;
+    case Ride::Advice::Step::kFailed:
+      const Vec2 goal = ride_->goal();
+      ride_.reset();
+      walk_to(goal, false);
+      give_up(step.outputs);
+      return true;
+  }
+  return true;
+}
+
 void Person::run_errand(const Step& step) {
   Errand& errand = *errand_;
   const Vec2 at = step.at();
   const bool rests = walker_.rests();
   const bool there = errand.is_there(at, rests, progress_.is_held());
-  if (!there && errand.begin(at, step.now())) {
+  const auto gave_up = [&] { return errand.phase() == Errand::Phase::kGaveUp; };
+  if (!there && !gave_up() && errand.begin(at, step.now())) {
     progress_.restart(step.now());
     if (!plan(step, false)) give_up(step.outputs);
   }
-  const bool over = there || errand.phase() == Errand::Phase::kGaveUp;
-  if (!there && errand.lingers(at, step.now(), is<WaitsAtDoor>(), rests, speed_) && !over) {
-    give_up(step.outputs);
-  }
-  if (there || errand.phase() == Errand::Phase::kGaveUp) {
+  const bool lingers = !there && errand.lingers(at, step.now(), is<WaitsAtDoor>(), rests, speed_);
+  if (lingers && !gave_up()) give_up(step.outputs);
+  if (there || gave_up()) {
     if (!rests) errand.stop_at(at);
-    if (errand.phase() != Errand::Phase::kGaveUp) errand.arrive();
+    if (!gave_up()) errand.arrive();
     progress_.free();
     if (!rests) stand(step.outputs);
     return show(Mode::kStanding, step);
@@ -59,6 +94,7 @@ bool Person::plan(const Step& step, bool with_seen) {
 void Person::give_up(Outputs& outputs) {
   errand_->give_up();
   if (is<Progress::Wait>()) state_ = Walks{};
+  if (ride_) return;  // which has another try, or says so
   std::ostringstream goal;
   goal << errand_->to().x() << " " << errand_->to().y();
   outputs.event("unreachable", goal.str());

@@ -13,7 +13,9 @@ const Kind& PersonPlugin::kind() const {
           .example("set person walker stop")
           .verb("Stop", "stops where the person is")
           .verb("Go", "walks on: to where it was sent, or along its path")
-          .pair_verb("GoTo", "x y", "m", {}, "walks there, through doors and round obstacles")
+          .place_verb("GoTo",
+                      "walks there, through doors and round obstacles; to another floor by "
+                      "an elevator")
           .pair_verb("PushTo", "x y", "m", {}, "walks there straight, and pushes obstacles")
           .verb("Speak", "speaks until Quiet")
           .verb("Quiet", "speaks no more")

@@ -86,6 +86,13 @@ std::vector<double> numbers_of(const std::vector<std::string>& words) {
   return numbers;
 }
 
+/// The name of a place in a text: what follows the verb, if that does not begin with a number.
+std::string place_in(const std::string& text, const std::vector<std::string>& words) {
+  if (words.size() < 2 || angen::parse_number(words[1]).has_value()) return "";
+  const std::size_t blank = text.find_first_of(" \t,");
+  return blank == std::string::npos ? "" : unquoted(trimmed(text.substr(blank + 1)));
+}
+
 /// Whether the command is as many finite numbers as the kind takes; they are put into its values.
 bool takes_values(const Kind& kind, const std::vector<std::string>& words, Command& command) {
   if (kind.value_units().empty()) return false;
@@ -116,6 +123,7 @@ std::string forms_of(const Kind& kind) {
       number.replace(at, 1, "> <");
       at += 3;
     }
+    if (verb.is_place) number += " [<floor>] or <name of a room or thing>";
     forms.push_back(verb.name + (number.empty() || verb.whole ? "" : " ") + number);
   }
   std::string values;
@@ -147,7 +155,12 @@ std::string parse_command(const Kind& kind, Command& command) {
   if (words.empty()) return "no verb; " + right;
   const Verb* verb = find_verb(kind, words);
   if (verb == nullptr) return "unknown verb '" + printable(words[0]) + "'; " + right;
-  const std::size_t expected = verb->argument.empty() ? 1 : 1 + verb->count;
+  command.verb = verb->name;
+  if (verb->is_place) command.place = place_in(trimmed(text), words);
+  if (!command.place.empty()) return "";
+  const bool has_floor = verb->is_place && words.size() == verb->count + 2;
+  const std::size_t expected =
+      verb->argument.empty() ? 1 : 1 + verb->count + static_cast<std::size_t>(has_floor);
   if (words.size() > expected) return "too many words after " + verb->name + "; " + right;
   if (words.size() < expected) return verb->name + " without " + verb->argument + "; " + right;
   std::vector<double> numbers;
@@ -164,7 +177,6 @@ std::string parse_command(const Kind& kind, Command& command) {
   }
   if (!numbers.empty()) command.number = numbers.front();
   if (numbers.size() > 1) command.values = std::move(numbers);
-  command.verb = verb->name;
   return "";
 }
 

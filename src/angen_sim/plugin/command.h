@@ -14,6 +14,7 @@ struct Command {
                                     // the numbers of a verb that takes several
   std::string verb = {};  // one of the kind's, written as there; none if the kind has none
   double number = 0.0;    // the number of a verb that takes one, within its range
+  std::string place = {};  // the name that a verb of places took instead of numbers
 };
 
 /// Finds the kind's verb in `command.text` ("Dim 40", "dim, 40", "Floor1") and fills in verb and

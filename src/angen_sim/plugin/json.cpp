@@ -68,7 +68,8 @@ std::string object(const Verb& v) {
          members("name", json(v.name), "doc", json(v.doc), "argument", json(v.argument), "type",
                  json(type), "unit", json(v.unit), "min", json(v.range.min), "max",
                  json(v.range.max), "count",
-                 json(static_cast<int>(v.argument.empty() ? 0 : v.count))) +
+                 json(static_cast<int>(v.argument.empty() ? 0 : v.count)), "place",
+                 json(v.is_place)) +
          "}";
 }
 

@@ -83,6 +83,12 @@ Kind& Kind::pair_verb(std::string verb_name, std::string arguments, std::string 
   return *this;
 }
 
+Kind& Kind::place_verb(std::string verb_name, std::string verb_doc) {
+  pair_verb(std::move(verb_name), "x y", "m", {}, std::move(verb_doc));
+  verbs.back().is_place = true;
+  return *this;
+}
+
 Kind& Kind::counted_verb(std::string verb_name, std::string argument, Range range,
                          std::string verb_doc) {
   verbs.push_back(

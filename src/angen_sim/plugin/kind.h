@@ -17,6 +17,7 @@ struct Verb {
   Range range;            // limits of the number
   bool whole = false;     // the number is an integer; it may follow the verb without a blank
   std::size_t count = 1;  // how many numbers it takes, where it takes any; `argument` names each
+  bool is_place = false;  // it also takes a third number, a floor, or a name instead of all
 };
 
 /// A field of a sensor's reading or a device's state.
@@ -97,6 +98,8 @@ class Kind {
   /// A verb that takes two numbers, as "GoTo 1.5 2"; `arguments` is "x y".
   Kind& pair_verb(std::string name, std::string arguments, std::string unit, Range range,
                   std::string doc);
+  /// A verb that takes a place: x and y in m, maybe the number of a floor, or a name.
+  Kind& place_verb(std::string name, std::string doc);
   /// A verb whose number is an integer.
   Kind& counted_verb(std::string name, std::string argument, Range range, std::string doc);
 

@@ -74,6 +74,19 @@ TEST(Command, AVerbMayTakeTwoNumbers) {
   }
 }
 
+TEST(Command, AVerbMayTakeAPlace) {
+  const Kind person = Kind("person", "").place_verb("GoTo", "");
+  EXPECT_EQ(parsed(person, "goto 1.5, -2").values, (std::vector<double>{1.5, -2.0}));
+  EXPECT_EQ(parsed(person, "GoTo 1 2 -1").values, (std::vector<double>{1.0, 2.0, -1.0}));
+  EXPECT_EQ(parsed(person, "GoTo Living Room").place, "Living Room");
+  EXPECT_EQ(parsed(person, " GoTo, 'kitchen0' ").place, "kitchen0");
+  for (const char* text : {"GoTo", "GoTo 1", "GoTo 1 x", "GoTo 1 2 3 4", "GoTo nan 1"}) {
+    EXPECT_NE(rejection(person, text).find("GoTo <x> <y> [<floor>] or <name of a room or thing>"),
+              std::string::npos)
+        << rejection(person, text);
+  }
+}
+
 TEST(Command, AKindWithoutVerbsTakesAnyText) {
   EXPECT_EQ(parsed(Kind("toy", ""), "dance 3").text, "dance 3");
   EXPECT_TRUE(parsed(Kind("toy", ""), "dance 3").values.empty());

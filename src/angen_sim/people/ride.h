@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "people/errand.h"
+#include "people/surroundings.h"
+#include "plugin/plugin.h"
+
+namespace angen::people {
+
+/// A person's way to another floor: to the landing of an elevator, which it calls by a command as
+/// anybody does, into the cabin, up or down, and out.
+class Ride {
+ public:
+  using Vec2 = Surroundings::Vec2;
+
+  /// By the first elevator that serves both floors; none if there is none. `goal` (world, m) is
+  /// where the person wants to go there.
+  static std::optional<Ride> between(const Home& home, int from, int to, const Vec2& goal);
+
+  /// Where it begins (m, world): in the cabin it rides on.
+  void start_at(const Vec2& at, Nanoseconds now);
+
+  struct Advice {
+    enum class Step { kWalk, kStand, kLeft, kFailed } step = Step::kStand;
+    Vec2 to = Vec2::Zero();  // of kWalk and kLeft: where it walks next
+  };
+  /// The next step; `errand` is how far the walk of the last one is.
+  Advice update(const View& view, Errand::Phase errand, Outputs& outputs);
+  const Vec2& goal() const { return goal_; }
+  int floor() const { return to_.floor; }
+
+ private:
+  enum class Phase { kToLanding, kCalls, kBoards, kRides, kLeaves };
+  struct Stop {
+    int floor = 0;    // the storey's number
+    int number = 0;   // the elevator's, of commands
+    Vec2 wait{0, 0};  // m, on the landing
+  };
+
+  void enter(Phase phase, Nanoseconds now);
+  bool is_open_at(const Stop& stop, const View& view) const;
+  Advice wait_for(const Stop& stop, const Vec2& then, Phase next, const View& view,
+                  Outputs& outputs);
+
+  std::string elevator_;
+  Stop from_;
+  Stop to_;
+  Vec2 cabin_ = Vec2::Zero();
+  Vec2 goal_ = Vec2::Zero();
+  Phase phase_ = Phase::kToLanding;
+  Nanoseconds since_ = 0;       // the beginning of this phase
+  Nanoseconds called_at_ = -1;  // when it last called
+  bool begun_ = false;
+  int tries_ = 0;
+};
+
+}  // namespace angen::people
