@@ -96,8 +96,8 @@ def test_a_person_is_sent_where_one_clicks(home: Angen, page: Page) -> None:
     page.click(*at)
     page.until('return document.querySelector("#hint").hidden')
     words, accepted = page.until('return angen.sent')
-    verb, x, y = words.split()
-    assert verb == 'GoTo' and accepted
+    verb, x, y, floor = words.split()
+    assert verb == 'GoTo' and floor == '0' and accepted
     assert (float(x), float(y)) == pytest.approx((1.5, 4.5), abs=0.3)
     page.run('angen.card.close(); angen.setStorey(null)')
 

@@ -94,7 +94,7 @@ bool Person::plan(const Step& step, bool with_seen) {
 void Person::give_up(Outputs& outputs) {
   errand_->give_up();
   if (is<Progress::Wait>()) state_ = Walks{};
-  if (ride_) return;  // which has another try, or says so
+  if (ride_) return;  // the ride tries again, or says so
   std::ostringstream goal;
   goal << errand_->to().x() << " " << errand_->to().y();
   outputs.event("unreachable", goal.str());

@@ -73,7 +73,7 @@ export class Card {
       else if (verb.type === 'integer' && verb.argument === 'floor') plain.push(...this.floors(send));
       else if (verb.count === 2 && verb.argument === 'x y') {
         plain.push(el('button', { type: 'button', title: verb.doc, 'data-verb': verb.name,
-          onclick: () => this.page.choosePoint(`${spaced(verb.name)}: a place for ${entity.name}`, Array.from(this.home.place(entity)), (/** @type {number[]} */ p) => send(`${p[0].toFixed(2)} ${p[1].toFixed(2)}${verb.place ? ` ${this.home.storeyAt(p[2])}` : ''}`)) }, `${spaced(verb.name)} …`));
+          onclick: () => this.page.choosePoint(`${spaced(verb.name)}: a place for ${entity.name}`, Array.from(this.home.place(entity)), (/** @type {number[]} */ p) => send(`${p[0].toFixed(2)} ${p[1].toFixed(2)}${verb.place && this.home.storeys.length > 1 ? ` ${this.home.storeyAt(p[2])}` : ''}`)) }, `${spaced(verb.name)} …`));
       } else if (verb.count === 1) rows.push(this.slider(entity, verb, send));
     }
     return [el('div', { class: 'verbs' }, ...plain), ...(rows.length ? [el('div', { class: 'verbs' }, ...rows)] : [])];
