@@ -7,6 +7,7 @@ import math
 import pytest
 from angen_msgs.msg import PirMsg, Stats
 from angen_msgs.srv import Delete, List, Save, Spawn, Step
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from harness import Angen, Inbox, RawText, until
 from geometry_msgs.msg import Pose, Twist
 from nav_msgs.msg import Odometry
@@ -191,6 +192,26 @@ def test_what_is_saved_can_be_spawned_from(angen: Angen) -> None:
     assert saved.success, saved.message
     for name in ("bathroom_door0", "kitchen_lamp0", "turtlebot", "eye", "libdoor_world_plugin.so"):
         assert name in saved.xml
+
+
+def test_diagnostics_warn_of_a_sensor_with_a_fault(angen: Angen) -> None:
+    def status(message: DiagnosticArray, part: str) -> DiagnosticStatus:
+        return next(s for s in message.status if s.name == f"angen: {part}")
+
+    with Inbox("/diagnostics", DiagnosticArray) as inbox:
+        before = inbox.wait(lambda m: True, "diagnostics", 20)
+        assert [s.hardware_id for s in before.status] == ["angen"] * 3
+        values = {v.key: v.value for v in status(before, "time").values}
+        assert float(values["simulated time (s)"]) > 0 and values["requested rate"] == "1"
+        broken = SENSOR.replace('so"/>', 'so"><fault>stuck from=0.5 lasts=1000</fault></plugin>')
+        answer = angen.call("/angen/spawn", Spawn, name="broken", xml=broken,
+                            on="turtlebot::base_footprint", pose=at(0, 0, 0.5))
+        assert answer.success, answer.message
+        after = inbox.wait(lambda m: status(m, "sensors").level == DiagnosticStatus.WARN,
+                           "a warning", 20)
+    told = {v.key: v.value for v in status(after, "sensors").values}
+    assert told["broken"] == "stuck, pir: begins"
+    assert angen.call("/angen/delete", Delete, name="broken").success
 
 
 def test_stats_count(angen: Angen) -> None:

@@ -7,9 +7,9 @@ import struct
 
 import pytest
 from angen_msgs.srv import Delete, List, Spawn
-from harness import Angen, until
+from harness import Angen, Inbox, until
 from gazebo_msgs.msg import ContactsState
-from geometry_msgs.msg import Pose
+from geometry_msgs.msg import Pose, Twist, Vector3
 from sensor_msgs.msg import CameraInfo, Image, JointState, LaserScan, PointCloud2
 from tf2_msgs.msg import TFMessage
 
@@ -89,7 +89,16 @@ def test_the_bumper_and_the_joints_are_published(angen: Angen) -> None:
     assert contacts.states == []
     joints = angen.wait("/joint_states", JointState)
     assert joints.name == ["left_wheel_joint", "right_wheel_joint"]
-    assert len(joints.position) == 2
+    assert len(joints.position) == len(joints.velocity) == 2
+
+
+def test_wheels_turn_as_fast_as_the_robot_drives(angen: Angen) -> None:
+    with Inbox("/joint_states", JointState) as states:
+        angen.send("/cmd_vel", Twist(linear=Vector3(x=0.2)))
+        turning = states.wait(lambda s: min(s.velocity) > 3.0, "wheels that turn", 20)
+        angen.send("/cmd_vel", Twist())
+    angen.wait("/joint_states", JointState, lambda s: max(map(abs, s.velocity)) == 0.0)
+    assert turning.velocity[0] == pytest.approx(turning.velocity[1], rel=0.05)
 
 
 def test_a_second_robot_speaks_below_its_own_name_only(angen: Angen) -> None:

@@ -74,6 +74,7 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       pacer_(settings.rate),
       clock_(handle_, settings.clock_rate),
       stats_(handle_),
+      diagnostics_(handle_),
       events_(handle_),
       cost_(handle_, simulation),
       summary_(handle_, readings_),
@@ -176,6 +177,7 @@ void Node::publish(const sim::Snapshot& snapshot) {
   events_.publish(snapshot);
   summary_.publish(snapshot, now);
   stats_.publish(snapshot, now);
+  diagnostics_.publish(snapshot, rate_, now);
   cost_.publish(snapshot, now);
   const std::string lag =
       lag_.update(snapshot.time, rate_, snapshot.paused, now, Stopwatch::system_clocks().cpu);

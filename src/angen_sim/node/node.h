@@ -6,6 +6,7 @@
 
 #include "node/commands.h"
 #include "node/cost.h"
+#include "node/diagnostics.h"
 #include "node/home_topic.h"
 #include "node/lag_warning.h"
 #include "node/publishers.h"
@@ -80,6 +81,7 @@ class Node {
   std::shared_ptr<const sim::Structure> structure_;  // the last one published
   ClockTopic clock_;
   Stats stats_;
+  Diagnostics diagnostics_;
   Events events_;
   CostTopic cost_;
   Readings readings_;

@@ -44,14 +44,21 @@ void JointStates::publish(const sim::Snapshot& snapshot) {
   const Nanoseconds slot = snapshot.time / kJointPeriod;
   if (slot == slot_) return;
   slot_ = slot;
-  for (const Source& source : sources_) {
+  const double since = to_seconds(snapshot.time - std::exchange(time_, snapshot.time));
+  for (Source& source : sources_) {
+    const std::vector<double> before = std::exchange(source.before, {});
+    for (const std::uint32_t joint : source.joints) {
+      source.before.push_back(snapshot.joint_positions[joint]);
+    }
     for (const LazyPublisher& made : source.publishers) {
       made.publish([&] {
         sensor_msgs::JointState message;
         message.header.stamp = to_ros(snapshot.time);
         message.name = source.names;
-        for (const std::uint32_t joint : source.joints) {
-          message.position.push_back(snapshot.joint_positions[joint]);
+        message.position = source.before;
+        for (std::size_t i = 0; i < source.before.size(); ++i) {
+          const bool known = before.size() == source.before.size() && since > 0.0;
+          message.velocity.push_back(known ? (source.before[i] - before[i]) / since : 0.0);
         }
         return message;
       });

@@ -24,12 +24,14 @@ class JointStates {
     std::vector<std::uint32_t> joints;  // in Structure::joints
     std::vector<std::string> names;     // without the model's
     std::vector<LazyPublisher> publishers;
+    std::vector<double> before;  // their positions at the last message; empty: there was none
   };
 
   ros::NodeHandle& node_;
   std::map<std::string, LazyPublisher> publishers_;  // by topic
   std::vector<Source> sources_;
   Nanoseconds slot_ = -1;
+  Nanoseconds time_ = 0;  // of the last message
 };
 
 }  // namespace angen::node
