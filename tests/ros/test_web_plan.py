@@ -164,7 +164,8 @@ def test_taps_on_doors_hit_doors(home: Angen, page: Page, kind: str) -> None:
 
 
 @pytest.mark.parametrize('kind', SIZES)
-def test_what_is_near_a_tap_is_found_and_a_room_in_the_open(home: Angen, page: Page, kind: str) -> None:
+def test_what_is_near_a_tap_is_found_and_a_room_in_the_open(home: Angen, page: Page, kind: str
+                                                            ) -> None:
     home.call('/gazebo/pause_physics', Empty)  # the person would walk to where nobody was
     page.until('return angen.home.stats.paused')
     page.driver.set_window_size(*SIZES[kind])
