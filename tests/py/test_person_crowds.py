@@ -39,3 +39,41 @@ def test_people_from_both_sides_get_through_a_door(world: Callable[..., angen.Wo
     for i, goal in enumerate(goals):
         state = w.device('person', f'p{i}')
         assert hypot(state['x'] - goal[0], state['y'] - goal[1]) < 0.1, f'p{i} of {count}'
+
+
+def crowd(world: Callable[..., angen.World], walls: str, starts: list[tuple[float, float]],
+          goals: list[tuple[float, float]]) -> angen.World:
+    people = ''.join(f'<actor name="p{i}"><pose>{x} {y} 0 0 0 0</pose></actor>'
+                     for i, (x, y) in enumerate(starts))
+    w = world(walls + people)
+    w.run(1.0)
+    for i, (x, y) in enumerate(goals):
+        w.command('person', f'p{i}', f'GoTo {x} {y}')
+    return w
+
+
+def arrive(w: angen.World, goals: list[tuple[float, float]], limit: float) -> None:
+    """All of them, within `limit` s."""
+    def left() -> list[str]:
+        states = [w.device('person', f'p{i}') for i in range(len(goals))]
+        return [f'p{i}' for i, (s, (x, y)) in enumerate(zip(states, goals))
+                if hypot(s['x'] - x, s['y'] - y) > 0.25]
+    while left() and w.time < limit:
+        w.run(2.0)
+    assert not left()
+
+
+@pytest.mark.parametrize('width', [0.8, 0.95])
+def test_ten_people_from_both_sides_get_through_a_doorway(world: Callable[..., angen.World],
+                                                          width: float) -> None:
+    middle = width / 2 + 2.5
+    walls = ''.join(box(f'wall{side}', f'{side * middle} 0 1.3 0 0 0', '5 0.12 2.6', True)
+                    + box(f'far{side}', f'0 {5 * side} 1.3 0 0 0', '11 0.1 2.6', True)
+                    + box(f'end{side}', f'{5.4 * side} 0 1.3 0 0 0', '0.1 10 2.6', True)
+                    for side in (-1, 1))
+    starts, goals = [], []
+    for i in range(10):
+        side, k = 1 - 2 * (i % 2), i // 2
+        starts.append((-2.0 + k + 0.05 * i, side * (1.6 + 0.4 * (k % 3))))
+        goals.append((-2.0 + k, -side * (2.0 + 0.5 * (k % 3))))
+    arrive(crowd(world, walls, starts, goals), goals, 60.0)

@@ -10,7 +10,7 @@ namespace angen::node {
 namespace {
 
 constexpr std::chrono::seconds kPeriod(1);
-constexpr double kLow = 0.5;              // of the requested rate
+constexpr double kLow = 0.5;              // share of the requested rate
 constexpr std::size_t kMaxFaulty = 1000;  // sensors
 
 using Status = diagnostic_msgs::DiagnosticStatus;

@@ -57,6 +57,8 @@ class DoorUse {
   /// `looks`. Commands doors.
   Advice update(const View& view, const Vec3& feet, const Vec2& to, bool looks, Outputs& outputs);
   void reset() { phase_ = Phase::kNone; }
+  /// It is about to open or to shut a door.
+  bool is_busy() const { return phase_ != Phase::kNone && phase_ != Phase::kPassing; }
   /// The door that it is at.
   const DoorSeen& door() const { return door_; }
 

@@ -15,6 +15,15 @@ constexpr double kWaitToll = 30.0;              // m that another shut door coun
 constexpr double kSeenCell = 0.02;              // m
 constexpr std::size_t kMaxKeptCells = 500'000;  // 6.5 MB
 
+std::vector<Navigator::Vec2> straight(const Navigator::Vec2& from, const Navigator::Vec2& to) {
+  const int steps = static_cast<int>((to - from).norm() / FloorMap::kCell) + 1;
+  std::vector<Navigator::Vec2> places;
+  for (int i = 0; i <= steps; ++i) {
+    places.emplace_back(from + (to - from) * (static_cast<double>(i) / steps));
+  }
+  return places;
+}
+
 }  // namespace
 
 void Navigator::forget() {
@@ -22,6 +31,7 @@ void Navigator::forget() {
   target_.reset();
   seen_.clear();
   failed_.clear();
+  passages_.clear();
 }
 
 bool Navigator::plan(const View& view, const Vec3& feet, const Vec2& to, bool with_seen) {
@@ -30,7 +40,10 @@ bool Navigator::plan(const View& view, const Vec3& feet, const Vec2& to, bool wi
   const std::vector<DoorSeen> doors = doors_seen(view, feet.z());
   if (!with_seen && !door_on_way(doors, at, to)) {
     FloorMap strip(view, feet, to, FloorMap::Extent::kStraight);
-    if (strip.is_clear(at, to) && strip.has_floor(view, at, to)) return true;
+    if (strip.is_clear(at, to) && strip.has_floor(view, at, to)) {
+      passages_ = passages_of(strip, straight(at, to));
+      return true;
+    }
   }
   FloorMap map = map_of_storey(view, feet, to);
   if (with_seen) map.add_points(seen_);
@@ -39,7 +52,9 @@ bool Navigator::plan(const View& view, const Vec3& feet, const Vec2& to, bool wi
     map.add_toll(door.hinge, door.edge(), opens_doors_ ? kOpenToll : kWaitToll);
   }
   std::optional<std::vector<Vec2>> way = map.way(view, at, to, kNearGoal);
+  passages_.clear();
   if (!way) return !with_seen && Surroundings::is_walkable(view, feet, to);
+  if (storey_) passages_ = passages_of(*storey_, *way);
   route_.emplace(std::move(map), std::move(*way));
   return true;
 }

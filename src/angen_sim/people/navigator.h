@@ -6,6 +6,7 @@
 
 #include "people/door_use.h"
 #include "people/floor_map.h"
+#include "people/right_of_way.h"
 #include "people/route.h"
 #include "people/surroundings.h"
 
@@ -41,6 +42,8 @@ class Navigator {
   void note_obstacle(const Vec2& point) { seen_.push_back(point); }
   /// A door that does not open is a wall until the goal changes.
   void note_failed(const DoorSeen& door);
+  /// The narrow parts of the way, between what cannot move.
+  const std::vector<Passage>& passages() const { return passages_; }
   bool knows_obstacles() const { return !seen_.empty(); }
 
  private:
@@ -51,6 +54,7 @@ class Navigator {
   std::optional<FloorMap> storey_;  // the last one, for other goals
   std::vector<Vec2> seen_;
   std::vector<std::string> failed_;
+  std::vector<Passage> passages_;
   std::optional<Vec2> target_;
 };
 

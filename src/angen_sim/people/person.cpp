@@ -187,6 +187,7 @@ Nanoseconds Person::rests_until(const View& view) const {
     return refresh_.next(view.time());
   }
   if (paused_) return kForever;
+  if (is<StandsAside>()) return view.time() + kScanPeriod;
   if (waits || ride_) return (view.time() / kSecond + 1) * kSecond;
   const Vec2 at = body.pose.position.head<2>();
   if (errand_) {

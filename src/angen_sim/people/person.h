@@ -42,7 +42,11 @@ class Person : public Device {
 
   struct Walks {};
   struct WaitsAtDoor {};  // until another opens it
-  using State = std::variant<Walks, WaitsAtDoor, Progress::Wait>;
+  struct StandsAside {    // until others have come out of a narrow passage
+    Vec2 place;           // m
+    Nanoseconds since = 0;
+  };
+  using State = std::variant<Walks, WaitsAtDoor, StandsAside, Progress::Wait>;
 
   /// What a step needs to know and to do.
   struct Step {
@@ -88,6 +92,7 @@ class Person : public Device {
   // Where something holds it.
   bool uses_door(const Vec2& to, bool looks, const Step& step);
   bool gives_way(const Step& step);
+  bool stands_aside(Look look, const Step& step);
   void make_room(const Step& step);
   void wait(const Step& step);
   bool is_freed(const Progress::Wait& wait, const Step& step);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "people/person.h"
+#include "people/right_of_way.h"
 #include "plugin/outputs.h"
 #include "plugin/view.h"
 
@@ -60,7 +61,9 @@ void Person::run_errand(const Step& step) {
     progress_.restart(step.now());
     if (!plan(step, false)) give_up(step.outputs);
   }
-  const bool lingers = !there && errand.lingers(at, step.now(), is<WaitsAtDoor>(), rests, speed_);
+  const bool waits = is<WaitsAtDoor>() || is<StandsAside>() ||
+                     (is<Progress::Wait>() && have_others_to_go(step.view, step.feet()));
+  const bool lingers = !there && errand.lingers(at, step.now(), waits, rests, speed_);
   if (lingers && !gave_up()) give_up(step.outputs);
   if (there || gave_up()) {
     if (!rests) errand.stop_at(at);
@@ -72,6 +75,7 @@ void Person::run_errand(const Step& step) {
   if (gives_way(step)) return;
   const Look look = is<WaitsAtDoor>() ? Look::kNone : walker_.look(step.view, step.feet());
   if (look != Look::kNone || !navigator_.target()) navigator_.advance(at, errand.to());
+  if (stands_aside(look, step)) return;
   if (uses_door(*navigator_.target(), look != Look::kNone, step)) return;
   if (look == Look::kPlans && navigator_.knows_obstacles()) explore(step);
   if (look == Look::kPlans) walker_.aim_for(step.view, step.feet(), *navigator_.target());

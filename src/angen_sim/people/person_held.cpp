@@ -1,5 +1,6 @@
 // A person at doors, and its behavior when something holds it.
 #include "people/person.h"
+#include "people/right_of_way.h"
 #include "plugin/outputs.h"
 #include "plugin/view.h"
 
@@ -7,8 +8,12 @@ namespace angen::people {
 
 namespace {
 
-constexpr double kStepBack = 1.2;               // m, out of the way of a leaf that opens towards it
-constexpr Nanoseconds kGivesUp = 15 * kSecond;  // without progress towards where it was sent
+constexpr double kStepBack = 1.2;  // m, out of the way of a leaf that opens towards it
+constexpr double kAtPlace = 0.1;   // m from where it waits
+constexpr Nanoseconds kWalksAside = 4 * kSecond;    // then it waits where it is
+constexpr Nanoseconds kStandsAside = 60 * kSecond;  // then it goes on, whoever comes
+constexpr Nanoseconds kGivesUp = 15 * kSecond;      // without progress towards where it was sent
+constexpr Nanoseconds kGivesUpInCrowd = 60 * kSecond;
 
 }  // namespace
 
@@ -38,6 +43,36 @@ bool Person::uses_door(const Vec2& to, bool looks, const Step& step) {
   return true;
 }
 
+// Two who meet in a doorway block each other for good: who is not the next to go in waits beside
+// the way.
+bool Person::stands_aside(Look look, const Step& step) {
+  auto* aside = std::get_if<StandsAside>(&state_);
+  if (errand_->pushes() || doors_.is_busy()) return false;
+  if (look != Look::kNone || (aside != nullptr && walker_.rests())) {
+    const std::optional<Vec2> place =
+        place_to_wait(step.view, step.feet(), navigator_.passages(),
+                      aside != nullptr ? std::optional(aside->place) : std::nullopt);
+    const bool late = aside != nullptr && step.now() - aside->since > kStandsAside;
+    if (!place || late) {
+      if (aside != nullptr) state_ = Walks{};
+      return false;
+    }
+    if (aside == nullptr) aside = &state_.emplace<StandsAside>(StandsAside{*place, step.now()});
+  }
+  if (aside == nullptr) return false;
+  progress_.come(step.at(), step.now());
+  const bool there = (aside->place - step.at()).norm() < kAtPlace;
+  if (there || step.now() - aside->since > kWalksAside) {
+    if (!walker_.rests()) stand(step.outputs);
+    show(Mode::kBlocked, step);
+    return true;
+  }
+  if (look == Look::kPlans) walker_.aim_for(step.view, step.feet(), aside->place);
+  walker_.walk(step.body, aside->place, speed_, step.outputs, 0.0);
+  show(Mode::kWalking, step);
+  return true;
+}
+
 // A door that opens towards a person before it needs room: the person steps back the way it came,
 // waits there, and continues when it sees a free way. Rarely it tries without seeing one.
 bool Person::gives_way(const Step& step) {
@@ -60,7 +95,9 @@ bool Person::gives_way(const Step& step) {
       progress_.resume(step.at(), step.now());
       return false;
     }
-    if (walker_.manner().rounds && errand_ && step.now() - wait->since > kGivesUp) {
+    const bool crowded = have_others_to_go(step.view, step.feet());
+    const Nanoseconds patience = crowded ? kGivesUpInCrowd : kGivesUp;
+    if (walker_.manner().rounds && errand_ && step.now() - wait->since > patience) {
       give_up(step.outputs);
       return false;
     }

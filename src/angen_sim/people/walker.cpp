@@ -16,6 +16,7 @@ constexpr double kTurnGain = 6.0;    // 1/s, from the wrong heading to a yaw rat
 constexpr double kMaxTurn = 3.0;     // rad/s
 constexpr double kStill = 0.05;      // m/s: slower than this it keeps its heading
 constexpr double kPushSpeed = 0.3;   // m/s, against a thing that it shall push
+constexpr double kComes = 0.1;       // m/s: who is slower stands
 constexpr double kTowards = 0.7;     // cosine, of a person who walks towards it
 constexpr int kScansPerPlan = 3;
 
@@ -63,7 +64,7 @@ std::optional<Walker::Vec2> Walker::way_past(const View& view, const Vec3& feet,
   const Vec2 at = feet.head<2>();
   const Vec2 ahead = (to - at).normalized();
   for (const DeviceView& other : Surroundings::other_people(view, feet)) {
-    if (other.state.get<std::string>("mode") == kModes[0]) continue;
+    if (other.state.get<double>("speed") < kComes) continue;
     const Vec2 there(other.state.get<double>("x"), other.state.get<double>("y"));
     const double distance = (there - at).norm();
     if (distance > Surroundings::kSight) continue;
