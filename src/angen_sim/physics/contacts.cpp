@@ -13,8 +13,7 @@ namespace angen::physics {
 
 namespace {
 
-constexpr double kSoftest = 1e-8;      // least CFM of a contact: keeps redundant points solvable
-constexpr double kBounceSpeed = 0.05;  // m/s, nothing bounces below it
+constexpr double kSoftest = 1e-8;  // least CFM of a contact: keeps redundant points solvable
 constexpr std::size_t kManyJoints = 256;
 constexpr std::size_t kMaxInStep = 20000;      // points
 constexpr std::size_t kMaxInMeshes = 500'000;  // tests, some tenths of a second
@@ -27,10 +26,6 @@ constexpr double kSide = 0.5;  // |z| of the normal at a body's side, at most
 // m/s, at which a yielding side parts from what presses on it: DART's threshold of bouncing.
 constexpr double kRebound = 0.1;
 
-bool holds_to_world(const Joint* joint) {
-  return !joint->first->dynamic() || !joint->second->dynamic();
-}
-
 // m/N, by which the side of a body yields to another that a joint to the world moves; 0 if it does
 // not. A latched one is as rigid as the wall.
 double side_yield(const Geom& geom, const Geom& other, const Vec3& normal) {
@@ -38,7 +33,7 @@ double side_yield(const Geom& geom, const Geom& other, const Vec3& normal) {
   if (stiffness <= 0.0 || !other.body->dynamic() || std::abs(normal.z()) >= kSide) return 0.0;
   const std::vector<Joint*>& joints = other.body->mechanism->joints;
   const bool presses =
-      std::any_of(joints.begin(), joints.end(), holds_to_world) &&
+      other.body->mechanism->anchored() &&
       std::none_of(joints.begin(), joints.end(), [](const Joint* j) { return j->latched; });
   return presses ? 1.0 / stiffness : 0.0;
 }
@@ -57,13 +52,13 @@ const MeshBoxes& boxes_of(const Geom& geom) {
   return *boxes;
 }
 
+}  // namespace
+
 double parting_speed(const Geom& a, const Geom& b, const dContactGeom& at) {
   const Vec3 position = ode::vec(at.pos);
   const Vec3 velocity = a.body->velocity_at(position) - b.body->velocity_at(position);
   return velocity.dot(ode::vec(at.normal));
 }
-
-}  // namespace
 
 bool may_touch(const Geom& a, const Geom& b) {
   const Body& one = *a.body;
@@ -173,10 +168,9 @@ void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
   const Vec3 normal = ode::vec(contact.geom.normal);
   const double side = std::max(side_yield(a, b, normal), side_yield(b, a, normal));
   const double parts_at = std::min({a.fastest, b.fastest, side > 0.0 ? kRebound : dInfinity});
-  const double bounce = std::min(a.restitution, b.restitution);
-  if (bounce > 0.0) {
+  if (std::min(a.restitution, b.restitution) > 0.0) {
     s.mode |= dContactBounce;
-    s.bounce = bounce;
+    s.bounce = bounce(a, b, contact.geom);
     s.bounce_vel = kBounceSpeed;
   }
   const bool is_soft = a.stiffness || b.stiffness || side > 0.0;

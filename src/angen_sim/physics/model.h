@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -154,6 +155,9 @@ struct Mechanism {
   std::vector<Joint*> joints;  // also those to static bodies
   double mass = 0.0;           // kg, of all its bodies
   bool stopped = false;        // went beyond the limits: asleep until it is placed again
+
+  /// Whether joints connect it to something static.
+  bool anchored() const;
 };
 
 /// One or more links that are fixed to each other. Its frame has the axes of its first link and its
@@ -199,6 +203,11 @@ struct Body {
   }
   double inverse_mass() const { return dynamic() ? 1.0 / mechanism->mass : 0.0; }
 };
+
+inline bool Mechanism::anchored() const {
+  return std::any_of(joints.begin(), joints.end(),
+                     [](const Joint* joint) { return !joint->second->dynamic(); });
+}
 
 struct LinkRecord {
   Body* body = nullptr;
