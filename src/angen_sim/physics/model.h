@@ -149,6 +149,15 @@ struct Weightless {
   double mass = 0.0;
 };
 
+/// Torques on a body that spins.
+struct Gyroscopic {
+  bool acts = false;             // in this step, instead of ODE's own
+  Vec3 spin = Vec3::Zero();      // rad/s, before the step
+  Vec3 torque = Vec3::Zero();    // N m, the gyroscopic one
+  Vec3 others = Vec3::Zero();    // N m, all else in the last step
+  Vec3 expected = Vec3::Zero();  // N m, of these in the next step
+};
+
 /// Dynamic bodies that joints hold together, or one alone: they wake and sleep as one.
 struct Mechanism {
   std::vector<Body*> bodies;   // by serial
@@ -189,6 +198,7 @@ struct Body {
   bool again = false;            // scratch: its step is taken again
   double pushed = 0.0;           // m/s, of its points, out of overlaps in the last step
   std::vector<PairKey> resting;  // contacts kept since it fell asleep
+  Gyroscopic gyroscopic;
   std::vector<LinkId> links;
   std::vector<Geom*> geoms;
   std::vector<Joint*> joints;
