@@ -22,7 +22,8 @@ constexpr double kUp = 0.9;                    // z of a unit normal: on a floor
 constexpr double kPush =
     50.0;  // m/s^2, at which a soft contact lifts a body that is deep in the floor
 
-constexpr double kSide = 0.5;  // |z| of the normal at a body's side, at most
+constexpr double kWheelSettles = 2e-3;  // s, of the springs of wheels
+constexpr double kSide = 0.5;           // |z| of the normal at a body's side, at most
 // m/s, at which a yielding side parts from what presses on it: DART's threshold of bouncing.
 constexpr double kRebound = 0.1;
 
@@ -44,6 +45,15 @@ bool joined(const Body& a, const Body& b) {
   return std::any_of(moving.joints.begin(), moving.joints.end(), [&](const Joint* joint) {
     return joint->first == &other || joint->second == &other;
   });
+}
+
+// N/m, of a contact that carries a mechanism with many wheels; 0 if rigid. Rigid ones may give any
+// loads: a wheel that the error of a joint has lifted by a nanometer would carry nothing from then.
+double stiffness_by_wheels(const Geom& a, const Geom& b) {
+  const auto own = [](const Geom& geom) {
+    return geom.body->mechanism == nullptr ? 0.0 : geom.body->mechanism->stiffness;
+  };
+  return std::max(own(a), own(b));
 }
 
 const MeshBoxes& boxes_of(const Geom& geom) {
@@ -174,6 +184,14 @@ void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
     s.bounce_vel = kBounceSpeed;
   }
   const bool is_soft = a.stiffness || b.stiffness || side > 0.0;
+  const double wheels = stiffness_by_wheels(a, b);
+  if (!is_soft && wheels > 0.0 && contact.geom.depth < surface_layer_) {
+    // As deep as it is, beyond the layer that ODE takes off all depths.
+    contact.geom.depth = surface_layer_ + std::max(0.0, contact.geom.depth - share.depth);
+    s.soft_erp = step_ / (step_ + kWheelSettles);
+    s.soft_cfm = 1.0 / (share.spring * wheels * (step_ + kWheelSettles));
+    return attach(contact, pair, index);
+  }
   if (is_soft) {
     const double yield =
         (side * static_cast<double>(pair.count) + (a.stiffness ? 1.0 / *a.stiffness : 0.0) +
@@ -204,9 +222,13 @@ void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
   }
   const double deepest = surface_layer_ + fastest * step_ / s.soft_erp;
   contact.geom.depth = std::min(contact.geom.depth, deepest);
-  // ODE wants a moving body first, and the normal towards it.
-  dBodyID one = a.body->ode.get();
-  dBodyID two = b.body->ode.get();
+  attach(contact, pair, index);
+}
+
+/// ODE wants a moving body first, and the normal towards it.
+void Contacts::attach(dContact& contact, const Pair& pair, std::size_t index) {
+  dBodyID one = pair.first->body->ode.get();
+  dBodyID two = pair.second->body->ode.get();
   if (one == nullptr) {
     std::swap(one, two);
     for (int i = 0; i < 3; ++i) contact.geom.normal[i] = -contact.geom.normal[i];

@@ -158,6 +158,7 @@ class Contacts {
   void make_joint(const Pair& pair, std::size_t index, bool pushes);
   /// Share of the speed of two bodies towards each other with which they part.
   double bounce(const Geom& a, const Geom& b, const dContactGeom& at) const;
+  void attach(dContact& contact, const Pair& pair, std::size_t index);
   void set_friction(dContact& contact, const Pair& pair, std::size_t index);
   void align(dContact& contact, const Pair& pair) const;
   void read_forces(const Pair& pair);

@@ -163,6 +163,7 @@ struct Mechanism {
   std::vector<Body*> bodies;   // by serial
   std::vector<Joint*> joints;  // also those to static bodies
   double mass = 0.0;           // kg, of all its bodies
+  double stiffness = 0.0;      // N/m, of a contact point, if it has many wheels; 0: rigid
   bool stopped = false;        // went beyond the limits: asleep until it is placed again
 
   /// Whether joints connect it to something static.
