@@ -43,7 +43,8 @@ void Drive::configure(Params& params, Wiring& wiring) {
       separation_);
   timeout_ = from_seconds(params.number("commandTimeout", 0.6, "s",
                                         "it stops this long after the last command", kPositive));
-  refresh_ = Refresh(params.number("updateRate", 50.0, "Hz", "rate of odometry", kRefreshRate));
+  refresh_ =
+      StateRefresh(params.number("updateRate", 50.0, "Hz", "rate of odometry", kRefreshRate));
   params.text("commandTopic", "cmd_vel", "where commands come from");
   params.text("odometryTopic", "odom", "of its odometry");
   params.text("odometryFrame", "odom", "frame that odometry starts in");

@@ -47,7 +47,7 @@ class Drive : public Device {
 
   Wheel left_;
   Wheel right_;
-  Refresh refresh_;
+  StateRefresh refresh_;
   double separation_ = 0.0;    // m
   double radius_ = 0.0;        // m
   double torque_ = 0.0;        // N m

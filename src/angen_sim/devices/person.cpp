@@ -98,7 +98,7 @@ void Person::configure(Params& params, Wiring& wiring) {
   skin_follows_ = !params.has("skin_temperature");
   clothing_follows_ = !params.has("clothing_temperature");
   surfaces_ = wiring.surfaces("");
-  refresh_ = Refresh(params.number(
+  refresh_ = StateRefresh(params.number(
       "update_rate", 20.0, "Hz", "how often its state is published while it walks", kRefreshRate));
   avoids_ = params.flag(
       "avoid", true, "walks round obstacles that it sees, or stops before them; otherwise pushes");

@@ -90,7 +90,7 @@ class Person : public Device {
   LinkRef body_;
   Gait gait_;
   Path path_;
-  Refresh refresh_;
+  StateRefresh refresh_;
   double skin_ = 0.0;      // K
   double clothing_ = 0.0;  // K
   bool skin_follows_ = true;
