@@ -31,7 +31,7 @@ class WheelErrors {
     covariance_ += per_meter_ * std::abs(left) * by_left * by_left.transpose();
   }
 
-  /// Of x, y (m) and yaw (rad), row by row.
+  /// Covariance of x, y (m) and yaw (rad), row by row.
   std::vector<double> numbers() const { return {covariance_.data(), covariance_.data() + 9}; }
 
  private:

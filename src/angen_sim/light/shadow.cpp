@@ -22,7 +22,7 @@ constexpr double kLuxError = 0.01;         // lx at level 1
 // A cell at the edge of a shadow, of which any share may be visible, is sampled once.
 constexpr double kVariance = 0.1;
 
-// Of the directions to a close lamp (R2, M. Roberts 2018: powers of the inverse plastic number).
+// Directions to a close lamp (R2, M. Roberts 2018: powers of the inverse plastic number).
 constexpr std::size_t kTries = 64;
 constexpr double kFirstStep = 0.7548776662466927, kSecondStep = 0.5698402909980532;
 

@@ -186,7 +186,7 @@ void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
   const bool is_soft = a.stiffness || b.stiffness || side > 0.0;
   const double wheels = stiffness_by_wheels(a, b);
   if (!is_soft && wheels > 0.0 && contact.geom.depth < surface_layer_) {
-    // As deep as it is, beyond the layer that ODE takes off all depths.
+    // The spring is pressed by all of the depth: ODE takes the layer off.
     contact.geom.depth = surface_layer_ + std::max(0.0, contact.geom.depth - share.depth);
     s.soft_erp = step_ / (step_ + kWheelSettles);
     s.soft_cfm = 1.0 / (share.spring * wheels * (step_ + kWheelSettles));
