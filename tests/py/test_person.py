@@ -53,3 +53,24 @@ def test_a_person_walks_to_its_goal_round_a_crate(world):
     assert '<go_to>4 0.5</go_to>' in w.save()
     with pytest.raises(angen.Error, match='GoTo <x> <y>'):
         w.command('person', 'person', 'GoTo 4')
+
+
+@pytest.mark.parametrize('rate, period', [(20, 0.04), (50, 0.02), (7, 0.14), (30, 0.02)])
+def test_a_state_is_published_at_equal_distances_and_is_of_its_tick(world, rate, period):
+    w = world(f'''<actor name="ann"><pose>0 0 0 0 0 0</pose>
+        <plugin name="person" filename="libperson_controller.so">
+        <update_rate>{rate}</update_rate></plugin></actor>''')
+    w.run(1.0)
+    w.command('person', 'ann', 'GoTo 4 0')
+    w.run(1.0)
+    stamps, before = [], w.device('person', 'ann')['x']
+    for _ in range(1000):
+        w.run(0.001)
+        shown = w.device('person', 'ann')['x']
+        if shown != before:
+            stamps.append(w.time)
+            assert abs(shown - w.motion('ann')[0][0]) < 0.0015  # it walks 1 mm in a tick
+        before = shown
+    assert len(stamps) == pytest.approx(1 / period, abs=1)
+    assert [b - a for a, b in zip(stamps, stamps[1:])] == pytest.approx(
+        [period] * (len(stamps) - 1))

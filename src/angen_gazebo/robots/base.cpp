@@ -38,6 +38,7 @@ void Base::read(const Pose& pose, const Vec3& velocity, double yaw_rate, Reading
   reading.set("forward", std::cos(yaw) * velocity.x() + std::sin(yaw) * velocity.y());
   reading.set("left", std::cos(yaw) * velocity.y() - std::sin(yaw) * velocity.x());
   reading.set("turn", yaw_rate);
+  reading.set("covariance", std::vector<double>(9, 0.0));
   reading.set("frame", topics_.odometry_frame);
   reading.set("base_frame", topics_.base_frame);
 }
@@ -59,6 +60,7 @@ Kind odometry_kind(std::string name, std::string doc, double rate) {
       .number("left", "m/s", "across it")
       .number("turn", "rad/s", "to the left")
       .shown(2)
+      .numbers("covariance", "", "of x, y (m) and yaw (rad), row by row; of the truth 0")
       .text("frame", "that the odometry starts in")
       .text("base_frame", "that it moves");
 }

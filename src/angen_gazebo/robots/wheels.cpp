@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "plugin/outputs.h"
@@ -64,6 +65,7 @@ void Wheels::report(const View&, Reading& state) const {
 
 void WheelOdometry::set_up(const WheelSettings& settings, Wiring& wiring) {
   separation_ = settings.separation;
+  error_ = settings.error;
   radius_ = settings.radius;
   left_ = wiring.joint(settings.left.front());
   right_ = wiring.joint(settings.right.front());
@@ -77,6 +79,9 @@ void WheelOdometry::read(const View& view, const Base& base,
     count(left.position - left_at_, right.position - right_at_,
           gyro ? std::make_optional(gyro->first - heading_) : std::nullopt);
   }
+  if (!started_) {
+    errors_ = {error_, gyro ? std::numeric_limits<double>::infinity() : separation_};
+  }
   started_ = true;
   left_at_ = left.position;
   right_at_ = right.position;
@@ -85,6 +90,7 @@ void WheelOdometry::read(const View& view, const Base& base,
   const double w = (right.velocity - left.velocity) * radius_ / separation_;
   const Quat turned(Eigen::AngleAxisd(yaw_, Vec3::UnitZ()));
   base.read({at_, turned}, turned * Vec3(v, 0.0, 0.0), gyro ? gyro->second : w, reading);
+  reading.set("covariance", errors_.numbers());
   rests_ = left.velocity == 0.0 && right.velocity == 0.0 && (!gyro || gyro->second == 0.0);
 }
 
@@ -101,6 +107,7 @@ void WheelOdometry::count(double left, double right, std::optional<double> turn)
   const double turned = std::remainder(turn.value_or((right - left) / separation_), 2.0 * M_PI);
   const double middle = yaw_ + turned / 2.0;
   at_ += (left + right) / 2.0 * Vec3(std::cos(middle), std::sin(middle), 0.0);
+  errors_.roll(left, right, middle);
   yaw_ = std::remainder(yaw_ + turned, 2.0 * M_PI);
 }
 

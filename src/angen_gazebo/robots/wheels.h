@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/wheel_errors.h"
 #include "robots/base.h"
 
 namespace angen::robots {
@@ -17,6 +18,7 @@ struct WheelSettings {
   double torque = 0.0;             // N m
   double acceleration = 0.0;       // m/s^2 at the rim; 0 = at once
   Nanoseconds timeout = kForever;  // it stops this long after a command
+  double error = 0.01;             // m, standard deviation of a wheel's way after 1 m
   std::vector<std::string> left;   // joints
   std::vector<std::string> right;
 };
@@ -73,6 +75,8 @@ class WheelOdometry {
   double left_at_ = 0.0, right_at_ = 0.0, heading_ = 0.0;  // rad, at the last sample
   Vec3 at_ = Vec3::Zero();
   double yaw_ = 0.0;
+  double error_ = 0.0;  // m, see WheelSettings
+  WheelErrors errors_;
 };
 
 /// The kind of a device that is commanded by a speed and a turn.

@@ -75,7 +75,7 @@ void Door::configure(Params& params, Wiring& wiring) {
                                 "0: it has no latch",
                                 kNotNegative);
   if (latch_torque_ > 0.0) brake_torque_ = std::min(brake_torque_, latch_torque_);
-  refresh_ = Refresh(params.number(
+  refresh_ = StateRefresh(params.number(
       "update_rate", 50.0, "Hz", "how often its state is published while it moves", kRefreshRate));
   params.choice("topicName", leaf_.topic, {leaf_.topic},
                 "where commands come from: one topic for all");

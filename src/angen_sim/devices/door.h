@@ -61,7 +61,7 @@ class Door : public Device {
   JointRef hinge_;
   LinkRef child_;
   Servo servo_;
-  Refresh refresh_;
+  StateRefresh refresh_;
   double open_position_ = 0.0;
   double closed_position_ = 0.0;
   double torque_max_ = 0.0;

@@ -37,9 +37,14 @@ void Drive::configure(Params& params, Wiring& wiring) {
       params.number("wheelAcceleration", 1.0, "m/s^2", "acceleration at a wheel's rim", kPositive);
   max_linear_ = params.number("max_linear_velocity", 0.7, "m/s", "fastest drive", kPositive);
   max_angular_ = params.number("max_angular_velocity", 3.1, "rad/s", "fastest turn", kPositive);
+  odometry_.errors = shown_.errors = WheelErrors(
+      params.number("wheelError", 0.01, "m",
+                    "standard deviation of a wheel's way after 1 m, in covariances", kNotNegative),
+      separation_);
   timeout_ = from_seconds(params.number("commandTimeout", 0.6, "s",
                                         "it stops this long after the last command", kPositive));
-  refresh_ = Refresh(params.number("updateRate", 50.0, "Hz", "rate of odometry", kRefreshRate));
+  refresh_ =
+      StateRefresh(params.number("updateRate", 50.0, "Hz", "rate of odometry", kRefreshRate));
   params.text("commandTopic", "cmd_vel", "where commands come from");
   params.text("odometryTopic", "odom", "of its odometry");
   params.text("odometryFrame", "odom", "frame that odometry starts in");
@@ -130,6 +135,7 @@ void Drive::count(const View& view) {
   const double middle = odometry_.yaw + turn / 2.0;
   odometry_.x += (left + right) / 2.0 * std::cos(middle);
   odometry_.y += (left + right) / 2.0 * std::sin(middle);
+  odometry_.errors.roll(left, right, middle);
   odometry_.yaw = std::remainder(odometry_.yaw + turn, 2.0 * M_PI);
   odometry_.v = (left_.velocity + right_.velocity) / 2.0 * radius_;
   odometry_.w = (right_.velocity - left_.velocity) / separation_ * radius_;
@@ -161,27 +167,30 @@ void Drive::report(const View&, Reading& state) const {
   state.set("left", shown_.left);
   state.set("right", shown_.right);
   state.set("work", shown_.work);
+  state.set("covariance", shown_.errors.numbers());
 }
 
 const Kind& DrivePlugin::kind() const {
-  static const Kind kind = Kind("drive", "A differential drive with odometry.")
-                               .model("turtlebot")
-                               .example("set drive turtlebot stop")
-                               .verb("Stop", "stops")
-                               .value_units({"m/s", "rad/s"})
-                               .number("x", "m", "by the wheels, in the odometry frame")
-                               .shown(2)
-                               .number("y", "m", "by the wheels")
-                               .shown(2)
-                               .number("yaw", "rad", "by the wheels")
-                               .shown(2)
-                               .number("v", "m/s", "forward")
-                               .shown(2)
-                               .number("w", "rad/s", "to the left")
-                               .shown(2)
-                               .number("left", "rad", "angle of the left wheel")
-                               .number("right", "rad", "angle of the right wheel")
-                               .number("work", "J", "of the motors since the start");
+  static const Kind kind =
+      Kind("drive", "A differential drive with odometry.")
+          .model("turtlebot")
+          .example("set drive turtlebot stop")
+          .verb("Stop", "stops")
+          .value_units({"m/s", "rad/s"})
+          .number("x", "m", "by the wheels, in the odometry frame")
+          .shown(2)
+          .number("y", "m", "by the wheels")
+          .shown(2)
+          .number("yaw", "rad", "by the wheels")
+          .shown(2)
+          .number("v", "m/s", "forward")
+          .shown(2)
+          .number("w", "rad/s", "to the left")
+          .shown(2)
+          .number("left", "rad", "angle of the left wheel")
+          .number("right", "rad", "angle of the right wheel")
+          .number("work", "J", "of the motors since the start")
+          .numbers("covariance", "", "of x, y (m) and yaw (rad), row by row: 9 numbers");
   return kind;
 }
 

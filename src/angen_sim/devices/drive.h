@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "core/wheel_errors.h"
 #include "devices/refresh.h"
 #include "plugin/plugin.h"
 
@@ -31,6 +32,7 @@ class Drive : public Device {
     double v = 0.0, w = 0.0;             // m/s, rad/s
     double left = 0.0, right = 0.0;      // rad
     double work = 0.0;                   // J that the motors gave; braking gives none back
+    WheelErrors errors;
 
     bool operator==(const Odometry& o) const {
       return x == o.x && y == o.y && yaw == o.yaw && v == o.v && w == o.w && left == o.left &&
@@ -45,7 +47,7 @@ class Drive : public Device {
 
   Wheel left_;
   Wheel right_;
-  Refresh refresh_;
+  StateRefresh refresh_;
   double separation_ = 0.0;    // m
   double radius_ = 0.0;        // m
   double torque_ = 0.0;        // N m

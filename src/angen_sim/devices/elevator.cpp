@@ -77,7 +77,7 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   lift_ = wiring.joint(lift_name_);
   limits_ = wiring.limits(lift_);
   heights_ = read_floors(params, wiring, limits_, lift_name_);
-  refresh_ = Refresh(params.number(
+  refresh_ = StateRefresh(params.number(
       "update_rate", 50.0, "Hz", "how often its state is published while it moves", kRefreshRate));
   params.choice("topicName", kTopic, {kTopic}, "where commands come from: one topic for all");
   params.text("joint", "", kJointDoc);

@@ -64,7 +64,7 @@ class Elevator : public Device {
   Servo servo_;
   bool plain_ = false;  // the controller is a plain PID, which lifts the weight too
   Doorway doorway_;
-  Refresh refresh_;
+  StateRefresh refresh_;
   std::vector<double> heights_;  // m, of the floors over floor 0
   Weighing weighing_;
   double brake_force_ = 0.0;  // N

@@ -108,7 +108,8 @@ float Field::direct(const Lamp& lamp, std::uint32_t patch) const {
   for (std::size_t i = 0; i < on.sites.size(); ++i) {
     const Site& site = on.sites[i];
     const double lux = illuminance(lamp, site.position, site.normal);
-    if (lux > 0.0 && sees_one(scene_, lamp, site.position, i + on.hash % kLampPoints, kStanding)) {
+    if (lux > 0.0 &&
+        sees_one(scene_, lamp, site.position, site.normal, i + on.hash % kLampPoints, kStanding)) {
       sum += lux;
     }
   }

@@ -202,7 +202,7 @@ void Gather::weigh() {
 }
 
 bool Gather::shaded(const Lamp& lamp, const Surface& surface, std::size_t i) const {
-  return !sees_one(scene_, lamp, surface.position, i, kMovable);
+  return !sees_one(scene_, lamp, surface.position, surface.normal, i, kMovable);
 }
 
 std::size_t Gather::lacking(const Source& source) {
@@ -238,8 +238,8 @@ void Gather::find_direct(const Source& source) {
     const Surface& seen = surfaces_[i];
     if ((seen.albedo == 0.0F).all()) continue;
     const double lux = illuminance(lamp, seen.position, seen.normal);
-    if (lux > 0.0 &&
-        sees_one(scene_, lamp, seen.position, i, rays::only(rays::Mobility::kStatic))) {
+    if (lux > 0.0 && sees_one(scene_, lamp, seen.position, seen.normal, i,
+                              rays::only(rays::Mobility::kStatic))) {
       from.direct[i] = static_cast<float>(lux);
       from.lit = true;
     }
@@ -273,7 +273,8 @@ Rgb Gather::on_mover(const Mover& mover, const Source& source, std::size_t i, bo
   const Surface& seen = mover.surface;
   const double lux = illuminance(lamp, seen.position, seen.normal);
   Rgb direct = Rgb::Zero(), reflected = Rgb::Zero();
-  if (lux > 0.0 && sees_one(scene_, lamp, seen.position, i, rays::only(rays::Mobility::kStatic))) {
+  if (lux > 0.0 &&
+      sees_one(scene_, lamp, seen.position, seen.normal, i, rays::only(rays::Mobility::kStatic))) {
     in_play = true;
     if (!shaded(lamp, seen, i)) direct += static_cast<float>(lux);
   }
@@ -298,7 +299,8 @@ Rgb Gather::leaving(const rays::Ray& ray, const Source& source, std::size_t i, c
   const Surface seen = surface(ray, hit);
   if ((seen.albedo == 0.0F).all()) return Rgb::Zero();
   const double lux = illuminance(source.lamp, seen.position, seen.normal);
-  const bool lit = lux > 0.0 && sees_one(scene_, source.lamp, seen.position, i, rays::kAll);
+  const bool lit =
+      lux > 0.0 && sees_one(scene_, source.lamp, seen.position, seen.normal, i, rays::kAll);
   return seen.albedo * ((lit ? static_cast<float>(lux) : 0.0F) +
                         left_ * field_.reflected(source.solution, seen.patch, source.stale));
 }

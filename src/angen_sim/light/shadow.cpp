@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "light/beam.h"
@@ -20,6 +21,10 @@ constexpr double kShareError = 0.004;      // error of the visible share, one st
 constexpr double kLuxError = 0.01;         // lx at level 1
 // A cell at the edge of a shadow, of which any share may be visible, is sampled once.
 constexpr double kVariance = 0.1;
+
+// Directions to a close lamp (R2, M. Roberts 2018: powers of the inverse plastic number).
+constexpr std::size_t kTries = 64;
+constexpr double kFirstStep = 0.7548776662466927, kSecondStep = 0.5698402909980532;
 
 using Square = std::pair<double, double>;
 
@@ -343,6 +348,37 @@ bool sees(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, const V
   return !scene.blocked(point, point + kSunlit * towards, 1e-4, among);
 }
 
+/// Whether parts of a flat lamp differ much in distance and direction.
+bool is_close(const Lamp& lamp, const Vec3& point) {
+  const double size =
+      lamp.type == Lamp::Type::kRectangle ? std::max(lamp.width, lamp.height) : 2.0 * lamp.radius;
+  return lamp.flat() && (lamp.pose.position - point).norm() < size;
+}
+
+/// Where a cosine-weighted direction meets the flat lamp; none if `kTries` directions miss it.
+std::optional<Vec3> point_of_light(const Lamp& lamp, const Vec3& point, const Vec3& normal,
+                                   std::size_t which) {
+  const Axes axes = axes_of(lamp);
+  const Eigen::Matrix3d frame = frame_about(normal);
+  const Vec3 shines = lamp.pose.rotation * lamp.direction;
+  const Vec3 middle = lamp.pose.position - point;
+  const double ahead = middle.dot(shines);
+  for (std::size_t k = 0; k < kTries; ++k) {
+    const auto n = static_cast<double>(which * kTries + k);
+    const double u = n * kFirstStep, v = n * kSecondStep;
+    const Vec3 way = frame * cosine_direction(u - std::floor(u), v - std::floor(v));
+    const double along = way.dot(shines);
+    if (!(along < 0.0)) continue;
+    const Vec3 off = ahead / along * way - middle;
+    const double x = off.dot(axes.along), y = off.dot(axes.across);
+    const bool meets = lamp.type == Lamp::Type::kRectangle
+                           ? std::abs(x) < lamp.width / 2 && std::abs(y) < lamp.height / 2
+                           : x * x + y * y < lamp.radius * lamp.radius;
+    if (meets) return lamp.pose.position + off;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Vec3 lamp_point(const Lamp& lamp, std::size_t which) {
@@ -379,9 +415,14 @@ bool sees_any(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, con
   return Cells(scene, lamp, face, point, among).share() > 0.0;
 }
 
-bool sees_one(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, std::size_t which,
-              rays::Mobilities among) {
+bool sees_one(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, const Vec3& normal,
+              std::size_t which, rays::Mobilities among) {
   if (!lamp.cast_shadows) return true;
+  if (is_close(lamp, point)) {
+    if (const std::optional<Vec3> on_lamp = point_of_light(lamp, point, normal, which)) {
+      return sees(scene, lamp, point, *on_lamp, among);
+    }
+  }
   const bool globe = !lamp.flat() && lamp.type != Lamp::Type::kTube;
   const Vec3 on_lamp =
       globe ? Face(lamp, point, Vec3::Zero()).at(square_points()[which % kLampPoints])

@@ -17,10 +17,11 @@ double visible_share(const rays::Scene& scene, const Lamp& lamp, const Vec3& poi
 bool sees_any(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, const Vec3& normal,
               rays::Mobilities among);
 
-/// Whether the point sees the lamp's sample point `which` (modulo kLampPoints); true if the lamp
-/// casts no shadows.
-bool sees_one(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, std::size_t which,
-              rays::Mobilities among);
+/// Whether the point sees the lamp's sample point `which`; true if the lamp casts no shadows. The
+/// samples are evenly spread over the lamp (kLampPoints), or, if it is flat and close, over the
+/// light that arrives on the plane with the unit `normal`.
+bool sees_one(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, const Vec3& normal,
+              std::size_t which, rays::Mobilities among);
 
 /// Sample point `which` (modulo kLampPoints) of a lamp, m, world: on a tube's axis, on a flat
 /// lamp's face or at the center of a globe.

@@ -65,9 +65,9 @@ void Person::configure(Params& params, Wiring& wiring) {
   const double force =
       params.number("force_max", 150.0, "N", "greatest force of its legs", kPositive);
   gives_.configure(params, wiring);
-  refresh_ = devices::Refresh(params.number("update_rate", 20.0, "Hz",
-                                            "how often its state is published while it walks",
-                                            devices::kRefreshRate));
+  refresh_ = devices::StateRefresh(params.number("update_rate", 20.0, "Hz",
+                                                 "how often its state is published while it walks",
+                                                 devices::kRefreshRate));
   avoids_ = params.flag(
       "avoid", true, "walks round obstacles that it sees, or stops before them; otherwise pushes");
   const bool opens = params.flag(

@@ -103,7 +103,7 @@ class Person : public Device {
   void show(Mode mode, const Step& step);
 
   LinkRef link_;
-  devices::Refresh refresh_;
+  devices::StateRefresh refresh_;
   Body gives_;
   Walker walker_;
   DoorUse doors_;

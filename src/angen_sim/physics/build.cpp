@@ -20,6 +20,9 @@ namespace {
 using desc::Model;
 
 constexpr double kNoLimit = 1e15;
+constexpr std::ptrdiff_t kManyWheels = 4;  // whose loads statics alone does not give
+constexpr double kWeight = 9.81;           // N/kg
+constexpr double kWheelSinks = 1e-4;       // m, of what stands on one point
 
 class Builder {
  public:
@@ -220,9 +223,22 @@ class Builder {
       std::sort(mechanism.bodies.begin(), mechanism.bodies.end(),
                 [](const Body* a, const Body* b) { return a->serial < b->serial; });
     }
+    for (const auto& mechanism : record_->mechanisms) {
+      if (wheels_of(*mechanism) < kManyWheels) continue;
+      mechanism->stiffness = mechanism->mass * kWeight / kWheelSinks;
+    }
     for (const auto& joint : record_->joints) {
       if (joint->first != nullptr) joint->first->mechanism->joints.push_back(joint.get());
     }
+  }
+
+  static std::ptrdiff_t wheels_of(const Mechanism& mechanism) {
+    std::ptrdiff_t count = 0;
+    for (const Body* body : mechanism.bodies) {
+      count += std::count_if(body->geoms.begin(), body->geoms.end(),
+                             [](const Geom* geom) { return geom->is_wheel; });
+    }
+    return count;
   }
 
   static void take_in(Body& start, Mechanism& mechanism) {

@@ -13,8 +13,7 @@ namespace angen::physics {
 
 namespace {
 
-constexpr double kSoftest = 1e-8;      // least CFM of a contact: keeps redundant points solvable
-constexpr double kBounceSpeed = 0.05;  // m/s, nothing bounces below it
+constexpr double kSoftest = 1e-8;  // least CFM of a contact: keeps redundant points solvable
 constexpr std::size_t kManyJoints = 256;
 constexpr std::size_t kMaxInStep = 20000;      // points
 constexpr std::size_t kMaxInMeshes = 500'000;  // tests, some tenths of a second
@@ -23,13 +22,10 @@ constexpr double kUp = 0.9;                    // z of a unit normal: on a floor
 constexpr double kPush =
     50.0;  // m/s^2, at which a soft contact lifts a body that is deep in the floor
 
-constexpr double kSide = 0.5;  // |z| of the normal at a body's side, at most
+constexpr double kWheelSettles = 2e-3;  // s, of the springs of wheels
+constexpr double kSide = 0.5;           // |z| of the normal at a body's side, at most
 // m/s, at which a yielding side parts from what presses on it: DART's threshold of bouncing.
 constexpr double kRebound = 0.1;
-
-bool holds_to_world(const Joint* joint) {
-  return !joint->first->dynamic() || !joint->second->dynamic();
-}
 
 // m/N, by which the side of a body yields to another that a joint to the world moves; 0 if it does
 // not. A latched one is as rigid as the wall.
@@ -38,7 +34,7 @@ double side_yield(const Geom& geom, const Geom& other, const Vec3& normal) {
   if (stiffness <= 0.0 || !other.body->dynamic() || std::abs(normal.z()) >= kSide) return 0.0;
   const std::vector<Joint*>& joints = other.body->mechanism->joints;
   const bool presses =
-      std::any_of(joints.begin(), joints.end(), holds_to_world) &&
+      other.body->mechanism->anchored() &&
       std::none_of(joints.begin(), joints.end(), [](const Joint* j) { return j->latched; });
   return presses ? 1.0 / stiffness : 0.0;
 }
@@ -51,19 +47,28 @@ bool joined(const Body& a, const Body& b) {
   });
 }
 
+// N/m, of a contact that carries a mechanism with many wheels; 0 if rigid. Rigid ones may give any
+// loads: a wheel that the error of a joint has lifted by a nanometer would carry nothing from then.
+double stiffness_by_wheels(const Geom& a, const Geom& b) {
+  const auto own = [](const Geom& geom) {
+    return geom.body->mechanism == nullptr ? 0.0 : geom.body->mechanism->stiffness;
+  };
+  return std::max(own(a), own(b));
+}
+
 const MeshBoxes& boxes_of(const Geom& geom) {
   std::optional<MeshBoxes>& boxes = geom.mesh->boxes;
   if (!boxes) boxes.emplace(*geom.mesh->mesh);
   return *boxes;
 }
 
+}  // namespace
+
 double parting_speed(const Geom& a, const Geom& b, const dContactGeom& at) {
   const Vec3 position = ode::vec(at.pos);
   const Vec3 velocity = a.body->velocity_at(position) - b.body->velocity_at(position);
   return velocity.dot(ode::vec(at.normal));
 }
-
-}  // namespace
 
 bool may_touch(const Geom& a, const Geom& b) {
   const Body& one = *a.body;
@@ -173,13 +178,20 @@ void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
   const Vec3 normal = ode::vec(contact.geom.normal);
   const double side = std::max(side_yield(a, b, normal), side_yield(b, a, normal));
   const double parts_at = std::min({a.fastest, b.fastest, side > 0.0 ? kRebound : dInfinity});
-  const double bounce = std::min(a.restitution, b.restitution);
-  if (bounce > 0.0) {
+  if (std::min(a.restitution, b.restitution) > 0.0) {
     s.mode |= dContactBounce;
-    s.bounce = bounce;
+    s.bounce = bounce(a, b, contact.geom);
     s.bounce_vel = kBounceSpeed;
   }
   const bool is_soft = a.stiffness || b.stiffness || side > 0.0;
+  const double wheels = stiffness_by_wheels(a, b);
+  if (!is_soft && wheels > 0.0 && contact.geom.depth < surface_layer_) {
+    // The spring is pressed by all of the depth: ODE takes the layer off.
+    contact.geom.depth = surface_layer_ + std::max(0.0, contact.geom.depth - share.depth);
+    s.soft_erp = step_ / (step_ + kWheelSettles);
+    s.soft_cfm = 1.0 / (share.spring * wheels * (step_ + kWheelSettles));
+    return attach(contact, pair, index);
+  }
   if (is_soft) {
     const double yield =
         (side * static_cast<double>(pair.count) + (a.stiffness ? 1.0 / *a.stiffness : 0.0) +
@@ -210,9 +222,13 @@ void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
   }
   const double deepest = surface_layer_ + fastest * step_ / s.soft_erp;
   contact.geom.depth = std::min(contact.geom.depth, deepest);
-  // ODE wants a moving body first, and the normal towards it.
-  dBodyID one = a.body->ode.get();
-  dBodyID two = b.body->ode.get();
+  attach(contact, pair, index);
+}
+
+/// ODE wants a moving body first, and the normal towards it.
+void Contacts::attach(dContact& contact, const Pair& pair, std::size_t index) {
+  dBodyID one = pair.first->body->ode.get();
+  dBodyID two = pair.second->body->ode.get();
   if (one == nullptr) {
     std::swap(one, two);
     for (int i = 0; i < 3; ++i) contact.geom.normal[i] = -contact.geom.normal[i];

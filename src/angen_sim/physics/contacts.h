@@ -14,6 +14,11 @@ namespace angen::physics {
 /// one model only if both collide with their own.
 bool may_touch(const Geom& a, const Geom& b);
 
+constexpr double kBounceSpeed = 0.05;  // m/s, nothing bounces below it
+
+/// m/s, along the normal of a contact.
+double parting_speed(const Geom& a, const Geom& b, const dContactGeom& at);
+
 /// Contacts: pairs of awake bodies, which each step computes again, and pairs that fell asleep.
 class Contacts {
  public:
@@ -151,6 +156,9 @@ class Contacts {
   const ContactPoint& nearest_before(const Pair& pair, const Vec3& at) const;
   bool revise(std::size_t index, bool lower);
   void make_joint(const Pair& pair, std::size_t index, bool pushes);
+  /// Share of the speed of two bodies towards each other with which they part.
+  double bounce(const Geom& a, const Geom& b, const dContactGeom& at) const;
+  void attach(dContact& contact, const Pair& pair, std::size_t index);
   void set_friction(dContact& contact, const Pair& pair, std::size_t index);
   void align(dContact& contact, const Pair& pair) const;
   void read_forces(const Pair& pair);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -148,12 +149,25 @@ struct Weightless {
   double mass = 0.0;
 };
 
+/// Torques on a body that spins.
+struct Gyroscopic {
+  bool acts = false;             // in this step, instead of ODE's own
+  Vec3 spin = Vec3::Zero();      // rad/s, before the step
+  Vec3 torque = Vec3::Zero();    // N m, the gyroscopic one
+  Vec3 others = Vec3::Zero();    // N m, all else in the last step
+  Vec3 expected = Vec3::Zero();  // N m, of these in the next step
+};
+
 /// Dynamic bodies that joints hold together, or one alone: they wake and sleep as one.
 struct Mechanism {
   std::vector<Body*> bodies;   // by serial
   std::vector<Joint*> joints;  // also those to static bodies
   double mass = 0.0;           // kg, of all its bodies
+  double stiffness = 0.0;      // N/m, of a contact point, if it has many wheels; 0: rigid
   bool stopped = false;        // went beyond the limits: asleep until it is placed again
+
+  /// Whether joints connect it to something static.
+  bool anchored() const;
 };
 
 /// One or more links that are fixed to each other. Its frame has the axes of its first link and its
@@ -185,6 +199,7 @@ struct Body {
   bool again = false;            // scratch: its step is taken again
   double pushed = 0.0;           // m/s, of its points, out of overlaps in the last step
   std::vector<PairKey> resting;  // contacts kept since it fell asleep
+  Gyroscopic gyroscopic;
   std::vector<LinkId> links;
   std::vector<Geom*> geoms;
   std::vector<Joint*> joints;
@@ -199,6 +214,11 @@ struct Body {
   }
   double inverse_mass() const { return dynamic() ? 1.0 / mechanism->mass : 0.0; }
 };
+
+inline bool Mechanism::anchored() const {
+  return std::any_of(joints.begin(), joints.end(),
+                     [](const Joint* joint) { return !joint->second->dynamic(); });
+}
 
 struct LinkRecord {
   Body* body = nullptr;

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "physics/drive.h"
+#include "physics/gyroscopic.h"
 #include "physics/impl.h"
 #include "physics/insertion.h"
 #include "physics/islands.h"
@@ -146,6 +147,7 @@ void World::Impl::agree_on_friction(const std::vector<BodyState>& start, const S
 void World::Impl::integrate(std::int64_t tick, double step) {
   add_lift();
   set_up_joints(step);
+  add_gyroscopic_torques(awake, step);
   const Solve solve = [&](const std::vector<Body*>& bodies) {
     const auto first_try = [&](dWorldID ode_world, double part) {
       has_large_islands ? step_by_size(ode_world, bodies, part, seed, tick)
@@ -161,6 +163,7 @@ void World::Impl::integrate(std::int64_t tick, double step) {
     part(awake, start, contacts.fastest(), step, [&] { solve_again(start, false, solve); });
   }
   agree_on_friction(start, solve);
+  note_torques(awake, step);
   contacts.finish();
   contacts.remember(tick);
   if (trouble.broken) renew();

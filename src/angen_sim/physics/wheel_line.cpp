@@ -17,6 +17,7 @@ constexpr double kOnMantle = 0.2;          // most cosine between the axis and a
 constexpr double kOneNormal = 1.0 - 1e-6;  // least cosine between normals of one line
 constexpr double kShortest = 1e-6;         // m, of a line
 constexpr double kEndStiffness = 1e-3;     // stiffness of a point
+constexpr double kEndSpring = 0.05;        // spring of a point
 // An axis that is corrected by some 1e-6 rad in a step must not press an end.
 constexpr double kEndCfm = 1e-4;
 
@@ -73,8 +74,9 @@ std::size_t add_middles(const Geom& first, const Geom& second, dContactGeom* poi
         line.begin(), line.end(), [&](auto a, auto b) { return along(a) < along(b); });
     if (along(*high) - along(*low) < kShortest) continue;
     const auto ends = static_cast<double>(line.size());
-    for (const std::size_t k : line) shares[k] = {kEndStiffness, kEndCfm, 0.0};
     points[count] = middle_of(points[*low], points[*high]);
+    for (const std::size_t k : line)
+      shares[k] = {kEndStiffness, kEndCfm, 0.0, kEndSpring, points[count].depth};
     shares[count++] = {ends, 0.0, 1.0};
   }
   return count;

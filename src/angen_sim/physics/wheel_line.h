@@ -11,6 +11,8 @@ struct PointShare {
   double stiffness = 1.0;  // share of a point's
   double least_cfm = 0.0;  // m/s per N
   double friction = 1.0;   // share of a point's
+  double spring = 1.0;     // share of a point's spring, see Mechanism
+  double depth = 0.0;      // m, where that spring is slack: of the middle of a line, for its ends
 };
 
 /// Marks cylinders that turn about their own axis, by a joint of their body: wheels.

@@ -7,6 +7,10 @@
 #include <ros/time.h>
 #include <std_msgs/ColorRGBA.h>
 
+#include <array>
+#include <cstddef>
+#include <vector>
+
 #include "core/pose.h"
 #include "core/time.h"
 
@@ -54,6 +58,13 @@ inline geometry_msgs::Transform to_transform(const Pose& pose) {
   out.translation = to_vector(pose.position);
   out.rotation = to_ros(pose.rotation);
   return out;
+}
+
+/// Adds a covariance of x, y and yaw, row by row, to one of x, y, z, roll, pitch and yaw.
+template <class Covariance>
+void add_planar(const std::vector<double>& planar, Covariance& covariance) {
+  constexpr std::array<std::size_t, 3> kAt{0, 1, 5};
+  for (std::size_t i = 0; i < 9; ++i) covariance[6 * kAt[i / 3] + kAt[i % 3]] += planar.at(i);
 }
 
 inline std_msgs::ColorRGBA color(float r, float g, float b, float a) {

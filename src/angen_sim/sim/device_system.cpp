@@ -4,6 +4,7 @@
 
 #include "plugin/declared.h"
 #include "plugin/outputs.h"
+#include "plugin/report_period.h"
 #include "sim/command_queue.h"
 #include "sim/guard.h"
 #include "sim/view.h"
@@ -11,8 +12,6 @@
 namespace angen::sim {
 
 namespace {
-
-constexpr Nanoseconds kReportPeriod = kSecond / 50;
 
 // A body that fell asleep in the last tick was awake in it.
 bool is_idle(const LiveModel& live, const DeviceInstance& device, Clock clock) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "angen_sim/devices/models.h"
 #include "angen_sim/devices/rig.h"
@@ -91,6 +92,15 @@ TEST(Drive, KeepsItsSpeedAndAccelerationWithinLimits) {
   });
   EXPECT_NEAR(fastest, 0.7, 1e-3);
   EXPECT_LE(hardest, 1.05);
+}
+
+TEST(Drive, KnowsItsPoseTheLessTheFartherItWent) {
+  Field field;
+  field.drive(0.4, 0.0, 5.0);
+  const auto covariance = field.rig->state().get<std::vector<double>>("covariance");
+  ASSERT_EQ(covariance.size(), 9U);
+  EXPECT_NEAR(covariance[0], 1e-4 * 2.0 / 2.0, 2e-6);  // 1 cm a wheel after 1 m
+  EXPECT_NEAR(covariance[8], 2e-4 * 2.0 / (0.23 * 0.23), 1e-4);
 }
 
 TEST(Drive, StopsWhenCommandsCease) {

@@ -54,6 +54,36 @@ TEST(Converged, LitRoom) {
   }
 }
 
+/// Nine slats of 8 cm, 8 cm before a window; one step takes them all to an angle.
+struct Blinds {
+  explicit Blinds(double angle) {
+    add_room(scene, Vec3(0, 0, 0), Vec3(5, 4, 2.6), gray(0.6F));
+    add_box(scene, Vec3(2.5, 2.0, 0.72), Vec3(1.6, 0.8, 0.03), gray(0.5F));  // a desk
+    for (int i = 0; i < 9; ++i) {
+      const Vec3 at(0.125, 1.5, 1.0 + (i + 0.5) / 9.0);
+      scene.add(box(Vec3(0.08, 1.6, 0.002)), {at, from_rpy(0, angle, 0)}, rays::Mobility::kStatic,
+                gray(0.7F));
+    }
+    scene.commit();
+    lighting.add(lamp, 1.0);
+  }
+  Lamp lamp = window();
+  rays::Scene scene;
+  Lighting lighting{scene};
+};
+
+TEST(Converged, DaylightThroughBlinds) {
+  for (const double angle : {0.0, -M_PI / 4}) {
+    const Blinds room(angle);
+    for (const Pose& at :
+         {facing(Vec3(1.5, 1.5, 2.599), -Vec3::UnitZ()), facing(Vec3(2.5, 2, 0.74), Vec3::UnitZ()),
+          facing(Vec3(2.5, 2, 0.3), Vec3::UnitZ()), facing(Vec3(4, 3, 0.001), Vec3::UnitZ()),
+          facing(Vec3(4.99, 2, 1.2), -Vec3::UnitX())}) {
+      expect_converged(room.scene, room.lighting, room.lamp, at, 60'000, 0.03);
+    }
+  }
+}
+
 TEST(Converged, DaylightFromAWindow) {
   const Furnished room(window());
   for (const Pose& at :

@@ -10,7 +10,7 @@
 #include "rooms.h"
 
 /// A slow and simple path tracer: random walks, with the lamp sampled at every vertex. It shares
-/// only rays and the lamp's direct light with the tested code.
+/// only rays and, except for flat lamps, the lamp's direct light with the tested code.
 namespace angen::light::testing {
 
 struct Traced {
@@ -18,10 +18,35 @@ struct Traced {
   double deviation = 0.0;  // lx, standard deviation of the mean
 };
 
+/// lx from a random point of a flat lamp, as if all its light came from there.
+inline double arriving_from_flat(const rays::Scene& scene, const Lamp& lamp, const Vec3& point,
+                                 const Vec3& normal, Rng& rng) {
+  const Axes axes = axes_of(lamp);
+  const double u = rng.uniform(), v = rng.uniform();
+  double x = (u - 0.5) * lamp.width, y = (v - 0.5) * lamp.height;
+  if (lamp.type == Lamp::Type::kDisc) {
+    x = lamp.radius * std::sqrt(u) * std::cos(2.0 * M_PI * v);
+    y = lamp.radius * std::sqrt(u) * std::sin(2.0 * M_PI * v);
+  }
+  const Vec3 on_lamp = lamp.pose.position + x * axes.along + y * axes.across;
+  const Vec3 way = on_lamp - point;
+  const double leaving = -way.dot(lamp.pose.rotation * lamp.direction), facing = way.dot(normal);
+  if (leaving <= 0.0 || facing <= 0.0) return 0.0;
+  if (lamp.cast_shadows && scene.blocked(point, on_lamp, 1e-4, rays::kAll)) return 0.0;
+  return lamp.luminous_flux / M_PI * leaving * facing / std::pow(way.squaredNorm(), 2);
+}
+
 inline double arriving(const rays::Scene& scene, const Lamp& lamp, const Vec3& point,
                        const Vec3& normal, Rng& rng) {
+  if (lamp.flat()) {
+    const int count = (lamp.pose.position - point).norm() < 1.5 ? 64 : 4;  // near, they vary much
+    double sum = 0.0;
+    for (int i = 0; i < count; ++i) sum += arriving_from_flat(scene, lamp, point, normal, rng);
+    return sum / count;
+  }
   const double lux = illuminance(lamp, point, normal);
-  return lux > 0.0 && sees_one(scene, lamp, point, rng.next() >> 32, rays::kAll) ? lux : 0.0;
+  const std::size_t which = rng.next() >> 32;
+  return lux > 0.0 && sees_one(scene, lamp, point, normal, which, rays::kAll) ? lux : 0.0;
 }
 
 inline double walk(const rays::Scene& scene, const Lamp& lamp, const Pose& pose, Rng& rng) {

@@ -1,6 +1,7 @@
 #include <nav_msgs/Odometry.h>
 
 #include <array>
+#include <vector>
 
 #include "ros/convert.h"
 #include "ros/kinds/states.h"
@@ -21,6 +22,7 @@ void fill(const Reading& state, const Label& label, nav_msgs::Odometry& message)
   for (std::size_t i = 0; i < kDriveVariances.size(); ++i) {
     message.pose.covariance[i * 7] = message.twist.covariance[i * 7] = kDriveVariances[i];
   }
+  add_planar(state.get<std::vector<double>>("covariance"), message.pose.covariance);
 }
 
 ANGEN_REGISTER_ROS_KIND(

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "ros/convert.h"
 #include "ros/robots.h"
 #include "ros/ros_kind.h"
 #include "ros/wire.h"
@@ -43,6 +44,7 @@ void fill(const Reading& reading, const Label& label, nav_msgs::Odometry& messag
   for (const auto& [at, variance] : kVariances) {
     message.pose.covariance[at] = message.twist.covariance[at] = variance;
   }
+  add_planar(reading.get<std::vector<double>>("covariance"), message.pose.covariance);
 }
 
 void fill_transform(const Reading& reading, const Label& label,
