@@ -12,6 +12,7 @@ from typing import Any, NoReturn, Sequence
 from angen_tools.cli import applications, live, offline, pid
 from angen_tools.cli.parser import Parser, command
 from angen_tools.common.failure import Failure, code_of
+from angen_tools.common.installed import launch_file
 from angen_tools.common.typography import straightened
 
 STOPPED = 130  # a shell's exit code of a command that Ctrl-C ended
@@ -78,6 +79,8 @@ def run(arguments: Sequence[str]) -> int:
                      'those of a command follow it')
     if arguments and arguments[0] == 'help':
         arguments = [*arguments[1:], '--help']
+    if arguments and arguments[0] == 'run' and not {'--fast', '-h', '--help'} & set(arguments):
+        _run_building(arguments[1:])
     if arguments and arguments[0] == 'run' and any(':=' in word for word in arguments):
         parser.error('NAME:=VALUE is for ./angen run, which runs ROS; angen run takes --fast')
     if len(arguments) > 1 and arguments[0] == '--json':
@@ -104,6 +107,15 @@ def run(arguments: Sequence[str]) -> int:
         what = f'{error.filename}: cannot be written' if error.filename else 'cannot write'
         print(f'angen: {what}: {error.strerror}', file=sys.stderr)
         return 1
+
+
+def _run_building(words: Sequence[str]) -> None:
+    """Starts the building in ROS and ends with it, if Debian's package is installed."""
+    launch = launch_file()
+    if launch is not None:
+        from angen_tools.entry.run import main as run_building
+        sys.argv[1:] = [str(launch), *words]
+        run_building()
 
 
 def _has_other_bytes(word: str) -> bool:
