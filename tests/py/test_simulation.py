@@ -179,7 +179,7 @@ def test_saved_world_loads_again_in_its_state(building, tmp_path):
 def test_its_repr_says_world_time_and_counts(world):
     w = world(box('crate', '0 0 1 0 0 0', '1 1 1') + pir('eye', '0 0 1 0 0 0'))
     w.run(0.5)
-    assert repr(w) == "<angen.World 'w' at 0.5 s: 2 models, 0 devices, 1 sensor>"
+    assert repr(w) == "<angen.World 'test' at 0.5 s: 3 models, 0 devices, 1 sensor>"
 
 
 def test_a_closed_world_is_read_and_does_not_advance(building, tmp_path):

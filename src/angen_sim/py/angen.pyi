@@ -1,4 +1,4 @@
-# src/angen_sim/py/make_stub.py writes this file. Its text is in the C++ sources beside it.
+# src/angen_sim/py/make_stub.py writes this file. Its text is in the C++ sources.
 import typing
 from collections.abc import Mapping, Sequence
 

@@ -16,7 +16,7 @@ from typing import Any
 import angen
 
 STUB = Path(__file__).with_name('angen.pyi')
-HEAD = '''# src/angen_sim/py/make_stub.py writes this file. Its text is in the C++ sources beside it.
+HEAD = '''# src/angen_sim/py/make_stub.py writes this file. Its text is in the C++ sources.
 import typing
 from collections.abc import Mapping, Sequence
 
@@ -111,12 +111,13 @@ def class_of(name: str, made: type) -> str:
     """A class with its members, in the order of the bindings."""
     base = next((f'({each.__name__})' for each in made.__bases__
                  if each.__module__ == 'builtins' and issubclass(each, Exception)), '')
-    members = [f'{key}: {getattr(kind, "__name__", kind)}\n' for key, kind in getattr(made, '__annotations__', {}).items()]
+    declared = getattr(made, '__annotations__', {})
+    members = [f'{key}: {getattr(kind, "__name__", kind)}\n' for key, kind in declared.items()]
     members += [member(key, value) for key, value in vars(made).items()]
-    inside = '\n'.join(each for each in members if each)
     doc = body(made.__doc__ or '').replace('    ...\n', '')
-    return f'class {name}{base}:\n{doc}' + (
-        '\n' * bool(doc) + textwrap.indent(inside, '    ') if inside else '' if doc else '    ...\n')
+    inside = textwrap.indent('\n'.join(each for each in members if each), '    ')
+    inner = '\n'.join(part for part in (doc, inside) if part)
+    return f'class {name}{base}:\n' + (inner or '    ...\n')
 
 
 def text() -> str:
