@@ -17,6 +17,7 @@ from angen_tools.common.typography import straightened
 
 STOPPED = 130  # a shell's exit code of a command that Ctrl-C ended
 OPTIONS = ('-h', '--help', '--version', '--json')  # before a command; the last is said to follow it
+ROS = ('angen_msgs', 'genpy', 'rosgraph', 'roslib', 'rospkg', 'rospy')  # modules
 PIPE_CLOSED = 141  # and of one whose reader ended
 
 
@@ -99,6 +100,13 @@ def run(arguments: Sequence[str]) -> int:
     except Failure as failure:
         print(f'angen: {failure}', file=sys.stderr)
         return code_of(failure)
+    except ModuleNotFoundError as error:
+        if error.name not in ROS:
+            raise
+        print(f'angen: {arguments[0]} needs ROS (the Python module {error.name}), which a wheel of '
+              'Angen does not have; install the Debian packages of Angen, or use a checkout',
+              file=sys.stderr)
+        return 1
     except KeyboardInterrupt:
         return STOPPED
     except BrokenPipeError:
