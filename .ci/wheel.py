@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Packs an installation as a wheel for people without ROS: the module angen, the angen command,
-its applications, models, worlds and page, and the libraries that they need.
+its applications, models and worlds, and the libraries that they need.
 
     .ci/wheel.py PREFIX FOLDER     writes FOLDER/angen-VERSION-….whl, prints its name
 """
@@ -22,22 +22,18 @@ PACKAGES = ('angen_models', 'angen_tools', 'angen_apps')
 ROS = re.compile(r'lib(roscpp|rosconsole|python3)')  # libraries of the node need one of these
 # What each Linux has, by PEP 600.
 SYSTEM = re.compile(r'(ld-linux|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+|z)\.so)')
-FILES = {'share/angen_sim/worlds': 'share/angen_sim/worlds',
-         'share/angen_apps/page': 'share/angen_apps/page',
-         'share/angen_apps/config': 'share/angen_apps/config',
-         'lib/angen_sim/angen_mesh': 'lib/angen_sim/angen_mesh'}
-# Names on PyPI of Debian's packages in dependencies.apt; those of ROS, pictures for benches and so
-# on are not needed without ROS. Arrays of NumPy 2 differ from those that pybind11 2.10 reads.
+FILES = ('share/angen_sim/worlds', 'share/angen_apps/config', 'lib/angen_sim/angen_mesh')
+# Names on PyPI of Debian's packages in dependencies.apt; those of ROS, of the page and of MQTT are
+# not needed without ROS. Arrays of NumPy 2 differ from those that pybind11 2.10 reads.
 PYPI = {'numpy': 'numpy<2', 'lxml': 'lxml', 'argcomplete': 'argcomplete', 'rich': 'rich',
         'psutil': 'psutil', 'matplotlib': 'matplotlib', 'scipy': 'scipy', 'shapely': 'shapely',
-        'yaml': 'pyyaml', 'pil': 'pillow', 'aiohttp': 'aiohttp', 'qrcode': 'qrcode'}
+        'yaml': 'pyyaml', 'pil': 'pillow'}
 
 ABOUT = """# Angen
 
 A simulator of smart apartments: doors, elevators, lamps and people move; motion, light, door,
 contact and many other sensors measure them. This package needs no ROS: `import angen`, and
-the command `angen` with generate, plan, home, import, world, run --fast, care, realism, validate
-and web --replay.
+the command `angen` with generate, plan, home, import, world, run --fast, care, realism and validate.
 
     angen world home --seed 3 -o home.world
     angen plan home.world -o plan.png
@@ -76,10 +72,12 @@ def copy_files(prefix: Path, to: Path) -> None:
     for name in (*PACKAGES, 'angen-stubs'):
         shutil.copytree(python / name, to / name, ignore=shutil.ignore_patterns('__pycache__'))
     bundle = to / 'angen_files'
-    for source, target in FILES.items():
-        (bundle / target).parent.mkdir(parents=True, exist_ok=True)
-        copy = shutil.copytree if (prefix / source).is_dir() else shutil.copy2
-        copy(prefix / source, bundle / target)  # type: ignore[operator]
+    for name in FILES:
+        (bundle / name).parent.mkdir(parents=True, exist_ok=True)
+        if (prefix / name).is_dir():
+            shutil.copytree(prefix / name, bundle / name)
+        else:
+            shutil.copy2(prefix / name, bundle / name)
     for library in own_libraries(prefix / 'lib'):
         shutil.copy2(library, bundle / 'lib')
         if library.with_suffix('.json').exists():

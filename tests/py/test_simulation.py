@@ -187,13 +187,13 @@ def test_a_closed_world_is_read_and_does_not_advance(building, tmp_path):
     with angen.World(building, record=str(log)) as w:
         w.run(0.5)
     assert w.time == 0.5 and w.sensor('pir', 'kitchen_pir0_a') and repr(w).endswith('closed>')
-    for change in (w.step, w.reset, lambda: w.run(0.0), lambda: w.delete('c1'),
+    for change in (w.step, w.reset, lambda: w.run(1.0), lambda: w.delete('c1'),
                    lambda: w.request('camera', 'turtlebot', True)):
         with pytest.raises(angen.Error, match='closed'):
             change()
     replay = angen.Replay(str(log))  # its last fingerprint is there while w exists
     assert not replay.advance(1.0) and replay.truncated == replay.mismatch == ''
-    assert replay.compared > 1
+    assert replay.compared == 1
 
 
 def test_an_exception_ends_a_world_and_passes(world):

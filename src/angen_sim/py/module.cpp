@@ -23,7 +23,7 @@ namespace angen::py {
 namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
-using Text = std::string;  // of one row of a table
+using Text = std::string;
 using Entity = std::tuple<Text, Text, Text, Eigen::Matrix<double, 1, 7>>;
 
 // The catalog of worlds whose models may name libraries anywhere, or on the plug-in path only.
