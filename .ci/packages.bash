@@ -71,8 +71,8 @@ try_wheel() {
 # apt install, a running building, and nothing that is left after purge.
 try_packages() {
   as_root .ci/bare --with dist \
-    "apt-get -q update && find / -xdev -not -path '/var/*' | sort >/before" \
-    "$apt install ../with/*.deb && ${run_until_ready//.\/angen/angen}" \
-    "$apt purge --autoremove angen python3-angen libangen-dev ros-angen-msgs" \
+    "apt-get -q update && $apt install ../with/angen_*.deb ../with/python3-angen_*.deb ../with/ros-angen-msgs_*.deb &&
+      ${run_until_ready//.\/angen/angen}" \
+    "$apt purge --autoremove angen python3-angen ros-angen-msgs" \
     "! find / -xdev -path /root -prune -o -iname '*angen*' -print | grep -v '^/var/\(cache\|lib/dpkg\|log\)'"
 }

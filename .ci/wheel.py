@@ -33,7 +33,8 @@ ABOUT = """# Angen
 
 A simulator of smart apartments: doors, elevators, lamps and people move; motion, light, door,
 contact and many other sensors measure them. This package needs no ROS: `import angen`, and
-the command `angen` with generate, plan, home, import, world, run --fast, care, realism and validate.
+the command `angen` with generate, plan, home, import, world, run --fast, care, realism and
+validate.
 
     angen world home --seed 3 -o home.world
     angen plan home.world -o plan.png
