@@ -1,7 +1,5 @@
-# Angen on a bare Debian 12: docker build -t angen . && docker run --rm -it angen ./angen run
+# Angen on Debian 12: ./angen package && docker build -t angen . && docker run --rm -it angen
 FROM debian:12
-WORKDIR /angen
-COPY . .
-RUN ./angen build
-ENTRYPOINT []
-CMD ["./angen", "run"]
+COPY dist/*.deb /packages/
+RUN apt-get update && apt-get install -y --no-install-recommends /packages/*.deb && rm -rf /packages /var/lib/apt/lists/*
+CMD ["angen", "run"]

@@ -6,7 +6,8 @@ from setuptools import find_packages, setup
 
 source = str(Path(__file__).resolve().parent / 'src')
 setup(**generate_distutils_setup(packages=find_packages(source), package_dir={'': 'src'},
-                                 package_data={'angen_apps.walktest': ['standards/*.yaml'],
+                                 package_data={'angen_apps': ['py.typed'],
+                                               'angen_apps.walktest': ['standards/*.yaml'],
                                                'angen_apps.situations': ['*.yaml'],
                                                'angen_apps.mqtt': ['*.yaml'],
                                                'angen_apps.residents': ['*.yaml',

@@ -5,4 +5,5 @@ from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import find_packages, setup
 
 source = str(Path(__file__).resolve().parent / 'src')
-setup(**generate_distutils_setup(packages=find_packages(source), package_dir={'': 'src'}))
+setup(**generate_distutils_setup(packages=find_packages(source), package_dir={'': 'src'},
+                                 package_data={'angen_tools': ['py.typed']}))

@@ -26,13 +26,14 @@ pytestmark = pytest.mark.ros
 # In a terminal of its own; ends with Ctrl-C.
 START = re.compile(r'\./angen run(?! --)((?: \w+:=\S+)*)')
 LEFT_OUT = re.compile('|'.join((
-    r'\./angen (shell|demo|build|test|fuzz|coverage|tidy|docs)( [^"]*)?$',  # what CI does anyhow
+    r'\./angen (shell|demo|build|wheel|package|test|fuzz|coverage|tidy|docs)( [^"]*)?$',  # as CI does
     r'mosquitto_',  # ros/test_mqtt.py runs them
     r'(\./)?angen (drive|watch$|care$|web|mqtt|replay .*--until)',  # hands, no end
     r'(\./)?angen (bench|task|situations$|generate|validate out|realism out)',  # minutes
     r'.*(ROS_NAMESPACE=|--ns )',  # ros/test_namespaces.py runs them
     r'rostopic pub -r', r'roslaunch', r'rosrun (image_view|angen_apps|angen_tools)',  # no end
     r'sudo', r'apt-get', r'docker', r'rosdep', r'cd ~/catkin_ws',  # root, network
+    r'angen run$', r'python3 -m venv', r'~/angen/bin',  # of a package or a wheel
     r'cmake --build build', r'python3 (bench/physics|worlds/make_|-m pytest|docs/tables)',
     r'\./angen shell -c "python3 (-m pytest|examples)',  # minutes, or they write into the checkout
     r'.*(\bNAME\b|\bKIND\b)',  # usage

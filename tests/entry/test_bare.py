@@ -54,6 +54,13 @@ def test_the_machine_is_bare_each_time(checkout: Path) -> None:
     assert bare(checkout, 'test ! -e ../left').returncode == 0
 
 
+def test_a_folder_goes_with_it(checkout: Path, tmp_path: Path) -> None:
+    (tmp_path / 'made').mkdir()
+    (tmp_path / 'made/angen.deb').write_text('it')
+    result = bare(checkout, '--with', str(tmp_path / 'made'), 'cat ../with/angen.deb')
+    assert result.returncode == 0 and result.stdout.startswith('it')
+
+
 def test_the_first_failure_ends_it_with_its_exit_code(checkout: Path) -> None:
     result = bare(checkout, 'exit 3', 'echo second')
     assert result.returncode == 3 and 'second' not in result.stdout

@@ -35,3 +35,7 @@ def test_the_command_prints_it(command):
 
 def test_the_module_has_it():
     assert angen.__version__ == VERSION
+
+
+def test_the_debian_package_has_it():
+    assert (ROOT / 'debian/changelog').read_text().startswith(f'angen ({VERSION}) ')

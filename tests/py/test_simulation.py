@@ -174,3 +174,30 @@ def test_saved_world_loads_again_in_its_state(building, tmp_path):
     moved = np.abs(again.link_poses[:, :3] - w.link_poses[:, :3]).max(axis=1)
     people = [i for i, name in enumerate(w.links) if name.startswith('person')]
     assert np.delete(moved, people).max() < 1e-3
+
+
+def test_its_repr_says_world_time_and_counts(world):
+    w = world(box('crate', '0 0 1 0 0 0', '1 1 1') + pir('eye', '0 0 1 0 0 0'))
+    w.run(0.5)
+    assert repr(w) == "<angen.World 'test' at 0.5 s: 3 models, 0 devices, 1 sensor>"
+
+
+def test_a_closed_world_is_read_and_does_not_advance(building, tmp_path):
+    log = tmp_path / 'run.log'
+    with angen.World(building, record=str(log)) as w:
+        w.run(0.5)
+    assert w.time == 0.5 and w.sensor('pir', 'kitchen_pir0_a') and repr(w).endswith('closed>')
+    for change in (w.step, w.reset, lambda: w.run(1.0), lambda: w.delete('c1'),
+                   lambda: w.request('camera', 'turtlebot', True)):
+        with pytest.raises(angen.Error, match='closed'):
+            change()
+    replay = angen.Replay(str(log))  # its last fingerprint is there while w exists
+    assert not replay.advance(1.0) and replay.truncated == replay.mismatch == ''
+    assert replay.compared == 1
+
+
+def test_an_exception_ends_a_world_and_passes(world):
+    with pytest.raises(KeyError):
+        with world('') as w:
+            raise KeyError('mine')
+    assert repr(w).endswith('closed>')

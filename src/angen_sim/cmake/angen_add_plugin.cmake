@@ -5,13 +5,17 @@ find_package(Eigen3 REQUIRED NO_MODULE)
 if(angen_sim_SOURCE_PREFIX)
   list(APPEND angen_sim_INCLUDE_DIRS ${angen_sim_SOURCE_PREFIX})
 else()
-  list(APPEND angen_sim_INCLUDE_DIRS ${angen_sim_DIR}/../../../include/angen)
+  # below share/ of an installation, or below lib/ARCHITECTURE/ of Debian's package
+  find_path(ANGEN_HEADERS plugin/register.h
+    HINTS ${angen_sim_DIR}/../../../include/angen ${angen_sim_DIR}/../../../../include/angen REQUIRED)
+  list(APPEND angen_sim_INCLUDE_DIRS ${ANGEN_HEADERS})
 endif()
 if(TARGET angen_ros)  # in one workspace with Angen, which is not built yet
   set(ANGEN_DESCRIBE angen_describe)
   set(ANGEN_ROS_LIBRARY angen_ros)
 else()
-  find_program(ANGEN_DESCRIBE angen_describe HINTS ${angen_sim_DIR}/../../../lib/angen_sim REQUIRED)
+  find_program(ANGEN_DESCRIBE angen_describe HINTS ${angen_sim_DIR}/../../../lib/angen_sim
+    ${angen_sim_DIR}/../../../angen_sim REQUIRED)
   find_library(ANGEN_ROS_LIBRARY angen_ros HINTS ${angen_sim_DIR}/../../../lib REQUIRED)
 endif()
 

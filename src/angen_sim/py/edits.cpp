@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <map>
+#include <tuple>
 
 namespace angen::py {
 
@@ -14,7 +15,7 @@ void bind_edits(pyb::class_<World>& world) {
           "motion",
           [](const World& w, const std::string& name) {
             const sim::Motion motion = w.motion(name);
-            return pyb::make_tuple(to_row(motion.pose), motion.linear, motion.angular);
+            return std::make_tuple(to_row(motion.pose), motion.linear, motion.angular);
           },
           pyb::arg("name"),
           "Of a model, model::link or model::link::collision: x y z qx qy qz qw, m/s, rad/s, in "
@@ -45,8 +46,8 @@ void bind_edits(pyb::class_<World>& world) {
              double seconds) {
             w.edit(sim::PushLink{link, "", Vec3::Zero(), force, torque, {0, duration(seconds)}});
           },
-          pyb::arg("link"), pyb::arg("force"), pyb::arg("torque") = none, pyb::arg("seconds"),
-          "A force (N) at the center of mass of model::link, and a torque.");
+          pyb::arg("link"), pyb::arg("force"), pyb::arg("torque") = none, pyb::kw_only(),
+          pyb::arg("seconds"), "A force (N) at the center of mass of model::link, and a torque.");
 }
 
 }  // namespace angen::py

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <tuple>
 
 #include "core/allow_paths.h"
 #include "core/names.h"
@@ -13,6 +14,7 @@
 #include "py/grid.h"
 #include "py/home.h"
 #include "py/replay.h"
+#include "py/signature.h"
 #include "py/subclass.h"
 #include "py/world.h"
 
@@ -21,6 +23,8 @@ namespace angen::py {
 namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
+using Text = std::string;
+using Entity = std::tuple<Text, Text, Text, Eigen::Matrix<double, 1, 7>>;
 
 // The catalog of worlds whose models may name libraries anywhere, or on the plug-in path only.
 std::shared_ptr<Catalog> catalog(bool any_path) {
@@ -74,13 +78,13 @@ Pose place_of(const sim::Snapshot& snapshot, const sim::DeviceEntry& device) {
   return snapshot.link_poses[static_cast<std::size_t>(first - links.begin())];
 }
 
-std::vector<pyb::tuple> entities(const World& world, const std::string& kind) {
+std::vector<Entity> entities(const World& world, const std::string& kind) {
   const sim::Snapshot& now = world.now();
-  std::vector<pyb::tuple> all;
+  std::vector<Entity> all;
   const auto add = [&](const auto& entry, const Pose& pose) {
     const std::string model =
         entry.model == UINT32_MAX ? "" : now.structure->models[entry.model]->name;
-    all.push_back(pyb::make_tuple(entry.kind, entry.name, model, to_row(pose)));
+    all.emplace_back(entry.kind, entry.name, model, to_row(pose));
   };
   for (const sim::DeviceEntry& device : now.structure->devices) {
     if (kind.empty() || device.kind == kind) add(device, place_of(now, device));
@@ -172,10 +176,16 @@ void bind_world(pyb::module_& module) {
            pyb::arg("pose") = std::vector<double>(6, 0.0), pyb::arg("on") = "",
            "Adds a model (SDF text, path or model:// uri), or a <sensor> to the link `on`; pose is "
            "x y z roll pitch yaw (m, rad).")
-      .def("delete", &World::remove, pyb::arg("name"))
+      .def("delete", &World::remove, pyb::arg("name"), "Deletes a model or a sensor.")
       .def("request", &World::request, pyb::arg("kind"), pyb::arg("name"),
            pyb::arg("wanted") = true,
            "Sensors that sample on demand (lidar, camera, depth) do so while they are requested.")
+      .def("close", &World::close, "Ends its record; it can be read, and advances no more.")
+      .def(
+          "__enter__", [](World& w) -> World& { return w; }, pyb::return_value_policy::reference)
+      .def(
+          "__exit__", [](World& w, const pyb::args&) { w.close(); }, "Calls close().")
+      .def("__repr__", &World::text)
       .def("reset", &World::reset, "Everything back to its start, the time to 0.")
       .def("save", &World::save, "The present world as SDF text.")
       .def(
@@ -183,13 +193,13 @@ void bind_world(pyb::module_& module) {
           [](const World& w, const std::string& kind, const std::string& name) {
             return to_dict(w.sensor(kind, name));
           },
-          "The latest reading of a sensor, as a dict.")
+          pyb::arg("kind"), pyb::arg("name"), "The latest reading of a sensor, as a dict.")
       .def(
           "device",
           [](const World& w, const std::string& kind, const std::string& name) {
             return to_dict(w.device(kind, name));
           },
-          "The latest state of a device, as a dict.")
+          pyb::arg("kind"), pyb::arg("name"), "The latest state of a device, as a dict.")
       .def("summary", &World::summary, pyb::arg("kind"), pyb::arg("name"),
            "A sensor's reading or a device's state in a few words, as /angen/summary shows it; '' "
            "before the first.")
@@ -251,10 +261,9 @@ void bind_world(pyb::module_& module) {
       .def(
           "home_findings",
           [](const World& w) {
-            std::vector<pyb::tuple> all;
+            std::vector<std::pair<Text, Text>> all;
             for (const HomeFinding& finding : w.now().structure->home->findings()) {
-              all.push_back(
-                  pyb::make_tuple(finding.guessed ? "guessed" : "contradicting", finding.text));
+              all.emplace_back(finding.guessed ? "guessed" : "contradicting", finding.text);
             }
             return all;
           },
@@ -271,10 +280,9 @@ void bind_world(pyb::module_& module) {
       .def(
           "events",
           [](World& w) {
-            std::vector<pyb::tuple> all;
+            std::vector<std::tuple<double, Text, Text, Text, Text>> all;
             for (const sim::Event& e : w.take_events()) {
-              all.push_back(
-                  pyb::make_tuple(to_seconds(e.stamp), e.source, e.kind, e.event, e.detail));
+              all.emplace_back(to_seconds(e.stamp), e.source, e.kind, e.event, e.detail);
             }
             return all;
           },
@@ -288,9 +296,9 @@ void bind_world(pyb::module_& module) {
       .def_property_readonly(
           "reading_series",
           [](World& w) {
-            std::vector<pyb::tuple> all;
+            std::vector<std::tuple<Text, Text, Text, Text, Text>> all;
             for (const ReadingLog::Series& s : w.readings().series()) {
-              all.push_back(pyb::make_tuple(s.kind, s.name, s.field, s.unit, s.type));
+              all.emplace_back(s.kind, s.name, s.field, s.unit, s.type);
             }
             return all;
           },
@@ -307,21 +315,22 @@ class Sensor:
     are flag, integer, number, text, numbers and texts. None are declared: any are taken.
     describe(kind) (static) declares them with docs and words, see Kind."""
 
-    fields = {}
-    rate = 10.0
-    sample_period = 0.0
+    fields: 'dict[str, str]' = {}
+    rate: float = 10.0
+    sample_period: float = 0.0
 
     @staticmethod
-    def describe(kind):
+    def describe(kind: Kind) -> None:
         pass
 
-    def configure(self, params, wiring):
+    def configure(self, params: Params, wiring: Wiring) -> None:
         pass
 
-    def aim(self, view):
+    def aim(self, view: View) -> 'numpy.typing.ArrayLike | None':
         return None
 
-    def read(self, view, ranges, rng):
+    def read(self, view: View, ranges: 'numpy.typing.NDArray[numpy.float64]',
+             rng: Rng) -> 'dict[str, typing.Any]':
         raise NotImplementedError('a sensor has to read')
 
 
@@ -331,26 +340,26 @@ class Device:
     report(view) -> dict, whose keys `fields` declares, as of a Sensor. describe(kind) (static)
     declares verbs too, as kind.verb('Dim', 'dims it', 'percent', '%', min=0, max=100)."""
 
-    fields = {}
+    fields: 'dict[str, str]' = {}
 
     @staticmethod
-    def describe(kind):
+    def describe(kind: Kind) -> None:
         pass
 
     @staticmethod
-    def serves(model, joints, lights):
+    def serves(model: str, joints: 'list[str]', lights: 'list[str]') -> bool:
         return True
 
-    def configure(self, params, wiring):
+    def configure(self, params: Params, wiring: Wiring) -> None:
         pass
 
-    def command(self, text, values, view):
+    def command(self, text: str, values: 'list[float]', view: View) -> 'str | None':
         return 'takes no commands'
 
-    def update(self, view, outputs):
+    def update(self, view: View, outputs: Outputs) -> None:
         pass
 
-    def report(self, view):
+    def report(self, view: View) -> 'dict[str, typing.Any]':
         return {}
 )",
             module.attr("__dict__"));
@@ -399,6 +408,7 @@ PYBIND11_MODULE(angen, module) {
   bind_catalog(module);
   bind_names(module);
   bind_limits(module);
+  sign(module);
 }
 
 }  // namespace angen::py

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "core/text.h"
@@ -209,13 +210,13 @@ void bind_kind(pyb::module_& module) {
           [=](Kind& kind, const std::string& yes, const std::string& no) -> Kind& {
             return described(kind).shown_as(yes, no);
           },
-          same)
+          same, pyb::arg("yes"), pyb::arg("no"))
       .def(
           "alarm",
           [=](Kind& kind, const std::string& yes, const std::string& no) -> Kind& {
             return described(kind).alarm(yes, no);
           },
-          same)
+          same, pyb::arg("yes"), pyb::arg("no"))
       .def(
           "events",
           [=](Kind& kind, const std::string& begin, const std::string& end,
@@ -250,13 +251,13 @@ void bind_wiring(pyb::module_& module) {
   pyb::class_<Wiring>(module, "Wiring", "Names of the model to handles; unknown names raise.")
       .def_property_readonly("name", &Wiring::name)
       .def_property_readonly("model", &Wiring::model)
-      .def("has_joint", &Wiring::has_joint)
-      .def("joint", &Wiring::joint)
-      .def("link", &Wiring::link)
-      .def("light", &Wiring::light)
+      .def("has_joint", &Wiring::has_joint, pyb::arg("name"))
+      .def("joint", &Wiring::joint, pyb::arg("name"))
+      .def("link", &Wiring::link, pyb::arg("name"))
+      .def("light", &Wiring::light, pyb::arg("name"))
       .def("surfaces", &Wiring::surfaces, pyb::arg("visual") = "",
            "Visuals of that name, or all, that a collision has its surface from.")
-      .def("mass", &Wiring::mass, "kg, of the link and all that is fixed to it");
+      .def("mass", &Wiring::mass, pyb::arg("link"), "kg, of the link and all that is fixed to it");
 }
 
 pyb::list devices(const View& view, const std::string& field) {
@@ -279,18 +280,25 @@ void bind_view(pyb::module_& module) {
       .def_property_readonly(
           "rotation", [](const View& v) { return v.pose().rotation.toRotationMatrix(); },
           "3x3, of the pose")
-      .def("joint",
-           [](const View& v, JointRef ref) {
-             const JointView joint = v.joint(ref);
-             return pyb::make_tuple(joint.position, joint.velocity, joint.effort);
-           })
-      .def("link", [](const View& v, LinkRef ref) { return to_row(v.link(ref).pose); })
+      .def(
+          "joint",
+          [](const View& v, JointRef ref) {
+            const JointView joint = v.joint(ref);
+            return std::make_tuple(joint.position, joint.velocity, joint.effort);
+          },
+          pyb::arg("joint"), "position, velocity, effort: rad or m, N m or N")
+      .def(
+          "link", [](const View& v, LinkRef ref) { return to_row(v.link(ref).pose); },
+          pyb::arg("link"), "x y z qx qy qz qw")
       .def("devices", devices, pyb::arg("field"),
            "name, pose of the model and state, as a dict, of each device whose state has `field`");
   pyb::class_<Outputs>(module, "Outputs", "What a device may do in one tick.")
-      .def("force", &Outputs::force, "N or N m on a joint, for this tick")
-      .def("motor", &Outputs::motor, "velocity, greatest force; until changed")
-      .def("light", &Outputs::light, "level 0..1, luminous flux in lm at level 1")
+      .def("force", &Outputs::force, pyb::arg("joint"), pyb::arg("effort"),
+           "N or N m on a joint, for this tick")
+      .def("motor", &Outputs::motor, pyb::arg("joint"), pyb::arg("velocity"),
+           pyb::arg("max_effort"), "velocity, greatest force; until changed")
+      .def("light", &Outputs::light, pyb::arg("light"), pyb::arg("level"), pyb::arg("flux"),
+           "level 0..1, luminous flux in lm at level 1")
       .def("temperature", &Outputs::temperature, pyb::arg("surface"), pyb::arg("now"),
            pyb::arg("limit"), pyb::arg("time_constant") = 0.0,
            "K of a surface: from now to a limit, exponentially with a time constant in s")

@@ -120,13 +120,24 @@ void World::raise_failure() {
   if (!failure_.empty()) throw Error(std::exchange(failure_, ""));
 }
 
+void World::require_open() const {
+  if (closed_) throw Error("the world is closed: it can be read, and advances no more");
+}
+
+void World::close() {
+  closed_ = true;
+  recorder_.reset();
+}
+
 void World::step(std::uint64_t ticks) {
+  require_open();
   const std::future<sim::Outcome> done = simulation_.post(sim::Step{ticks});
   for (std::uint64_t i = 0; i < ticks; ++i) take(simulation_.tick());
   raise_failure();
 }
 
 void World::run(std::uint64_t ticks, bool long_steps) {
+  require_open();
   if (ticks == 0) return;
   if (long_steps && recorder_) throw Error("long steps cannot be recorded: a replay has none");
   const std::future<sim::Outcome> done = simulation_.post(sim::Step{ticks});
@@ -155,6 +166,7 @@ std::uint64_t World::ticks_in(double seconds) const {
 
 // The world stays paused: a tick executes the actions that wait, and only step() moves time.
 void World::drain(sim::Action action) {
+  require_open();
   std::future<sim::Outcome> outcome = simulation_.post(std::move(action));
   take(simulation_.tick());
   const sim::Outcome result = outcome.get();
@@ -179,6 +191,7 @@ void World::spawn(const std::string& what, const std::string& name, const std::v
 }
 
 void World::request(const std::string& kind, const std::string& name, bool wanted) {
+  require_open();
   index_of(snapshot_->structure->sensors, kind, name);
   simulation_.request(kind, name, wanted);
 }
@@ -235,6 +248,17 @@ std::string World::save() { return record::world_file(simulation_.world(), simul
 ReadingLog& World::readings() {
   if (!readings_) throw Error("no readings are kept; call keep_readings() first");
   return *readings_;
+}
+
+std::string World::text() const {
+  const sim::Structure& all = *snapshot_->structure;
+  const auto count = [](std::size_t n, const std::string& what) {
+    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+  };
+  return "<angen.World '" + printable(simulation_.world().name) + "' at " +
+         number_text(to_seconds(snapshot_->time)) + " s: " + count(all.models.size(), "model") +
+         ", " + count(all.devices.size(), "device") + ", " + count(all.sensors.size(), "sensor") +
+         (closed_ ? ", closed>" : ">");
 }
 
 std::vector<sim::Event> World::take_events() { return std::exchange(events_, {}); }

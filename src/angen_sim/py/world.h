@@ -52,6 +52,8 @@ class World {
   }
   void request(const std::string& kind, const std::string& name, bool wanted);
   void reset();
+  /// Completes the record. From now on the world is only read.
+  void close();
 
   Reading sensor(const std::string& kind, const std::string& name) const;
   Reading device(const std::string& kind, const std::string& name) const;
@@ -69,10 +71,13 @@ class World {
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Elements of those files that are not read, as "file:line: what".
   const std::vector<std::string>& ignored() const { return ignored_; }
+  /// Its name, time and counts in one line.
+  std::string text() const;
   std::string fingerprint() const { return fingerprint_.text(); }
 
  private:
   void begin();
+  void require_open() const;
   Nanoseconds leap_limit(Nanoseconds until) const;
   static void note(const std::vector<Diagnostic>& found, std::vector<std::string>& to);
   static void note(std::string text, std::vector<std::string>& to);
@@ -91,6 +96,7 @@ class World {
   std::optional<ReadingLog> readings_;
   std::vector<std::string> warnings_;
   std::vector<std::string> ignored_;
+  bool closed_ = false;
   std::string failure_;  // a plug-in's, until it is raised
   record::Fingerprint fingerprint_;
 };

@@ -2,6 +2,8 @@
 from __future__ import annotations
 
 import argparse
+import os
+import re
 import socket
 import subprocess
 import sys
@@ -185,3 +187,14 @@ def test_a_former_spelling_is_a_warning(capsys: pytest.CaptureFixture[str]) -> N
     first, second = capsys.readouterr().err.splitlines()
     assert first == 'angen locate: --world is now WORLD, without an option'
     assert 'WORLD needs --for TIME' in second
+
+
+@pytest.mark.parametrize('words', ['list', 'top', 'set door kitchen0 Open'])
+def test_without_ros_a_line_says_so(words: str, tmp_path: Path) -> None:
+    """As in a wheel's environment: ROS cannot be imported."""
+    for name in cli.ROS:
+        (tmp_path / f'{name}.py').write_text(f'raise ModuleNotFoundError("no", name="{name}")\n')
+    path = os.pathsep.join([str(tmp_path), os.environ.get('PYTHONPATH', '')])
+    result = angen(*words.split(), env=dict(os.environ, PYTHONPATH=path))
+    assert result.returncode == 1
+    assert re.fullmatch(rf'angen: {words.split()[0]} needs ROS .*\n', result.stderr)

@@ -3,8 +3,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from angen_tools.common.installed import share
+
 
 def shipped(name: str) -> Path:
     """A file of config/."""
-    import rospkg
-    return Path(rospkg.RosPack().get_path('angen_apps')) / 'config' / name
+    return share('angen_apps') / 'config' / name

@@ -15,6 +15,7 @@ from angen_apps.plan.symbols import SYMBOLS
 from angen_apps.web.guard import Guard, is_loopback, url_host
 from angen_apps.web.server import Server, Source, listen
 from angen_tools.common.catalog import kinds
+from angen_tools.common.installed import share
 from angen_tools.common.port import not_served, require_free
 
 KEYS = ('kind', 'doc', 'role', 'verbs', 'values', 'fields', 'models')  # keys that the page reads
@@ -22,8 +23,7 @@ KEYS = ('kind', 'doc', 'role', 'verbs', 'values', 'fields', 'models')  # keys th
 
 def page() -> Path:
     """The folder of the page's files."""
-    import rospkg
-    return Path(rospkg.RosPack().get_path('angen_apps')) / 'page'
+    return share('angen_apps') / 'page'
 
 
 def described_kinds() -> dict[str, Any]:

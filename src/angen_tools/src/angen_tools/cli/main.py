@@ -12,10 +12,12 @@ from typing import Any, NoReturn, Sequence
 from angen_tools.cli import applications, live, offline, pid
 from angen_tools.cli.parser import Parser, command
 from angen_tools.common.failure import Failure, code_of
+from angen_tools.common.installed import launch_file
 from angen_tools.common.typography import straightened
 
 STOPPED = 130  # a shell's exit code of a command that Ctrl-C ended
 OPTIONS = ('-h', '--help', '--version', '--json')  # before a command; the last is said to follow it
+ROS = ('angen_msgs', 'genpy', 'rosgraph', 'roslib', 'rospkg', 'rospy')  # modules
 PIPE_CLOSED = 141  # and of one whose reader ended
 
 
@@ -78,6 +80,8 @@ def run(arguments: Sequence[str]) -> int:
                      'those of a command follow it')
     if arguments and arguments[0] == 'help':
         arguments = [*arguments[1:], '--help']
+    if arguments and arguments[0] == 'run' and not {'--fast', '-h', '--help'} & set(arguments):
+        _run_building(arguments[1:])
     if arguments and arguments[0] == 'run' and any(':=' in word for word in arguments):
         parser.error('NAME:=VALUE is for ./angen run, which runs ROS; angen run takes --fast')
     if len(arguments) > 1 and arguments[0] == '--json':
@@ -96,6 +100,13 @@ def run(arguments: Sequence[str]) -> int:
     except Failure as failure:
         print(f'angen: {failure}', file=sys.stderr)
         return code_of(failure)
+    except ModuleNotFoundError as error:
+        if error.name not in ROS:
+            raise
+        print(f'angen: {arguments[0]} needs ROS (the Python module {error.name}), which a wheel of '
+              'Angen does not have; install the Debian packages of Angen, or use a checkout',
+              file=sys.stderr)
+        return 1
     except KeyboardInterrupt:
         return STOPPED
     except BrokenPipeError:
@@ -104,6 +115,15 @@ def run(arguments: Sequence[str]) -> int:
         what = f'{error.filename}: cannot be written' if error.filename else 'cannot write'
         print(f'angen: {what}: {error.strerror}', file=sys.stderr)
         return 1
+
+
+def _run_building(words: Sequence[str]) -> None:
+    """Starts the building in ROS and ends with it, if Debian's package is installed."""
+    launch = launch_file()
+    if launch is not None:
+        from angen_tools.entry.run import main as run_building
+        sys.argv[1:] = [str(launch), *words]
+        run_building()
 
 
 def _has_other_bytes(word: str) -> bool:

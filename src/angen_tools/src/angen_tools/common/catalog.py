@@ -5,7 +5,6 @@ loading the library, so that --help stays quick.
 """
 from __future__ import annotations
 
-import importlib.util
 import json
 import mmap
 import os
@@ -15,6 +14,7 @@ from pathlib import Path
 from typing import Any, Iterator
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.installed import libraries
 from angen_tools.common.nearest import did_you_mean
 
 Plugin = dict[str, Any]  # an entry of angen.plugins()
@@ -53,10 +53,8 @@ def directories() -> list[Path]:
         return [Path(entry) for entry in os.environ.get(variable, '').split(':') if entry]
     found = [*entries('ANGEN_PLUGIN_PATH'), *entries('GAZEBO_PLUGIN_PATH'),
              *(workspace / 'lib' for workspace in entries('CMAKE_PREFIX_PATH'))]
-    module = importlib.util.find_spec('angen')  # in lib/python3/dist-packages
-    if module is not None and module.origin:
-        found.append(Path(module.origin).parents[2])
-    return list(dict.fromkeys(found))
+    own = libraries()
+    return list(dict.fromkeys([*found, *([own] if own else [])]))
 
 
 @cache

@@ -38,7 +38,7 @@ roslaunch.pmon.printerrlog = lambda text: "exit code 1," in text or say(text)
 roslaunch.main()'''
 OPTIONS = ('--disable-title', '--no-summary', '--skip-log-check', '--sigint-timeout=1.5',
            '--sigterm-timeout=0.5')
-HELP = 'Ctrl-C ends it. To try, in a second terminal, after {angen} shell:'
+HELP = 'Ctrl-C ends it. To try, in a second terminal{after}:'
 BUILDING = (  # arguments of the world without world:=
     'rostopic pub -1 /gazebo/Door_controller std_msgs/String "Open, bathroom1"',
     'rostopic pub -1 /gazebo/Light_controller std_msgs/String "On, kitchen0"',
@@ -166,7 +166,8 @@ def resolved(word: str) -> str:
 def help_text(angen: Path, words: list[str]) -> str:
     """The commands to try in the world that the words start."""
     other = any(word.startswith(('world:=', 'replay:=')) for word in words)
-    return '\n         '.join([HELP.format(angen=angen), *(ANY if other else BUILDING)])
+    after = f', after {angen} shell' if angen.exists() else ''  # a package needs no shell
+    return '\n         '.join([HELP.format(after=after), *(ANY if other else BUILDING)])
 
 
 def run(launch: Path, words: list[str]) -> int:

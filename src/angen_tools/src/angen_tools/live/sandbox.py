@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, Iterator
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.installed import share
 from angen_tools.common.wait import wait
 from angen_tools.common.watchdog import watchdog
 from angen_tools.entry.master import master_command
@@ -146,8 +147,7 @@ class Sandbox:
 
     def rviz(self) -> subprocess.Popen[bytes] | None:
         """rviz, once it shows the building; None if it does not start."""
-        import rospkg
-        view = Path(rospkg.RosPack().get_path('angen_sim')) / 'launch/angen.rviz'
+        view = share('angen_sim') / 'launch/angen.rviz'
         process = self.start(['rviz', '-d', str(view)], 'rviz')
         with suppress(Failure):
             wait(lambda: process.poll() is not None or any(

@@ -7,19 +7,14 @@ from pathlib import Path
 
 from lxml import etree
 
-from angen_tools.common.failure import Failure
+from angen_tools.common.installed import share
 from angen_tools.world import sdf
 
 
 @cache
 def worlds_models() -> Path:
     """worlds/models of this Angen."""
-    import rospkg
-    try:
-        return Path(rospkg.RosPack().get_path('angen_sim')) / 'worlds/models'
-    except rospkg.ResourceNotFound:
-        raise Failure('the package angen_sim is not found; use ./angen, or source '
-                      'devel/setup.bash') from None
+    return share('angen_sim') / 'worlds/models'
 
 
 def building() -> Path:
