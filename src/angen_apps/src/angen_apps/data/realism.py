@@ -12,7 +12,7 @@ import numpy as np
 from scipy.spatial.distance import jensenshannon
 from scipy.stats import ks_2samp
 
-from angen_apps.data.validate import EVENTS, TRUTH, rows
+from angen_apps.data.tables import EVENTS, TRUTH, rows
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import pyplot, save_figure
 
