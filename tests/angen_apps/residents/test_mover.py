@@ -220,7 +220,6 @@ def test_no_place_on_the_floor_is_chosen_where_somebody_is(tmp_path):
     here, there = (Spot((x, -3.25), 0, 0.0, 'hall0') for x in (2.5, 4.0))
     bert.enter(here)
     assert anna._choose([here, there]) == there and bert._choose([here, there]) == here
-    assert len(set(anna._tasks['toilet'][0])) > 2  # there is none
 
 
 def test_distance_from_a_line():
@@ -240,7 +239,7 @@ def test_unreachable_rooms_are_no_places(tmp_path):
     assert site.ground.reached == {'', 'hall0', 'living0'}
     assert not household.places.rooms_of('kitchen') and household.places.rooms_of('hall')
     assert not household.places.free('kitchen', Random(1), 1)
-    assert anna._missing['dress', 0] == 'no wardrobe and no bed in reach'
+    assert anna.leaves_out['dress'] == 'no wardrobe and no bed in reach'
 
 
 def test_a_door_that_opens_too_little_is_a_wall(tmp_path):

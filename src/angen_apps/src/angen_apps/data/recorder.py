@@ -141,9 +141,21 @@ class Recorder:
             sensor = self._by_name.get((kind, source))
             if sensor is not None:
                 self._note(float(time), sensor, event, detail == FALSE)
+        if self._looked == 0.0 < self.household.now:
+            self._note_open()
         self.cabins.look()
         self._note_power()
         self._looked = self.household.now
+
+    def _note_open(self) -> None:
+        """Records which contacts were open at the start."""
+        opened, closed = VALUES['door']
+        first = {event.sensor: event.value for event in reversed(self.recording.events)}
+        for sensor in self.site.sensors:
+            state = self.site.simulator.state('reed', sensor.name) if sensor.source == 'reed' else {}
+            if first.get(sensor.id) == closed or \
+                    sensor.id not in first and not state.get('closed', True):
+                self._add(0.0, sensor, opened, START)
 
     def _note_fault(self, time: float, source: str, fault: str, detail: str) -> None:
         kind, _, what = detail.partition(': ')

@@ -53,7 +53,7 @@ SLIDES: Columns = {'time': finite, 'model': str, 'link': str, 'x': finite, 'y': 
 LAYOUT = {'start': datetime.fromisoformat, 'days': finite,
           'residents': [{'name': str, 'speed': finite}],
           'rooms': [{'name': str, 'use': str, 'storey': int, 'polygon': [[finite]]}],
-          'doors': [{'kind': str, 'pose': [finite], 'width': finite}],
+          'doors': [{'name': str, 'kind': str, 'pose': [finite], 'width': finite, 'rooms': [str]}],
           'things': [{'name': str, 'type': str, 'room': str, 'x': finite, 'y': finite}],
           'sensors': [{'name': str, 'id': str, 'kind': str, 'room': str,
                        'x': finite, 'y': finite, 'z': finite}]}

@@ -142,9 +142,16 @@ class Floors:
         j = np.clip(np.floor((x - grid.origin[0]) / SIDE).astype(int), 0, columns - 1)
         return np.asarray(grid.cells[i, j])
 
+    def room(self, x: float, y: float, storey: int) -> str:
+        """The room at a place, '' in a wall or an opening."""
+        number = int(self._cells(storey, np.array([x]), np.array([y]))[0])
+        return self.rooms[number - 1] if number > 0 else ''
+
     def sees(self, start: tuple[float, float], place: tuple[float, float, int]) -> bool:
         """Whether a person at a place is in sight of a point, through open doors."""
         x, y, storey = place
+        if math.isnan(x):
+            return False
         yaw = math.atan2(y - start[1], x - start[0])
         return any(self._clear(start, (x - side * math.sin(yaw), y + side * math.cos(yaw)), storey)
                    for side in (0.0, -WIDE, WIDE))

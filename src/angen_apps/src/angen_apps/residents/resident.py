@@ -168,8 +168,9 @@ class Resident(User):
         if step.posture == 'roam':
             yield from self._roam(activity, step, index, end)
             return
+        remark = ''
         if spot is None:
-            self.diary.note(f'no place for {activity.name}')
+            remark = f'no place for {activity.name}'
             spot = (activity.name == 'sleep' and self._choose(self.household.places.on_floor)) \
                 or self.household.places.beside(self._tasks[activity.name][index], self._habits)
         pause = PAUSE
@@ -185,8 +186,9 @@ class Resident(User):
             try:
                 self.settle(spot)
             except Rejected as error:
-                self.diary.note(str(error))
+                remark = str(error)
         self._note('does', activity.name, index)
+        self.diary.note(remark)
         self._lamps(activity.dark)
         used = self._use(step, spot)
         if used and step.opens:

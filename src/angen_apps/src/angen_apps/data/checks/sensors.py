@@ -7,20 +7,24 @@ from bisect import bisect_left, bisect_right
 from typing import Any, Iterator
 
 from angen_apps.data.recorder import DEGREES, VALUES, WATTS
-from angen_apps.data.whereabouts import WALKS
+from angen_apps.data.whereabouts import WALKS, Whereabouts
 from angen_apps.data.written import Findings, Written
 from angen_apps.residents.activities import activities
 
 CELL = 1.5  # m from the middle of a cell in which a person who moves may be detected
 PASSES = 0.35  # m from there in which a person who walks is detected
 EARLY, LATE = 3.0, 1.3  # s before and after an event in which its motion is
-HOLDS = 6.0  # s before the end of a detection
+DOORWAY = 1.3  # m from a door of a room, in which its sensor may see a person
+HOLDS = 8.0  # s before the end of a detection
 HAND = 3.0  # m from a door or front of who opens or shuts it
 SHUTS = 31.0  # s that this takes, at most
+STRAIGHT, BELOW = 1.2, 1.0  # m of a walk through a room, and from its sensor
+PLACED = ('cell_', 'area_')  # sensors whose places are known
 FRONT, FULL = 0.9, 5.0  # m between a thing and its front; s of its use from which that opens
 SEAT, MAT = 1.5, 0.7  # m between a seat or mat and a person on it
 SITS = (3.0, 1.0)  # s after the begin and before the end of sitting, when the seat is pressed
 LAGS = 2.5  # s between a load and the report of its plug
+WARMER = 12.0  # degrees between a reading and the middle one
 BRIEF = 0.05  # s: a shorter change is not reported
 IDLE = 5.0  # W of an appliance that is off
 MISSED, NOISE, LOST = 0.02, 0.02, 0.25  # shares at most; LOST of the passes of faulty sensors
@@ -63,7 +67,7 @@ def _alternate(findings: Findings, home: Written) -> None:
         if row['kind'] in VALUES and row['sensor'] not in home.faulty:
             findings.say('on and off alternate', last.get(row['sensor']) != row['value'],
                          f'{row["time"]} {row["sensor"]} {row["value"]} twice')
-            if row['sensor'] not in last and row['kind'] not in ('door', 'power'):
+            if row['sensor'] not in last:
                 findings.say('on and off alternate', row['value'] in ON,
                              f'{row["time"]} {row["sensor"]} {row["value"]} at first')
             last[row['sensor']] = row['value']
@@ -99,7 +103,11 @@ def _explained(home: Written, sensor: Any, time: float, on: bool, who: str = '')
         if who not in ('', name):
             continue
         if sensor['kind'] in ('motion', 'area'):
-            places = one.moving(time - (EARLY if on else HOLDS), time + LATE)
+            begin = time - (EARLY if on else HOLDS)
+            places = one.moving(begin, time + LATE)
+            if sensor['kind'] == 'area' and any(_at_door(home, sensor, place)
+                                                for place in one.between(begin, time + LATE)):
+                return True
         elif sensor['kind'] == 'door':
             places = one.between(time - SHUTS, time + LATE)
         else:
@@ -115,40 +123,57 @@ def _explained(home: Written, sensor: Any, time: float, on: bool, who: str = '')
     return False
 
 
+def _at_door(home: Written, sensor: Any, place: tuple[float, float, int]) -> bool:
+    """Whether a person is at a door of a sensor's room: the leaf hides and shows who stands there.
+    """
+    return any(door['kind'] != 'window' and sensor['room'] in door['rooms']
+               and math.dist(door['pose'][:2], place[:2]) < DOORWAY for door in home.layout['doors'])
+
+
 def _should(findings: Findings, home: Written, shares: dict[str, int]) -> None:
-    """Who walks over a cell is detected, but for what missed.csv has."""
+    """Who walks over a cell or through a room is detected, but for what missed.csv has."""
     known: dict[tuple[str, str], list[tuple[float, float]]] = {}
     for row in home.missed:
         known.setdefault((row['sensor'], row['resident']), []).append(
             (float(row['start']) - LATE, float(row['end']) + LATE))
     for sensor in home.layout['sensors']:
-        if sensor['kind'] != 'motion' or not sensor['name'].startswith('cell_'):
+        passes = _over_cell if sensor['name'].startswith('cell_') else _through_room
+        if sensor['kind'] not in ('motion', 'area') or not sensor['name'].startswith(PLACED):
             continue
         states = home.states(sensor['id'])
-        for name, time in _passes(home, sensor):
-            shares['passes'] += 1
-            if _was_on(states, time):
-                continue
-            if any(start <= time <= end for start, end in known.get((sensor['id'], name), [])):
-                continue
-            shares['missed'] += 1
-            if sensor['id'] not in home.faulty:
-                findings.say('who walks over a cell is detected', False,
-                             f'{name} at {time:.3f} under {sensor["id"]}')
+        for name in sorted(home.people):
+            for time in passes(home, sensor, home.who[name]):
+                found = _was_on(states, time) or any(
+                    start <= time <= end for start, end in known.get((sensor['id'], name), []))
+                shares['passes'] += 1
+                shares['missed'] += not found
+                if sensor['id'] not in home.faulty:
+                    findings.say('who walks is detected', found,
+                                 f'{name} at {time:.3f} by {sensor["id"]}')
 
 
-def _passes(home: Written, sensor: Any) -> Iterator[tuple[str, float]]:
-    """Who walked over a cell, and when."""
+def _over_cell(home: Written, sensor: Any, one: Whereabouts) -> Iterator[float]:
+    """When a resident walks over the middle of a cell."""
     storey = home.rooms[sensor['room']]['storey'] if sensor['room'] in home.rooms else 0
-    for name, one in home.who.items():
-        if name not in home.people:
-            continue
-        for i in range(1, len(one.times) - 1):
-            x, y, floor = one.places[i]
-            if floor == storey and math.dist((x, y), (sensor['x'], sensor['y'])) < PASSES \
-                    and one.times[i + 1] - one.times[i - 1] < 2 * WALKS \
-                    and math.dist(one.places[i - 1][:2], one.places[i + 1][:2]) > 2 * PASSES:
-                yield name, one.times[i]
+    for i in range(1, len(one.times) - 1):
+        x, y, floor = one.places[i]
+        if floor == storey and math.dist((x, y), (sensor['x'], sensor['y'])) < PASSES \
+                and one.times[i + 1] - one.times[i - 1] < 2 * WALKS \
+                and math.dist(one.places[i - 1][:2], one.places[i + 1][:2]) > 2 * PASSES:
+            yield one.times[i]
+
+
+def _through_room(home: Written, sensor: Any, one: Whereabouts) -> Iterator[float]:
+    """When a resident walks STRAIGHT through a room, in sight of its sensor and not below it."""
+    at = sensor['x'], sensor['y']
+    for i in range(2, len(one.times) - 2):
+        way = one.places[i - 2:i + 3]
+        if one.times[i + 2] - one.times[i - 2] < 4 * WALKS \
+                and math.dist(way[0][:2], way[4][:2]) > STRAIGHT \
+                and math.dist(way[2][:2], at) > BELOW \
+                and home.floors.room(*way[2]) == sensor['room'] \
+                and all(home.floors.sees(at, place) for place in way):
+            yield one.times[i]
 
 
 def _was_on(states: list[tuple[float, str]], time: float) -> bool:
@@ -190,9 +215,8 @@ def _doors(findings: Findings, home: Written) -> None:
             continue
         states = home.states(contact)
         for name, time in _crossings(home, door):
-            findings.say('who walks through a door has opened it', _was_on(
-                [(-1.0, 'CLOSE' if states and states[0][1] in ON else 'OPEN'), *states], time),
-                f'{name} at {time:.3f} through {door["name"]}')
+            findings.say('who walks through a door has opened it', _was_on(states, time),
+                         f'{name} at {time:.3f} through {door["name"]}')
 
 
 def _crossings(home: Written, door: Any) -> Iterator[tuple[str, float]]:
@@ -255,7 +279,7 @@ def _plugs(findings: Findings, home: Written) -> None:
             continue
         changes = _changes(home, device)
         reports = [time for time, _ in home.states(plug) if time > LAGS]
-        for time in changes:
+        for time in (time for time in changes if time > LAGS):
             findings.say(check, any(abs(time - other) < LAGS for other in reports),
                          f'{device} at {time:.3f}: {plug} reports nothing')
         for time in reports:
@@ -345,12 +369,19 @@ def _mains(findings: Findings, home: Written) -> None:
 
 
 def _air(findings: Findings, home: Written) -> None:
-    """Temperatures change by steps, and each sensor reports one."""
+    """Temperatures change by steps, and each sensor reports one, near those of the others."""
+    every = [float(row['value']) for row in home.events if row['kind'] == 'temperature']
+    if not every:  # a home without a climate
+        return
+    usual = sorted(every)[len(every) // 2]
     for sensor in home.layout['sensors']:
         if sensor['kind'] != 'temperature' or sensor['id'] in home.faulty:
             continue
         states = home.states(sensor['id'])
         findings.say('temperatures change by steps', bool(states), f'{sensor["id"]} reports none')
+        for time, value in states:
+            findings.say('temperatures change by steps', abs(float(value) - usual) < WARMER,
+                         f'{sensor["id"]} at {time:.3f}: {value}, most are near {usual:g}')
         for (_, before), (time, after) in zip(states, states[1:]):
             step = abs(float(after) - float(before))
             findings.say('temperatures change by steps', DEGREES <= step < 8 * DEGREES,
