@@ -117,8 +117,8 @@ def run_realism(args: argparse.Namespace) -> int:
 
 def add_strict(parser: argparse.ArgumentParser) -> None:
     """--strict, of commands that say what residents cannot do in a home."""
-    parser.add_argument('--strict', action='store_true', help='exit code 1 if the home has no place '
-                        'for something that residents do; otherwise they leave it out')
+    parser.add_argument('--strict', action='store_true', help='exit code 1 if the home has no '
+                        'place for something that residents do; otherwise they leave it out')
 
 
 def add_household(commands: Any) -> None:

@@ -152,7 +152,9 @@ class Recorder:
         opened, closed = VALUES['door']
         first = {event.sensor: event.value for event in reversed(self.recording.events)}
         for sensor in self.site.sensors:
-            state = self.site.simulator.state('reed', sensor.name) if sensor.source == 'reed' else {}
+            if sensor.source != 'reed':
+                continue
+            state = self.site.simulator.state('reed', sensor.name)
             if first.get(sensor.id) == closed or \
                     sensor.id not in first and not state.get('closed', True):
                 self._add(0.0, sensor, opened, START)

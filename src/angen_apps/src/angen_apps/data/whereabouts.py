@@ -137,10 +137,12 @@ class Floors:
         grid = self._grids.get(storey)
         if grid is None:
             return np.full(x.shape, WALL)
-        rows, columns = grid.cells.shape
-        i = np.clip(np.floor((y - grid.origin[1]) / SIDE).astype(int), 0, rows - 1)
-        j = np.clip(np.floor((x - grid.origin[0]) / SIDE).astype(int), 0, columns - 1)
-        return np.asarray(grid.cells[i, j])
+        cells = grid.cells
+        rows, columns = cells.shape
+        i = ((y - grid.origin[1]) / SIDE).astype(int)
+        j = ((x - grid.origin[0]) / SIDE).astype(int)
+        return np.asarray(cells[np.maximum(np.minimum(i, rows - 1), 0),
+                                np.maximum(np.minimum(j, columns - 1), 0)])
 
     def room(self, x: float, y: float, storey: int) -> str:
         """The room at a place, '' in a wall or an opening."""
