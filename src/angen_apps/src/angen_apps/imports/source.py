@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import codecs
 import math
+import re
 import zipfile
 from pathlib import Path
 
@@ -16,6 +17,7 @@ LARGEST_XML = 32 << 20  # bytes of Home.xml
 MEMBERS = 10_000  # files in a zip
 FARTHEST = 500.0  # m from the origin of a plan
 HOME = 'Home.xml'
+DECLARATION = re.compile(r'<\?xml[^>]*\?>')  # with an encoding
 OLD = 'Home'
 
 
@@ -73,7 +75,7 @@ def _utf8(path: Path, data: bytes) -> bytes:
     """A text that begins with the mark of its encoding, in UTF-8."""
     try:
         if data[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
-            return data.decode('utf-16').encode()
+            return DECLARATION.sub('', data.decode('utf-16')).encode()
         return data.removeprefix(codecs.BOM_UTF8)
     except UnicodeDecodeError as error:
         raise Failure(f'{path}: is not UTF-16, as it begins: {error.reason}') from None
