@@ -70,6 +70,9 @@ def test_who_comes_home_walks_in_and_is_detected(lived, tmp_path):
     ends = [line for line in findings.wrong['no gap in the truth'] if 'ends at' not in line]
     assert not ends  # the day is not over
     assert findings.checked['no resident crossed a wall'] >= 2
+    assert findings.checked['the mains report what all loads draw'] >= 2
+    assert {watts for _, watts in lived.power['fridge/kitchen_fridge0']} <= {0.0, 80.0}
+    assert {e.value for e in lived.events if e.sensor == 'P001' and e.time < 1.0} <= {'0', '80'}
     assert {check: wrong for check, wrong in findings.wrong.items()
             if wrong and check not in ('no gap in the truth', 'a file is as it is listed')} == {}
 

@@ -370,8 +370,8 @@ def test_the_main_entrance_leads_outside_and_opens(tmp_path: Path) -> None:
     assert angen.World(str(tmp_path / 'a.world')).home['entrance'] == 'kitchen_c0'
 
 
-def test_a_large_building_is_divided_into_models(tmp_path: Path,
-                                                  monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_large_building_is_divided_into_models(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+                                                 ) -> None:
     walls = ''.join(f'<wall xStart="{x}" yStart="0" xEnd="{x + 60}" yEnd="0" height="250" '
                     'thickness="10"/>\n' for x in range(1000, 5000, 100))
     made = []
