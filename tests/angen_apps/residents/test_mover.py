@@ -106,11 +106,12 @@ def test_no_one_sits_where_a_table_covers_the_seat(tmp_path):
     assert {c.key for c in chairs} - {c.key for c in left} == {chairs[0].key}
 
 
-def test_a_resident_who_cannot_reach_a_thing_stands_in_its_room(tmp_path, monkeypatch):
+def test_a_thing_that_cannot_be_reached_is_no_place_but_its_room_may_be(tmp_path, monkeypatch):
     furnished(tmp_path / 'home.world')
     site, _, _ = home_of(tmp_path / 'home.world')
     monkeypatch.setattr(site.ground, 'near', lambda *_: None)
-    spots = Places(site.ground).spots(Step(at=('fridge',)))
+    assert Places(site.ground).spots(Step(at=('fridge',))) == []
+    spots = Places(site.ground).spots(Step(at=('fridge',), room='kitchen'))
     assert spots and all(spot.room == 'kitchen0' and not spot.thing for spot in spots)
 
 

@@ -93,7 +93,8 @@ class Recorder:
         self.site, self.household = site, household
         self.recording = Recording([], [], {}, [], [])
         self._by_name = {(s.source, s.name): s for s in site.sensors}
-        self._storeys = {s.id: site.home.storey_at(s.z) for s in site.sensors}
+        storeys = {room.name: room.storey for room in site.home.rooms}
+        self._storeys = {s.id: storeys.get(s.room, site.home.storey_at(s.z)) for s in site.sensors}
         self._on: dict[str, float] = {}  # when sensors came on
         self._last_on: dict[str, float] = {}
         self._whose: dict[str, tuple[str, str, str]] = {}
@@ -291,7 +292,7 @@ class Recorder:
         household = self.household
         draw = chance(household.seed, household.name, 'fridge', fridge)
         runs = draw.random() < RUNS[0] / (RUNS[0] + RESTS[0])
-        share = draw.random()  # of the first period
+        share = draw.random()  # part left at the start
         while True:
             self._load(f'fridge/{fridge}', household.now, FRIDGE if runs else 0.0)
             yield household.now + 60.0 * share * spread(draw, *(RUNS if runs else RESTS))

@@ -33,7 +33,7 @@ UNDER_TOP = 0.006  # m that ceilings begin below the walls' tops
 PANE = 0.02  # m, thickness of a pane that does not open
 INSIDE = 0.02  # m from a wall's face to the source of daylight
 FLOOR_THICK = 0.2  # m of the lowest floor
-ELEMENTS, PARTS = 8000, 200  # XML elements of a building's links, boxes of a link; more are divided
+ELEMENTS, PARTS = 8000, 200  # XML elements of a building, boxes of a link; more are divided
 SENSORS = ('seed', 'casas', 'none')
 SEATS = ('chair', 'sofa', 'armchair', 'bed')
 
@@ -201,8 +201,9 @@ def _add_building(world: etree._Element, plan: Plan, storey: Storey, made: Slabs
 
 def _divide(world: etree._Element, model: etree._Element) -> None:
     """Moves links of a model that is larger than the simulator reads into further ones."""
-    size, whole = 0, model
-    for link in whole.findall('link'):
+    whole, links = model, model.findall('link')
+    size = sum(1 for _ in model.iter()) - sum(1 for link in links for _ in link.iter())
+    for link in links:
         own = sum(1 for _ in link.iter())
         if size + own > ELEMENTS:
             size = 0

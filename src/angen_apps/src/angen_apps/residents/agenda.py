@@ -16,7 +16,7 @@ from angen_apps.residents.chance import around, chance, choose, spread
 from angen_apps.residents.profiles import DAY, Profile, Scheduled, Span
 
 SHORTEST = 90.0  # s: a gap that is shorter is not filled
-RESORT = 'relax'  # of people who have nothing else to do
+RESORT = 'relax'  # activity with nothing else to do
 AGAIN = 0.3  # how likely an activity follows itself, compared with others
 PAUSE = 5.0  # s after an interruption
 CLEAR = 60.0  # s between the begin of an activity and its interruption

@@ -13,7 +13,7 @@ from angen_apps.residents.profiles import FOLDER, read
 EARLY, LATE = 3.0, 1.0  # s between a cause and its event: motion before, and at, it
 HAND = 31.0  # s between a command and the event of its device
 KINDS = {'motion': ('motion', 'area'), 'seat': ('item',), 'hand': ('door', 'power'),
-         'air': ('temperature',), 'light': ('light',), 'power': ('mains',)}  # of sensors, by cause
+         'air': ('temperature',), 'light': ('light',), 'power': ('mains',)}  # kinds of sensors, by cause
 START = 1.0  # s, in which sensors report their first states
 OWN = ('motion', 'seat', 'hand')  # causes that are residents
 ALWAYS = {'sleep', 'leave', 'relax', 'toilet', 'wash', 'shower', 'dress', 'nap'}
@@ -54,11 +54,7 @@ def _fits(home: Written, step: Step, row: dict[str, str]) -> bool:
     use, thing = home.use(row['room']), home.things.get(row['thing'])
     if thing is not None:
         return any(_is(what, thing['type'], use) for what in step.at)
-    if step.room == use or {OUTSIDE, ENTRANCE} & set(step.at):
-        return True
-    return posture == 'stand' and any(_is(what, other['type'], use) for what in step.at
-                                      for other in home.things.values()
-                                      if other['room'] == row['room'])
+    return step.room == use or bool({OUTSIDE, ENTRANCE} & set(step.at))
 
 
 def _is(what: str, kind: str, use: str) -> bool:
@@ -89,7 +85,7 @@ def _noted(findings: Findings, home: Written) -> None:
 
 def _events(findings: Findings, home: Written) -> None:
     """Events have causes of their kind, and the activity that the truth has for their resident."""
-    whose: dict[str, tuple[str, str]] = {}  # of the last that came on
+    whose: dict[str, tuple[str, str]] = {}  # resident and activity as it came on
     for time, row in zip(home.times, home.events):
         where = f'{row["time"]} {row["sensor"]} {row["value"]}'
         cause, who, name = row['cause'], row['resident'], row['activity']

@@ -11,7 +11,7 @@ from angen_tools.common.home import Room
 
 FASTER = 1.35  # times the speed of a profile that a person may reach
 USUAL = (0.75, 1.15)  # times that speed, of the middle of their steps
-STEPS = 100  # of a resident whose usual speed is checked
+STEPS = 100  # least number whose usual speed is checked
 SLACK = 0.5  # m from the middle of an opening to the end of a step to its room
 STEP = 0.65  # s between two places of one walk, at most
 JUMP = 2.3  # m between two places without a walk: from a bed to where one stands

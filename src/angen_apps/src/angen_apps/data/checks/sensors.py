@@ -11,17 +11,18 @@ from angen_apps.data.whereabouts import WALKS, Whereabouts
 from angen_apps.data.written import Findings, Written
 from angen_apps.residents.activities import activities
 
-CELL = 1.5  # m from the middle of a cell in which a person who moves may be detected
+# m from the middle of a cell to one who moves there, from a door or front to one who opens or
+# shuts it, and from a seat or mat to one on it
+NEAR = {'motion': 1.5, 'area': 0.0, 'door': 3.0, 'item': 1.5}
 PASSES = 0.35  # m from there in which a person who walks is detected
 EARLY, LATE = 3.0, 1.3  # s before and after an event in which its motion is
 DOORWAY = 1.3  # m from a door of a room, in which its sensor may see a person
 HOLDS = 8.0  # s before the end of a detection
-HAND = 3.0  # m from a door or front of who opens or shuts it
-SHUTS = 31.0  # s that this takes, at most
+SHUTS = 31.0  # s that it takes to open or shut a door, at most
 STRAIGHT, BELOW = 1.2, 1.0  # m of a walk through a room, and from its sensor
 PLACED = ('cell_', 'area_')  # sensors whose places are known
 FRONT, FULL = 0.9, 5.0  # m between a thing and its front; s of its use from which that opens
-SEAT, MAT = 1.5, 0.7  # m between a seat or mat and a person on it
+MAT = 0.7  # m between a mat and a person on it
 SITS = (3.0, 1.0)  # s after the begin and before the end of sitting, when the seat is pressed
 LAGS = 2.5  # s between a load and the report of its plug
 WARMER = 12.0  # degrees between a reading and the middle one
@@ -105,9 +106,8 @@ def _explained(home: Written, sensor: Any, time: float, on: bool, who: str = '')
         if sensor['kind'] in ('motion', 'area'):
             begin = time - (EARLY if on else HOLDS)
             places = one.moving(begin, time + LATE)
-            if sensor['kind'] == 'area' and any(_at_door(home, sensor, place)
-                                                for place in one.between(begin, time + LATE)):
-                return True
+            places += [place for place in one.between(begin, time + LATE)
+                       if _at_door(home, sensor, place)]
         elif sensor['kind'] == 'door':
             places = one.between(time - SHUTS, time + LATE)
         else:
@@ -116,9 +116,8 @@ def _explained(home: Written, sensor: Any, time: float, on: bool, who: str = '')
             if math.isnan(place[0]):
                 continue
             away = math.dist(at, place[:2])
-            if {'motion': away < CELL, 'door': away < HAND, 'item': away < SEAT}.get(
-                    sensor['kind'], False) or sensor['kind'] == 'area' and home.floors.sees(
-                        at, place):
+            if away < NEAR[sensor['kind']] or sensor['kind'] == 'area' and (
+                    _at_door(home, sensor, place) or home.floors.sees(at, place)):
                 return True
     return False
 
