@@ -13,7 +13,7 @@ from angen_apps.residents.profiles import FOLDER, read
 EARLY, LATE = 3.0, 1.0  # s between a cause and its event: motion before, and at, it
 HAND = 31.0  # s between a command and the event of its device
 KINDS = {'motion': ('motion', 'area'), 'seat': ('item',), 'hand': ('door', 'power'),
-         'air': ('temperature',), 'light': ('light',), 'power': ('mains',)}  # kinds of sensors, by cause
+         'air': ('temperature',), 'light': ('light',), 'power': ('mains',)}  # kinds, by cause
 START = 1.0  # s, in which sensors report their first states
 OWN = ('motion', 'seat', 'hand')  # causes that are residents
 ALWAYS = {'sleep', 'leave', 'relax', 'toilet', 'wash', 'shower', 'dress', 'nap'}
