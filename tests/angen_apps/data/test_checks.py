@@ -377,3 +377,13 @@ def test_good_data_has_no_finding(good: Path, tmp_path: Path) -> None:
     assert findings.shares['explained'] == 1.0 and findings.shares['missed'] == 0.0
     Tables(copied(good, tmp_path)).write()
     assert validate(tmp_path / 'home').count == 0
+
+
+def test_what_a_listed_fault_has_lost_is_no_finding(good: Path, tmp_path: Path) -> None:
+    tables = Tables(copied(good, tmp_path))
+    broken = tables.ids('motion', 'kitchen')[0]
+    tables.drop('events', lambda row: row['sensor'] == broken)
+    tables.faults.append({'time': '1.000', 'sensor': broken, 'fault': 'dropout', 'detail': 'ON'})
+    tables.entry['settings']['faults'] = 64 * '0'
+    tables.write()
+    assert validate(tables.folder).count == 0
