@@ -59,6 +59,19 @@ def test_a_plug_measures_a_television_and_its_energy(world):
     assert reading['energy'] == pytest.approx(0.5 * 10 + 90 * 20, rel=0.01)
 
 
+@pytest.mark.parametrize('standby, reported', [
+    ('', ['on']), ('<standby>5</standby>', ['on', 'off'])])
+def test_a_plug_reports_a_load_above_its_standby(world, standby, reported):
+    w = world(block('tv', 'tv') + '<model name="p"><static>true</static><link name="l">'
+              '<sensor name="p" type="custom"><plugin name="p" filename="libsmart_plug.so">'
+              f'<load>appliance/tv</load>{standby}</plugin></sensor></link></model>')
+    w.run(1)
+    for text in ('On', 'Off'):  # 90 W, then 0.5 W
+        w.command('appliance', 'tv', text)
+        w.run(1)
+    assert [event for _, _, kind, event, _ in w.events() if kind == 'plug'] == reported
+
+
 def test_a_television_lights_the_things_before_it(world):
     """A screen of 200 lm and area A seen from 2 m, small against that: E = 200 / (pi r^2)."""
     w = world('<model name="tv"><static>true</static><link name="l"><light name="screen" '

@@ -44,6 +44,7 @@ class SmartPlug : public Sensor, public NoisySensor {
     const std::size_t bar = metering_.load.find('/');
     kind_ = metering_.load.substr(0, bar);
     if (bar != std::string::npos) name_ = metering_.load.substr(bar + 1);
+    standby_ = params.number("standby", 0.0, "W", "up to which the load is off", kNotNegative);
     metering_.noise_stddev = params.number("noise_stddev", 0.0, "W", "of a power", kNotNegative);
   }
 
@@ -81,8 +82,8 @@ class SmartPlug : public Sensor, public NoisySensor {
   void set_power(double power, Nanoseconds at, Reading& reading) {
     metering_.energy = metering_.energy_at(at);
     metering_.since = at;
-    if ((power > 0.0) != (metering_.power > 0.0)) {
-      reading.event = power > 0.0 ? "on" : "off";
+    if ((power > standby_) != (metering_.power > standby_)) {
+      reading.event = power > standby_ ? "on" : "off";
       reading.urgent = true;
     }
     metering_.power = power;
@@ -90,6 +91,7 @@ class SmartPlug : public Sensor, public NoisySensor {
 
   std::string kind_;
   std::string name_;
+  double standby_ = 0.0;
   Metering metering_;
   Nanoseconds sampled_at_ = -1;
 };

@@ -4,12 +4,14 @@ import datetime
 import gzip
 import re
 import xml.etree.ElementTree as xml
+from dataclasses import replace
 
 import pytest
 
 from angen_apps.data.formats import FORMATS
+from angen_apps.data.recorder import Event
 from angen_tools.common.failure import Failure
-from tests.angen_apps.data.synthetic import data
+from tests.angen_apps.data.synthetic import data, doing
 
 
 def test_aruba_has_tabs_six_digits_and_one_space_before_begin_and_end(tmp_path):
@@ -29,6 +31,21 @@ def test_aruba_has_tabs_six_digits_and_one_space_before_begin_and_end(tmp_path):
 def test_of_several_residents_labels_say_whose_they_are(tmp_path):
     [path] = FORMATS['casas'](tmp_path, data(2))
     assert 'R1_Sleeping begin' in path.read_text()
+
+
+def test_labels_of_who_comes_home_alternate(tmp_path):
+    whole = data()
+    whole.truth[:] = [doing(0, 100, 'anna', 'leave', 'away'),
+                      doing(100, 103, 'anna', 'eat', 'goes'), doing(103, 300, 'anna', 'eat'),
+                      doing(300, 86400, 'anna', 'read', 'goes')]
+    times = (101.0, 102.0, 150.0, 159.0, 161.0, 200.0, 290.0, 400.0)
+    whole.events[:] = [Event(at, 'M001', value, 'anna', 'eat', 'motion')
+                       for at, value in zip(times, 4 * ('ON', 'OFF'))]
+    [path] = FORMATS['casas'](tmp_path, whole)
+    turns = [(line.split('\t')[1], line.split('\t')[4]) for line in path.read_text().splitlines()
+             if line.count('\t') == 4]
+    assert turns == [('00:01:41.000000', 'Enter_Home begin'), ('00:02:39.000000', 'Enter_Home end'),
+                     ('00:02:41.000000', 'Eating begin'), ('00:04:50.000000', 'Eating end')]
 
 
 def test_newer_columns_label_each_event(tmp_path):
@@ -113,4 +130,9 @@ def test_parquet_reports_a_missing_package_or_is_read_again(tmp_path):
             FORMATS['parquet'](tmp_path, data())
         return
     [path] = FORMATS['parquet'](tmp_path, data())
-    assert pyarrow.parquet.read_table(path).num_rows == 8
+    table = pyarrow.parquet.read_table(path)
+    assert table.num_rows == 8 and table.schema.field('time').type == pyarrow.timestamp('us')
+    assert table['time'][3].as_py() == datetime.datetime(2026, 3, 23, 0, 1, 44, 1)
+    assert table['resident'].to_pylist()[:2] == [None, 'anna']
+    empty = replace(data(), events=[])
+    assert pyarrow.parquet.read_table(*FORMATS['parquet'](tmp_path, empty)).schema == table.schema

@@ -20,7 +20,8 @@ import pytest
 from angen_apps.data.generate import MANIFEST, Job, generate, make
 from angen_apps.data.part_folder import MARKER
 from angen_apps.data.site import apartment
-from angen_apps.data.validate import homes, validate
+from angen_apps.data.tables import homes
+from angen_apps.data.validate import validate
 from angen_apps.residents.profiles import FOLDER
 from angen_tools.common.failure import Failure
 

@@ -118,13 +118,17 @@ def test_a_fine_picture_is_read_by_blocks_of_pixels(tmp_path: Path) -> None:
     assert areas(read_picture(path, SCALE / 5, True)) == pytest.approx(said, rel=0.02)
 
 
-def test_a_plan_without_a_closed_space_says_so(tmp_path: Path) -> None:
+@pytest.mark.parametrize('closed', [0, 1])
+def test_a_plan_with_no_room_or_a_spot_of_one_is_an_error(closed: int, tmp_path: Path) -> None:
     gray = np.full((200, 300), 235, np.uint8)
-    gray[20:28, 20:280] = 20
+    gray[20:28, 20:280] = gray[160:168, 20:280] = 20
+    if closed:
+        gray[100:150, 100:150] = 20
+        gray[106:144, 106:144] = 235
     path = tmp_path / 'scan.png'
     Image.fromarray(gray).save(path)
-    assert any('there are no rooms; check --scale' in remark
-               for remark in read_picture(path, SCALE, True).remarks)
+    with pytest.raises(Failure, match='its walls close .* between the outermost of them'):
+        read_picture(path, SCALE, True)
 
 
 def test_a_map_has_its_origin_and_resolution(tmp_path: Path) -> None:

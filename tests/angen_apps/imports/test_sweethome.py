@@ -7,9 +7,12 @@ from typing import Any
 
 import angen
 import pytest
+from lxml import etree
 
 from angen_apps.imports.sweethome import read_sweethome
+from angen_apps.plan import writer
 from angen_apps.plan.model import Opening, Plan
+from angen_apps.plan.polygons import area
 from angen_apps.plan.walls import boxes
 from angen_apps.plan.writer import write_world
 from angen_bench import homes
@@ -305,3 +308,93 @@ def test_a_frame_that_a_piece_closes_is_no_way_and_odd_doors_are_reported(tmp_pa
     assert sum('is drawn over another one' in remark for remark in plan.remarks) == 1
     assert sum('is in no wall' in remark for remark in plan.remarks) == 1
     assert sum('is closed by the piece "Gate"' in remark for remark in plan.remarks) == 1
+
+
+def door(x: float, y: float, name: str = 'Door') -> str:
+    return (f'<doorOrWindow catalogId="eTeks#door" name="{name}" x="{x}" y="{y}" width="90" '
+            f'depth="20" height="208">{SASH}</doorOrWindow>')
+
+
+@pytest.mark.parametrize('encoding', ['utf-16', 'utf-8-sig'])
+def test_a_file_that_begins_with_the_mark_of_its_encoding(encoding: str, tmp_path: Path) -> None:
+    path = small(tmp_path, door(200, 300))
+    plain = read_sweethome(path)
+    text = path.read_text().replace('Kitchen', 'Küche')
+    name = encoding.removesuffix('-sig')
+    path.write_bytes(f'<?xml version="1.0" encoding="{name}"?>{text}'.encode(encoding))
+    plan = read_sweethome(path)
+    assert [room.name for room in plan.all_rooms()] == ['kuche0']
+    assert plan.storeys[0].walls == plain.storeys[0].walls
+    path.write_bytes(b'\xff\xfe<\x00h')
+    with pytest.raises(Failure, match='is not UTF-16, as it begins'):
+        read_sweethome(path)
+
+
+def test_what_is_no_furniture_is_left_out(tmp_path: Path) -> None:
+    """A piece on a level that is missing, and a figure for the scale."""
+    box = 'x="100" y="100" width="50" depth="50" height="170"'
+    path = small(tmp_path, '<level id="a" name="A" elevation="0" height="250"/>',
+                 f'<pieceOfFurniture level="b" name="Chest" {box}/>',
+                 f'<pieceOfFurniture level="a" name="Standing woman" {box}/>')
+    path.write_text(path.read_text().replace('<wall ', '<wall level="a" ').replace(
+        '<room ', '<room level="a" '))
+    plan = read_sweethome(path)
+    assert not plan.storeys[0].pieces
+    assert [remark.partition(': ')[2] for remark in plan.remarks] == [
+        '<pieceOfFurniture> is on the level "b", which is missing; there are a; it is left out',
+        '"Standing woman" is a person and is left out']
+
+
+def test_rooms_between_walls_have_the_use_of_their_contents(tmp_path: Path) -> None:
+    path = small(tmp_path, '<pieceOfFurniture name="Cooker" x="50" y="50" width="60" depth="60" '
+                 'height="90"/>')
+    text = path.read_text()
+    path.write_text(text[:text.index('<room')] + text[text.index('</room>') + len('</room>'):])
+    plan = read_sweethome(path)
+    room, = plan.all_rooms()
+    assert (room.use, room.name) == ('kitchen', 'kitchen0')
+    assert area(room.polygon) == pytest.approx(3.8 * 2.8, abs=0.1)
+
+
+def test_the_main_entrance_leads_outside_and_opens(tmp_path: Path) -> None:
+    """The leaf of a cupboard within walls does not lead out, and chests stop the front door."""
+    cupboard = ''.join(f'<wall xStart="{a}" yStart="{b}" xEnd="{c}" yEnd="{d}" height="250" '
+                       'thickness="20"/>' for a, b, c, d in ((0, -80, 400, -80), (0, -80, 0, 0),
+                                                             (400, -80, 400, 0)))
+    path = small(tmp_path, cupboard, door(200, 0, 'Main cupboard'), door(60, 300, 'Front door'),
+                 door(300, 300), *(f'<pieceOfFurniture name="Chest" x="100" y="{y}" width="150" '
+                                   'depth="60" height="90"/>' for y in (257, 343)))
+    plan = read_sweethome(path)
+    assert plan.entrances == ['kitchen_b0', 'kitchen_c0'] and plan.entrance == 'kitchen_b0'
+    write_world(plan, tmp_path / 'a.world', 'none')
+    assert angen.World(str(tmp_path / 'a.world')).home['entrance'] == 'kitchen_c0'
+
+
+def test_a_large_building_is_divided_into_models(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+                                                 ) -> None:
+    walls = ''.join(f'<wall xStart="{x}" yStart="0" xEnd="{x + 60}" yEnd="0" height="250" '
+                    'thickness="10"/>\n' for x in range(1000, 5000, 100))
+    made = []
+    for name in ('whole', 'divided'):
+        path = tmp_path / f'{name}.world'
+        write_world(read_sweethome(small(tmp_path, walls)), path, 'none')
+        made.append([model for model in etree.parse(path).iter('model')
+                     if model.get('name').startswith('building0')])
+        monkeypatch.setattr(writer, 'ELEMENTS', 200)
+        monkeypatch.setattr(writer, 'PARTS', 10)
+    whole, divided = made
+    assert len(whole) == 1 and len(divided) > 2
+    assert all(sum(1 for _ in part.iter()) < 300 for part in divided)
+    shapes = [sorted(each.findtext('pose') + each.findtext('geometry/box/size')
+                     for part in parts for each in part.iter('collision')) for parts in made]
+    assert shapes[0] == shapes[1] and len(shapes[0]) > 44
+    world = angen.World(str(tmp_path / 'divided.world'))
+    assert [room['name'] for room in world.home['rooms']] == ['kitchen0']
+
+
+def test_a_world_that_cannot_be_read_is_not_written(tmp_path: Path) -> None:
+    links = '<link name="a"/>' * 10_001  # more than the simulator reads in a model
+    text = f'<sdf version="1.9"><world name="w"><model name="m">{links}</model></world></sdf>'
+    with pytest.raises(Failure, match='cannot be read again: .* elements in one model'):
+        writer._write_checked(tmp_path / 'b.world', text)
+    assert list(tmp_path.iterdir()) == []

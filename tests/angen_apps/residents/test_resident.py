@@ -4,11 +4,14 @@ from __future__ import annotations
 import datetime
 from pathlib import Path
 
+import pytest
+
 from angen_apps.data.site import Site, apartment
 from angen_apps.residents.activities import Step
 from angen_apps.residents.household import Household
 from angen_apps.residents.profiles import read
 from angen_apps.residents.resident import make
+from angen_tools.common.failure import Failure
 from tests.angen_apps.residents.test_mover import home_of
 
 
@@ -45,23 +48,39 @@ def without(path: Path, *models: str) -> None:
     path.write_text(text)
 
 
-def test_the_truth_lists_the_missing_things_of_a_home(tmp_path):
-    without(tmp_path / 'home.world', 'bathroom_toilet0')
+def test_what_a_home_has_no_place_for_is_left_out_and_said(tmp_path, capfd):
+    without(tmp_path / 'home.world', 'kitchen_stove0', 'kitchen_fridge0', 'bathroom_toilet0')
     _, household, anna = home_of(tmp_path / 'home.world')
-    toilet, eat = anna._known['toilet'], anna._known['eat']
+    lacks = {'cook': 'no stove in reach', 'toilet': 'no toilet in reach'}
+    assert anna.leaves_out == lacks
+    items = [item.activity for day in range(5) for item in anna.planner.plan(household.day(day))]
+    assert not set(items) & set(lacks) and {'eat', 'sleep', 'snack'} <= set(items)
+    assert [step.posture for step in anna._known['snack'].steps] == ['sit']  # not at a fridge
+    household.residents.clear()
+    with pytest.raises(Failure, match='2 remarks'):
+        make(household, [('bert', anna.profile)], True)
+    assert capfd.readouterr().err.splitlines() == [
+        f'angen: bert ({anna.profile.name}) leaves out {name}: the home has {lacks[name]}'
+        for name in lacks]
+
+
+def test_who_finds_the_bed_taken_lies_on_the_floor(tmp_path):
+    without(tmp_path / 'home.world', 'livingroom_sofa0')
+    _, household, anna = home_of(tmp_path / 'home.world')
+    for spot in anna._tasks['sleep'][0]:
+        household.take(('spot', spot.key), 'bert')
+    sleep = anna._known['sleep']
 
     def script():
         anna.enter(household.places.anywhere())
-        for activity in (toilet, eat):
-            for index, step in enumerate(activity.steps):
-                yield from anna._step(activity, step, index, anna.now + 30.0)
+        yield from anna._step(sleep, sleep.steps[0], 0, anna.now + 60.0)
 
     household.add(script())
-    household.run(200.0)
+    household.run(60.0)
     anna.diary.end(household.now)
-    does = {(i.activity, i.thing): i.note for i in anna.diary.closed if i.phase == 'does'}
-    assert does.pop(('toilet', '')) == 'no toilet in reach'
-    assert set(does.values()) == {''} and len(does) == 2  # the sink, a chair
+    does = next(i for i in anna.diary.closed if i.phase == 'does')
+    assert (does.posture, does.thing, does.room) == ('lie', '', 'bedroom0')
+    assert does.note == 'no place for sleep'
 
 
 def test_residents_are_at_home_when_a_run_begins_in_the_day(tmp_path):

@@ -169,7 +169,7 @@ def write_rfid_tag(models: Path) -> None:
                 "A card that an RFID reader reads by its model's name. Served by librfid_tag.so.")
 
 
-def smart_plug(name: str, load: str) -> etree._Element:
+def smart_plug(name: str, load: str, **parameters: float) -> etree._Element:
     """Returns the model of a round plug on a wall, x into the room, that feeds `load`."""
     _, model = new_model(name, static=True)
     body = Part("body", (0.028, 0.06), (0.03, 0, 0), (0, pi / 2, 0), collide=False)
@@ -177,7 +177,7 @@ def smart_plug(name: str, load: str) -> etree._Element:
                   material=(0.2, 0.7, 0.3))
     link = add_link(model, "plug", [body, button], moves=False)
     sensor = add_sensor(link, "plug", "custom", 1)
-    add_plugin(sensor, "smart_plug", "libsmart_plug.so", load=load)
+    add_plugin(sensor, "smart_plug", "libsmart_plug.so", load=load, **parameters)
     return model
 
 

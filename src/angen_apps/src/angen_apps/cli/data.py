@@ -49,7 +49,7 @@ def run_generate(args: argparse.Namespace) -> int:
     from angen_apps.data.generate import Job, generate
     job = Job(str(args.out), 'home', args.seed, args.days, args.residents, args.format,
               args.start or '', str(args.world or ''), str(args.faults or ''), args.light,
-              args.own_sensors)
+              args.own_sensors, args.strict)
     entries = generate(job, args.homes, args.processes, args.scheduler)
     if args.json:
         from angen_tools.common.output import as_json
@@ -64,20 +64,26 @@ def run_generate(args: argparse.Namespace) -> int:
 
 
 def run_validate(args: argparse.Namespace) -> int:
-    from angen_apps.data.validate import SHOWN, Findings, homes, validate
+    from angen_apps.data.tables import homes
+    from angen_apps.data.validate import SHOWN, validate
+    from angen_apps.data.written import Findings
     from angen_tools.common.output import as_json, show, table
-    every = Findings()
+    every, shares = Findings(), {}
     for home in homes(args.folder):
         found = validate(home)
         every.checked += found.checked
+        shares[home.name] = found.shares
         for check, wrong in found.wrong.items():
             every.wrong.setdefault(check, []).extend(f'{home.name}: {line}' for line in wrong)
     if args.json:
-        print(as_json({'findings': every.wrong, 'checked': dict(every.checked)}))
+        print(as_json({'findings': every.wrong, 'checked': dict(every.checked), 'shares': shares}))
     else:
         show(table(('check', 'checked', 'findings'),
                    [(check, str(every.checked[check]), str(len(wrong)))
                     for check, wrong in every.wrong.items()], ('checked', 'findings')))
+        show(table(('home', 'explained', 'noise', 'missed'),
+                   [(home, *(f'{100 * share:.2f} %' for share in found.values()))
+                    for home, found in shares.items()], ('explained', 'noise', 'missed')))
         for check, wrong in every.wrong.items():
             for line in wrong[:SHOWN]:
                 print(f'{check}: {line}')
@@ -86,7 +92,7 @@ def run_validate(args: argparse.Namespace) -> int:
 
 def run_realism(args: argparse.Namespace) -> int:
     from angen_apps.data import realism
-    from angen_apps.data.validate import homes
+    from angen_apps.data.tables import homes
     from angen_tools.common.output import as_json, show, table
     path = args.folder if args.folder.is_file() else homes(args.folder)[0]
     stream = realism.read(path)
@@ -107,6 +113,29 @@ def run_realism(args: argparse.Namespace) -> int:
     if args.figure:
         realism.figure(stream, reference, args.figure)
     return 0
+
+
+def add_strict(parser: argparse.ArgumentParser) -> None:
+    """--strict, of commands that say what residents cannot do in a home."""
+    parser.add_argument('--strict', action='store_true', help='exit code 1 if the home has no '
+                        'place for something that residents do; otherwise they leave it out')
+
+
+def add_household(commands: Any) -> None:
+    """angen home --residents."""
+    home = commands.choices['home']
+    home.add_argument('--residents', metavar='WHO', type=checked(residents), default=(),
+                      help='a number, or profiles between commas: says what they cannot do there')
+    add_strict(home)
+    described = home.get_default('run')
+
+    def run_home(args: argparse.Namespace) -> int:
+        result = int(described(args))
+        if args.residents or args.strict:
+            from angen_apps.data.run import try_household
+            try_household(Path(args.world), list(args.residents or ('2',)), args.strict)
+        return result
+    home.set_defaults(run=run_home)
 
 
 def add_generate(commands: Any) -> None:
@@ -131,6 +160,7 @@ def add_generate(commands: Any) -> None:
     made.add_argument('--light', action='store_true', help='adds a light sensor to each room; slow')
     made.add_argument('--faults', metavar='FILE', type=Path,
                       help='a YAML file of faults of sensors, as docs/data.md describes it')
+    add_strict(made)
     made.add_argument('--homes', metavar='N', type=checked(at_least(1, 100_000)), default=1,
                       help='homes, each in a folder of its own (1)')
     made.add_argument('--processes', metavar='N', type=checked(at_least(1, 1000)),

@@ -32,14 +32,16 @@ from angen_tools.common.progress import Progress
 
 MANIFEST, HOME = 'manifest.json', 'home.json'
 LOADS = 'loads.csv.gz'  # W of each lamp and appliance from a time on
+MOVES = 'moves.csv.gz'  # when those who stay at a place moved
 CABINS = 'cabins.csv.gz'  # places of the links of elevators from a time on
+TRUTH = ('truth.csv.gz', 'missed.csv', 'faults.csv', 'layout.json', 'track.csv.gz', LOADS, MOVES)
 AGAIN = 5  # times that the pool is made again after its processes died
 MIXED = ('worker', 'retired', 'student', 'night_shift_worker', 'elder_with_dementia')
 
 
 @dataclass(frozen=True)
 class Job:
-    """One home. All but `folder` decides about its bytes."""
+    """One home. All but `folder` and `strict` decides about its bytes."""
 
     folder: str
     name: str
@@ -52,11 +54,12 @@ class Job:
     faults: str = ''
     light: bool = False
     own_sensors: bool = False
+    strict: bool = False
 
     @property
     def settings(self) -> dict[str, Any]:
         found = asdict(self)
-        del found['folder']
+        del found['folder'], found['strict']
         for key in ('world', 'faults'):  # the files' contents count, not their paths
             if found[key]:
                 found[key] = sha256(Path(found[key]))
@@ -152,7 +155,7 @@ def _live(job: Job, progress: Callable[[float], None]) -> run.Data:
             site.apartment(world)
         return run.live(world, job.name, job.days, run.residents_of(list(job.residents)), job.seed,
                         start, not job.own_sensors, job.light,
-                        faults.read(Path(job.faults)) if job.faults else [], progress)
+                        faults.read(Path(job.faults)) if job.faults else [], progress, job.strict)
 
 
 def finished(job: Job) -> dict[str, Any] | None:
@@ -188,10 +191,8 @@ def _difference(folder: Path, version: Any, files: dict[str, str]) -> str:
 
 
 def write_truth(folder: Path, data: run.Data) -> list[Path]:
-    """truth.csv.gz, missed.csv, faults.csv, layout.json, track.csv.gz, loads.csv.gz, and
-    cabins.csv.gz where there are elevators."""
-    paths = [folder / 'truth.csv.gz', folder / 'missed.csv', folder / 'faults.csv',
-             folder / 'layout.json', folder / 'track.csv.gz', folder / LOADS]
+    """The files of TRUTH, and cabins.csv.gz where there are elevators."""
+    paths = [folder / name for name in TRUTH]
     with zipped(paths[0]) as file:
         writer = csv.writer(file, lineterminator='\n')
         writer.writerow(truth.HEAD)
@@ -223,6 +224,9 @@ def write_truth(folder: Path, data: run.Data) -> list[Path]:
                         for time, device, watts in sorted(
                             (time, device, watts) for device, line in data.power.items()
                             for time, watts in line))
+    with zipped(paths[6]) as file:
+        file.write('time,resident\n')
+        file.writelines(f'{move.time:.3f},{move.resident}\n' for move in data.moves)
     if data.slides:
         paths.append(folder / CABINS)
         with zipped(paths[-1]) as file:

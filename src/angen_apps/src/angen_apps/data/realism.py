@@ -12,7 +12,8 @@ import numpy as np
 from scipy.spatial.distance import jensenshannon
 from scipy.stats import ks_2samp
 
-from angen_apps.data.validate import EVENTS, TRUTH, rows
+from angen_apps.data.site import MAINS
+from angen_apps.data.tables import EVENTS, TRUTH, rows
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import pyplot, save_figure
 
@@ -63,6 +64,8 @@ def read(path: Path) -> Stream:
                 raise Failure(f'{path}:{number}: is not an event as CASAS writes them: date, time, '
                               'sensor, value')
             continue
+        if found[3] == MAINS:  # in few homes
+            continue
         at = datetime.datetime.fromisoformat(f'{found[1]} {found[2][:15]}')
         first = first or datetime.datetime.combine(at.date(), datetime.time())
         times.append((at - first).total_seconds())
@@ -81,6 +84,8 @@ def _own(folder: Path) -> Stream:
     first = None
     for row in rows(folder / 'events.csv.gz',
                     {key: EVENTS[key] for key in ('time', 'sensor', 'value', 'room')}):
+        if row['sensor'] == MAINS:
+            continue
         at = datetime.datetime.fromisoformat(row['time'])
         first = first or datetime.datetime.combine(at.date(), datetime.time())
         times.append((at - first).total_seconds())

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Iterator, NamedTuple
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from angen_apps.data.cabins import Cabins
 from angen_apps.data.faults import Happened
 from angen_apps.data.site import Sensor, Site
+from angen_apps.residents.chance import chance, spread
 from angen_apps.residents.household import Household
 
 ON = {'motion', 'pressed', 'opened', 'on'}
@@ -19,6 +20,7 @@ VALUES = {'motion': ('ON', 'OFF'), 'area': ('ON', 'OFF'), 'door': ('OPEN', 'CLOS
 AIR = 300.0  # s between two looks at the temperature
 DEGREES = 0.5  # least step of temperature
 RECENT = 3.0  # s: a resident who moved within this time may have caused motion
+PUSHED = 0.02  # m
 HAND = 30.0  # s: a resident who commanded a device within this time has moved it
 NEAR = 1.5  # m: a resident within this distance may have sat down there
 CELL = 0.4  # m around the middle of a cell: a sensor must detect motion there
@@ -27,12 +29,16 @@ STRIDE = 0.3  # s between two places of a track
 FALSE = 'false alarm'  # detail of its events
 NOISE = ('', '', 'noise')  # whose it is
 START = ('', '', 'start')
+MAINS = ('', '', 'power')
+WATTS = 5.0  # least change of the mains' power that is reported
+FRIDGE = 80.0  # W of a compressor, and the minutes for which it runs and rests: 0.7 kWh a day
+RUNS, RESTS = (12.0, 20.0), (22.0, 36.0)
 FIRST = 0.01  # s, in which sensors report the state in which they start
 HOLD = 2.5  # s before and after, within which an event counts
 
 
 class Event(NamedTuple):
-    """One of a sensor. `cause`: motion, seat, hand, air, light, start, or noise."""
+    """One of a sensor. `cause`: motion, seat, hand, air, light, power, start, or noise."""
 
     time: float
     sensor: str
@@ -48,6 +54,13 @@ class Missed(NamedTuple):
     start: float
     end: float
     sensor: str
+    resident: str
+
+
+class Moved(NamedTuple):
+    """A resident who stays at a place moved there."""
+
+    time: float
     resident: str
 
 
@@ -70,6 +83,7 @@ class Recording:
     power: dict[str, list[tuple[float, float]]]  # W from a time on, by device
     track: list[Step]
     faults: list[Happened]
+    moves: list[Moved] = field(default_factory=list)
 
 
 class Recorder:
@@ -79,7 +93,8 @@ class Recorder:
         self.site, self.household = site, household
         self.recording = Recording([], [], {}, [], [])
         self._by_name = {(s.source, s.name): s for s in site.sensors}
-        self._storeys = {s.id: site.home.storey_at(s.z) for s in site.sensors}
+        storeys = {room.name: room.storey for room in site.home.rooms}
+        self._storeys = {s.id: storeys.get(s.room, site.home.storey_at(s.z)) for s in site.sensors}
         self._on: dict[str, float] = {}  # when sensors came on
         self._last_on: dict[str, float] = {}
         self._whose: dict[str, tuple[str, str, str]] = {}
@@ -88,6 +103,9 @@ class Recorder:
                        if kind in ('lamp', 'stove', 'appliance', 'heater')]
         self.cabins = Cabins(site.world)
         self._acted = -1
+        self._mains = next((s for s in site.sensors if s.kind == 'mains'), None)
+        self._reported = math.nan
+        self._looked = 0.0  # s, at power
         self._over: dict[tuple[int, str], tuple[float, float]] = {}  # a cell: first and last time
         self._cells = [s for s in site.sensors if s.kind == 'motion' and s.name.startswith('cell')]
         self._middles = np.array([(s.x, s.y) for s in self._cells]).reshape(-1, 2)
@@ -99,6 +117,9 @@ class Recorder:
         """Records the sensors' reports at the start of a run."""
         self.household.heard = self.heard
         self.household.add(self._air_process())
+        for thing in self.site.home.things:
+            if thing.type == 'fridge':
+                self.household.add(self._cool(thing.name))
         self.heard()
 
     def heard(self) -> None:
@@ -110,6 +131,9 @@ class Recorder:
                     x, y = resident.at
                     self.recording.track.append(
                         Step(resident.looked, resident.name, x, y, resident.storey))
+            elif not resident.away and resident.moved > self._stepped.get(resident.name, 0.0):
+                self._stepped[resident.name] = resident.moved
+                self.recording.moves.append(Moved(resident.moved, resident.name))
         for time, source, kind, event, detail in self.site.world.events():
             if kind == 'fault':
                 self._note_fault(float(time), source, event, detail)
@@ -118,8 +142,23 @@ class Recorder:
             sensor = self._by_name.get((kind, source))
             if sensor is not None:
                 self._note(float(time), sensor, event, detail == FALSE)
+        if self._looked == 0.0 < self.household.now:
+            self._note_open()
         self.cabins.look()
         self._note_power()
+        self._looked = self.household.now
+
+    def _note_open(self) -> None:
+        """Records which contacts were open at the start."""
+        opened, closed = VALUES['door']
+        first = {event.sensor: event.value for event in reversed(self.recording.events)}
+        for sensor in self.site.sensors:
+            if sensor.source != 'reed':
+                continue
+            state = self.site.simulator.state('reed', sensor.name)
+            if first.get(sensor.id) == closed or \
+                    sensor.id not in first and not state.get('closed', True):
+                self._add(0.0, sensor, opened, START)
 
     def _note_fault(self, time: float, source: str, fault: str, detail: str) -> None:
         kind, _, what = detail.partition(': ')
@@ -153,7 +192,7 @@ class Recorder:
             self._add(time, sensor, VALUES[sensor.kind][1], whose)
 
     def _add(self, time: float, sensor: Sensor, value: str, whose: tuple[str, str, str]) -> None:
-        self.recording.events.append(Event(time, sensor.id, value, *whose))
+        self.recording.events.append(Event(round(time, 6), sensor.id, value, *whose))
 
     def _cause(self, time: float, sensor: Sensor) -> tuple[str, str, str]:
         """Resident, activity and cause of a sensor's detection."""
@@ -170,12 +209,21 @@ class Recorder:
             if sensor.kind == 'item':
                 if away < NEAR:
                     return resident.name, resident.item.activity, 'seat'
-            elif _moves(resident, time) and (away < 2.0 or resident.room == sensor.room):
+            elif self._moves(resident, time) and (away < 2.0 or resident.room == sensor.room):
                 return resident.name, resident.item.activity, 'motion'
         for away, _, resident in near:  # seen through a doorway
-            if sensor.kind == 'area' and _moves(resident, time):
+            if sensor.kind == 'area' and self._moves(resident, time):
                 return resident.name, resident.item.activity, 'motion'
         return '', '', 'noise'
+
+    def _moves(self, resident: Any, time: float) -> bool:
+        """Whether a resident walks, has moved a moment before, or was pushed by a leaf."""
+        if resident.walks or time - resident.moved < RECENT:
+            return True
+        if resident.posture != 'stand':
+            return False
+        body = self.site.simulator.body(resident.name)
+        return math.dist(resident.at, (body.x, body.y)) > PUSHED
 
     def _hand(self, time: float, sensor: Sensor) -> str:
         """The resident who last commanded the device of a contact or plug."""
@@ -224,10 +272,31 @@ class Recorder:
             return
         self._acted = self.household.count
         for kind, name in self._loads:
-            watts = float(self.site.simulator.state(kind, name).get('power', 0.0))
-            line = self.recording.power.setdefault(f'{kind}/{name}', [])
-            if not line or line[-1][1] != watts:
-                line.append((self.household.now, watts))
+            when, _ = self.household.acts.get((kind, name), (0.0, ''))
+            self._load(f'{kind}/{name}', max(when, self._looked),
+                       float(self.site.simulator.state(kind, name).get('power', 0.0)))
+
+    def _load(self, device: str, time: float, watts: float) -> None:
+        """Records the power of a device from a time on, and reports that of all."""
+        line = self.recording.power.setdefault(device, [])
+        if line and line[-1][1] == round(watts, 3):
+            return
+        line.append((round(time, 3), round(watts, 3)))
+        total = sum(line[-1][1] for line in self.recording.power.values())
+        if self._mains and not abs(total - self._reported) < WATTS:
+            self._reported = total
+            self._add(time, self._mains, f'{total:.0f}', MAINS)
+
+    def _cool(self, fridge: str) -> Iterator[float]:
+        """The compressor of a fridge runs and rests."""
+        household = self.household
+        draw = chance(household.seed, household.name, 'fridge', fridge)
+        runs = draw.random() < RUNS[0] / (RUNS[0] + RESTS[0])
+        share = draw.random()  # part left at the start
+        while True:
+            self._load(f'fridge/{fridge}', household.now, FRIDGE if runs else 0.0)
+            yield household.now + 60.0 * share * spread(draw, *(RUNS if runs else RESTS))
+            runs, share = not runs, 1.0
 
     def _air_process(self) -> Iterator[float]:
         """Reports a temperature when it has changed by a step."""
@@ -242,8 +311,3 @@ class Recorder:
                     self._air[sensor.id] = step
                     self._add(self.household.now, sensor, f'{step:.1f}', ('', '', 'air'))
             yield self.household.now + AIR
-
-
-def _moves(resident: Any, time: float) -> bool:
-    """Whether a resident walks, or has moved a moment before."""
-    return bool(resident.walks or time - resident.moved < RECENT)

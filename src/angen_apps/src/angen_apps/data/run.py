@@ -2,14 +2,14 @@
 from __future__ import annotations
 
 import datetime
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Callable, Sequence
 
 from angen_apps.data import faults
 from angen_apps.data.cabins import Slide
-from angen_apps.data.recorder import Event, Missed, Recorder, Step
+from angen_apps.data.recorder import Event, Missed, Moved, Recorder, Step
 from angen_apps.data.site import Sensor, Site
 from angen_apps.residents.household import Household
 from angen_apps.residents.profiles import DAY, MOST, Profile, read
@@ -40,6 +40,7 @@ class Data:
     track: list[Step]
     faults: list[faults.Happened]
     slides: list[Slide]
+    moves: list[Moved] = field(default_factory=list)
 
     def intervals(self, resident: str) -> list[Interval]:
         return [interval for interval in self.truth if interval.resident == resident]
@@ -69,16 +70,24 @@ def first_day(home: Home) -> datetime.date:
     return datetime.date.fromisoformat((home.start or '2026-03-23')[:10])
 
 
+def try_household(world: Path, who: list[str], strict: bool = False) -> None:
+    """Says what residents cannot do in the home of a world's file; Failure for that if `strict`."""
+    site = Site(world, 0, placed=False)
+    make(Household(site.simulator, site.ground, 0, world.stem, first_day(site.home)),
+         residents_of(who), strict)
+
+
 def live(world: Path, name: str, days: int, who: list[tuple[str, Profile]], seed: int,
          start: datetime.date | None = None, placed: bool = True, light: bool = False,
          faulty: Sequence[faults.Fault] = (),
-         progress: Callable[[float], None] = lambda _: None) -> Data:
-    """Has residents live in the home of a world's file."""
+         progress: Callable[[float], None] = lambda _: None, strict: bool = False) -> Data:
+    """Has residents live in the home of a world's file; `strict`: Failure if they cannot do
+    something there."""
     site = Site(world, seed, placed, light)
     faults.give(site, list(faulty))
     first = start or first_day(site.home)
     household = Household(site.simulator, site.ground, seed, name, first)
-    make(household, who)
+    make(household, who, strict)
     recorder = Recorder(site, household)
     recorder.start()
     end = days * DAY
@@ -86,11 +95,11 @@ def live(world: Path, name: str, days: int, who: list[tuple[str, Profile]], seed
         household.run(min(household.now + SLICE, end))
         progress(household.now / end)
     household.close()
-    truth = sorted((interval for resident in household.residents
-                    for interval in resident.diary.closed),
+    truth = sorted((replace(interval, start=round(interval.start, 3), end=round(interval.end, 3))
+                    for resident in household.residents for interval in resident.diary.closed),
                    key=lambda i: (i.start, i.resident))
     events = sorted(recorder.recording.events, key=lambda e: (e.time, e.sensor))
     left = recorder.recording
     return Data(datetime.datetime.combine(first, datetime.time()), days, seed,
                 who, site.home, site.sensors, events, truth, left.missed, left.power,
-                sorted(left.track), sorted(left.faults), recorder.cabins.slides)
+                sorted(left.track), sorted(left.faults), recorder.cabins.slides, left.moves)

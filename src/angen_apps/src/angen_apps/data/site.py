@@ -33,7 +33,8 @@ LEFT_OUT = ('plant', 'cup', 'weighing_table', 'pressure_mat')
 @dataclass(frozen=True)
 class Sensor:
     """One in the data: `id` as datasets call it, `kind` motion, area, door, item, power,
-    temperature or light; `source` and `name` of the simulator's sensor."""
+    temperature, light or mains; `source` and `name` of the simulator's sensor, which mains has not.
+    """
 
     id: str
     kind: str
@@ -45,8 +46,10 @@ class Sensor:
     z: float
 
 
-LETTERS = {'motion': 'M', 'area': 'M', 'door': 'D', 'item': 'I', 'power': 'P', 'temperature': 'T',
+LETTERS = {'motion': 'M', 'area': 'M', 'door': 'D', 'item': 'I', 'power': 'S', 'temperature': 'T',
            'light': 'LS'}
+MAINS = 'P001'  # the home's power in W, as in the data of CASAS' Kyoto apartments
+STANDBY = 5.0  # W, up to which an appliance is off
 HEATING = 21.0  # degrees Celsius; EN 16798-1: 20 at least in living rooms, category II
 OWN = ('contact', 'pressure', 'reed')  # on seats, mats, cabinets: a home keeps its own
 BY_SOURCE = {'pir': 'motion', 'reed': 'door', 'contact': 'item', 'pressure': 'item',
@@ -93,6 +96,8 @@ class Site:
             _Placer(self, light).place()
         self._heat()
         self.sensors = self._listed()
+        if placed:
+            self.sensors.append(Sensor(MAINS, 'mains', '', 'mains', '', 0.0, 0.0, 0.0))
 
     def _clear(self) -> None:
         """Deletes the world's sensors that the rules replace or that are not in the data: light
@@ -240,7 +245,7 @@ class _Placer:
                      if model == thing and kind in ('stove', 'appliance', 'heater')), '')
         if load:
             pose = self.world.motion(thing)[0]
-            model = smart_plug(f'{thing}_plug', load)
+            model = smart_plug(f'{thing}_plug', load, standby=STANDBY)
             text = f'<sdf version="1.6">{etree.tostring(model, encoding="unicode")}</sdf>'
             self._spawn(text, f'{thing}_plug', (float(pose[0]), float(pose[1]),
                                                 float(pose[2]) + 0.3, 0.0))

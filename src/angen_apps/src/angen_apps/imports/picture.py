@@ -20,6 +20,7 @@ from angen_apps.imports.strokes import (LEAST_WALL, areas, by_label, cleaned_wal
 from angen_apps.plan.finish import finish, room_at, sides
 from angen_apps.plan.model import Opening, Piece, Plan, Point, Storey, Wall, turned
 from angen_apps.plan.names import slug
+from angen_apps.plan.polygons import area, bounds
 from angen_tools.common.failure import Failure
 from angen_tools.common.text_file import read_bytes
 from angen_tools.common.yaml_file import YamlFile
@@ -29,6 +30,7 @@ FURNITURE = 0.4, 3.0  # m of the longer side: smaller things are text and pillar
 LONGEST_THIN = 1.0  # m of a thing thinner than LEAST_WALL: a longer one is a free-standing wall
 FURNITURE_HEIGHT = 0.75  # m
 BESIDE = 0.15  # m from a doorway to the wall that ends at it
+LEAST_SHARE = 0.2  # least part of the floor between walls that rooms have
 LEAST_ROOM = 1.0  # m2: a smaller space that is closed is the inside of a thing
 SPECK = 0.3  # m of a map that are unknown: smaller specks are in a room
 FINEST = 0.02  # m a pixel: finer pictures are read by blocks of pixels
@@ -154,13 +156,21 @@ def _plan(path: Path, dark: np.ndarray, known: np.ndarray, scale: float,
     if thick:
         remarks.append(f'{path}: {len(thick)} dark spots at walls are read as wall, the largest '
                        f'{max(thick):.1f} m wide; furniture there needs a gap to its wall')
-    if not storey.rooms:
-        remarks.append(f'{path}: no space of {LEAST_ROOM:g} m2 is closed by walls, so that there '
-                       'are no rooms; check --scale')
+    _check_rooms(path, storey)
     storey.walls += [_over(opening) for opening in storey.openings]
     _move(storey, origin)
     return finish(Plan(slug(path.name.partition('.')[0], 'plan'), [storey],
                        remarks=[*said, *remarks]))
+
+
+def _check_rooms(path: Path, storey: Storey) -> None:
+    """Failure if rooms are not a fair share of the floor between the outermost walls."""
+    x0, y0, x1, y1 = bounds(point for wall in storey.walls for point in (wall.start, wall.end))
+    closed = sum(area(room.polygon) for room in storey.rooms)
+    if closed < LEAST_SHARE * (x1 - x0) * (y1 - y0) or not storey.rooms:
+        raise Failure(f'{path}: its walls close {closed:.1f} m2 of the {(x1 - x0) * (y1 - y0):.1f} '
+                      'm2 between the outermost of them; draw walls as filled dark lines, without '
+                      'gaps wider than doors, and check --scale')
 
 
 def _storey(path: Path, dark: np.ndarray, known: np.ndarray, scale: float, with_doors: bool,

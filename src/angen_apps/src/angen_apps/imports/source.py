@@ -1,7 +1,9 @@
 """Files that a home is imported from: bounded reading, and errors with file and line."""
 from __future__ import annotations
 
+import codecs
 import math
+import re
 import zipfile
 from pathlib import Path
 
@@ -15,6 +17,7 @@ LARGEST_XML = 32 << 20  # bytes of Home.xml
 MEMBERS = 10_000  # files in a zip
 FARTHEST = 500.0  # m from the origin of a plan
 HOME = 'Home.xml'
+DECLARATION = re.compile(r'<\?xml[^>]*\?>')  # with an encoding
 OLD = 'Home'
 
 
@@ -59,12 +62,23 @@ def home_xml(path: Path) -> Xml:
     """Home.xml of a .sh3d file, or the file itself if it is XML."""
     data = read_bytes(path)
     if not data.startswith(b'PK'):
+        data = _utf8(path, data)
         if data.lstrip()[:1] != b'<':
             raise Failure(f'{path}: is neither a .sh3d file (a zip) nor Home.xml')
         return Xml(str(path), data)
     if data.count(b'PK\1\2') > MEMBERS:
         raise Failure(f'{path}: has more than {MEMBERS} files in it')
-    return Xml(f'{path}/{HOME}', _member(path))
+    return Xml(f'{path}/{HOME}', _utf8(path, _member(path)))
+
+
+def _utf8(path: Path, data: bytes) -> bytes:
+    """A text that begins with the mark of its encoding, in UTF-8."""
+    try:
+        if data[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
+            return DECLARATION.sub('', data.decode('utf-16')).encode()
+        return data.removeprefix(codecs.BOM_UTF8)
+    except UnicodeDecodeError as error:
+        raise Failure(f'{path}: is not UTF-16, as it begins: {error.reason}') from None
 
 
 def _member(path: Path) -> bytes:

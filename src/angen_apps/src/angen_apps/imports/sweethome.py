@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from math import cos, pi, sin
 from pathlib import Path
+from typing import Iterator
 
 from lxml import etree
 
+from angen_apps.imports.flood import rooms_of
 from angen_apps.imports.meshes import Meshes
 from angen_apps.imports.source import Xml, home_xml, root_of
 from angen_apps.imports.things import Entry, table, what_is
@@ -17,6 +19,7 @@ from angen_apps.plan.model import (Color, Lamp, Leaf, Opening, Piece, Plan, Poin
 from angen_apps.plan.names import slug
 from angen_apps.plan.polygons import center, cleaned, contains, crosses_itself, split
 from angen_apps.plan.walls import arc, cuts_wall
+from angen_tools.common.failure import Failure
 
 FLUX = 1600.0  # lm of a light of full power; 0.5, the default, is a bulb of 800 lm
 DEFAULT_HEIGHT = 2.5  # m
@@ -26,6 +29,7 @@ THRESHOLD = 0.3  # m: a glazed door's sill is below this
 WALKABLE = 1.8  # m, height of openings that people walk through
 FRAME = 0.02  # m of a window's frame above and below its sashes
 ROOM_LIMIT = 2000  # corners of a room
+PERSON = 'person'  # a figure for the scale, in the table of things
 LIMITS = {'wall': 5000, 'room': 1000, 'doorOrWindow': 2000, 'level': 50}
 
 
@@ -55,12 +59,13 @@ class _Home:
             raise self.xml.fail(self.root, 'has no <wall>; a home needs walls')
         for element in self.root.findall('room'):
             self._room(element)
-        for element in self.root.iter('doorOrWindow'):
+        for element in self._on_levels('doorOrWindow'):
             self._opening(element)
         self._join_layers()
-        for element in self.root.iter('light'):
+        self._find_rooms()
+        for element in self._on_levels('light'):
             self._light(element)
-        for element in self.root.iter('pieceOfFurniture'):
+        for element in self._on_levels('pieceOfFurniture'):
             self._piece(element)
         compass = self.root.find('compass')
         north, latitude = pi / 2, None
@@ -172,6 +177,16 @@ class _Home:
     def _yaw(self, element: etree._Element) -> float:
         return -self.xml.number(element, 'angle', 0.0, -1e4, 1e4)
 
+    def _on_levels(self, tag: str) -> Iterator[etree._Element]:
+        """The pieces of furniture with a tag; one on a level that is missing is left out."""
+        for element in self.root.iter(tag):
+            try:
+                self._storey(element)
+            except Failure as failure:
+                self.remarks.append(f'{failure}; it is left out')
+            else:
+                yield element
+
     def _is_left_out(self, element: etree._Element, size: tuple[float, ...]) -> bool:
         what = f'{element.tag} "{element.get("name", "")}"'
         if element.get('visible') == 'false':
@@ -228,6 +243,15 @@ class _Home:
                 storey.openings.remove(opening)
                 (at or [storey])[0].openings.append(opening)
 
+    def _find_rooms(self) -> None:
+        """The rooms between the walls of a level that has none; their contents tell their use."""
+        for storey in self.storeys.values():
+            if storey.walls and not any(other.rooms for other in self.storeys.values()):
+                storey.rooms = rooms_of(storey, self.height if None in self.storeys
+                                        else storey.height, ())
+                self.remarks.append(f'{self.path}: has no <room>; {len(storey.rooms)} are found '
+                                    f'between the walls of {storey.name}')
+
     def _leaf(self, sash: etree._Element, width: float, depth: float, mirrored: bool) -> Leaf:
         xml = self.xml
         sign = -1.0 if mirrored else 1.0
@@ -270,6 +294,9 @@ class _Home:
             return
         catalog, name = element.get('catalogId', ''), element.get('name', '').strip()
         entry = what_is(self.table, catalog, name)
+        if entry is not None and entry.thing == PERSON:
+            self._remark(element, f'"{name}" is a person and is left out')
+            return
         if entry is None:
             self._remark(element, f'"{name}" is unknown; it is a box of its size')
             entry = Entry('', '', '', 'box', ())

@@ -4,22 +4,26 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from math import cos, sin
-from typing import Sequence
+from typing import Callable, Sequence
 
 import numpy as np
+from angen import Grid
 
 from angen_apps.plan.model import Lamp, Opening, Piece, Plan, Point, Room, Storey, Wall, local
 from angen_apps.plan.names import Names, slug, use_by_things, use_of
 from angen_apps.plan.nested import cut_out, holds
 from angen_apps.plan.passages import passages
 from angen_apps.plan.polygons import area, contains, overlap, rectangle
+from angen_apps.plan.slabs import CELL, filled, raster_of
 from angen_apps.plan.travel import sided
-from angen_apps.plan.walls import cuts_wall, direction
+from angen_apps.plan.walls import cuts_wall, direction, footprint
 
 WHOLE = 0.9  # share of an opening's width and height: a piece that fills it closes it
 JAMB = 0.1  # m from an end of a doorway to a wall beside it
 THICK_WALL = 0.5  # m, the same of an opening cut into a wall that is thicker than its frame
 NEAR = 0.01  # m between the top of a leaf and a ceiling
+LOW = 1.5  # m: a lower leaf is that of a cupboard
+AWAY = 0.3  # m from the face of a wall to a place outside
 BESIDE = 0.15  # m from the face of a wall to the room beside it
 TO_PASS = ('hall', 'landing', 'outdoor', '')
 
@@ -41,7 +45,8 @@ def finish(plan: Plan) -> Plan:
         storey.pieces = [_named_piece(piece, storey, pieces) for piece in storey.pieces]
         storey.lamps = [_named_lamp(lamp, storey, lamps) for lamp in storey.lamps]
     if not plan.entrance:
-        plan.entrance = _entrance(plan)
+        plan.entrances = _entrances(plan)
+        plan.entrance = plan.entrances[0] if plan.entrances else ''
     return plan
 
 
@@ -188,31 +193,54 @@ def _named_lamp(lamp: Lamp, storey: Storey, names: Names) -> Lamp:
     return replace(lamp, name=names.take(text, storey.number))
 
 
-def _entrance(plan: Plan) -> str:
-    """The name of the main entrance's leaf: a door to the outside, best one called so."""
-    best: tuple[tuple[bool, bool, bool, float, int], Opening] | None = None
+def _entrances(plan: Plan) -> list[str]:
+    """The names of leaves that may be the main entrance: doors in walls that lead to the outside,
+    those that are called so first."""
+    found: list[tuple[tuple[bool, bool, bool, float, int], Opening]] = []
     for storey in plan.storeys:
+        outside = _outside(storey)
         for i, opening in enumerate(storey.openings):
             if (opening.kind == 'window' or opening.filled
-                    or opening.bottom > storey.elevation + 0.35):
+                    or opening.bottom > storey.elevation + 0.35
+                    or opening.top - opening.bottom < LOW or not _has_jambs(opening, storey)):
                 continue
             beside = sides(opening, storey)
-            outside = any(room is None or room.use == 'outdoor' for room in beside)
+            ends = [opening.point(0.0, edge + sign * AWAY)
+                    for edge, sign in zip(opening.band, (-1, 1))]
+            out = any(room.use == 'outdoor' if room is not None else outside(end)
+                      for room, end in zip(beside, ends))
             inside = [room for room in beside if room is not None and room.use != 'outdoor']
-            if not outside or not inside:
+            if not out or not inside:
                 continue
             called = bool(re.search('front|entr|main|haus', opening.source.lower()))
             hall = any(room.use in ('hall', 'landing') for room in inside)
             open_way = not opening.leaves  # also that of an elevator's shaft
-            rank = (open_way, not called, not hall, abs(storey.elevation), i)
-            if best is None or rank < best[0]:
-                best = (rank, opening)
-    if best is None:
-        return ''
-    opening = best[1]
-    if len(opening.leaves) > 1:
-        return sided(opening, opening.leaves[0], 0)
-    return opening.name
+            found.append(((open_way, not called, not hall, abs(storey.elevation), i), opening))
+    return [sided(opening, opening.leaves[0], 0) if len(opening.leaves) > 1 else opening.name
+            for _, opening in sorted(found, key=lambda entry: entry[0])]
+
+
+def _outside(storey: Storey) -> Callable[[Point], bool]:
+    """Whether a place is around the walls of a storey, and not enclosed, as in a cupboard."""
+    raster = raster_of([corner for wall in storey.walls for corner in footprint(wall)]
+                       or [(0.0, 0.0)])
+    if raster is None:
+        return lambda _: True
+    shut = [rectangle(opening.x, opening.y, opening.yaw,
+                      (-opening.width / 2 - JAMB, min(opening.band) - CELL),
+                      (opening.width / 2 + JAMB, max(opening.band) + CELL))
+            for opening in storey.openings]
+    solid = filled(raster, [*(footprint(wall) for wall in storey.walls), *shut])
+    grid = raster.with_cells(np.where(solid, Grid.WALL, Grid.FREE))
+    grid.number_parts()
+    cells = grid.cells
+    around = set(np.concatenate([cells[0], cells[-1], cells[:, 0], cells[:, -1]]).tolist())
+
+    def is_outside(point: Point) -> bool:
+        row, column = grid.cell(*point)
+        rows, columns = cells.shape
+        return not (0 <= row < rows and 0 <= column < columns) or int(cells[row, column]) in around
+    return is_outside
 
 
 def beside_box(storey: Storey, middle: Point, yaw: float, half: float) -> tuple[str, str]:

@@ -164,6 +164,7 @@ class Plan:
     north: float = pi / 2
     latitude: float | None = None
     entrance: str = ''
+    entrances: list[str] = field(default_factory=list)  # openings that may be it, the best first
     lifts: list[Lift] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
     meshes: dict[str, str] = field(default_factory=dict)

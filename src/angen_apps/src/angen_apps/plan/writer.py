@@ -21,6 +21,7 @@ from angen_apps.plan.walls import Box, boxes
 from angen_models.sdf import (ANGEN, Part, add, add_home, add_link, add_plugin, add_pose, new_model,
                               numbers, spanned)
 from angen_models.world import add_world_plugins, comment, new_world
+from angen_tools.common.catalog import angen_module, simulator
 from angen_tools.common.files import make_folder, write_text
 from angen_tools.world import sdf
 
@@ -32,6 +33,7 @@ UNDER_TOP = 0.006  # m that ceilings begin below the walls' tops
 PANE = 0.02  # m, thickness of a pane that does not open
 INSIDE = 0.02  # m from a wall's face to the source of daylight
 FLOOR_THICK = 0.2  # m of the lowest floor
+ELEMENTS, PARTS = 8000, 200  # XML elements of a building, boxes of a link; more are divided
 SENSORS = ('seed', 'casas', 'none')
 SEATS = ('chair', 'sofa', 'armchair', 'bed')
 
@@ -47,8 +49,20 @@ def write_world(plan: Plan, path: Path, sensors: str = 'seed') -> dict[str, int]
         make_folder(folder)
     for name, text in plan.meshes.items():
         write_text(folder / name, text)
-    write_text(path, f'<?xml version="1.0"?>\n{sdf.text(root)}')
+    _write_checked(path, f'<?xml version="1.0"?>\n{sdf.text(root)}')
     return counts
+
+
+def _write_checked(path: Path, text: str) -> None:
+    """Writes a world that the simulator can load; Failure, and no world, if it cannot."""
+    part = path.with_name(f'.{path.name}.part')
+    write_text(part, text)
+    try:
+        with simulator('the plan makes a world that cannot be read again: '):
+            angen_module().World(str(part))
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
 
 
 def written(path: Path, counts: dict[str, int]) -> dict[str, Any]:
@@ -69,13 +83,18 @@ def world_of(plan: Plan, sensors: str) -> tuple[etree._Element, dict[str, int]]:
                             'pieces', 'lifts'), 0)
     made = slabs(plan)
     opened: list[tuple[Hung, str]] = []
+    shut: set[str] = set()
     for storey in plan.storeys:
         comment(world, storey.name)
-        _add_storey(world, plan, storey, made[storey.number], sensors, counts, opened)
+        leaves = _add_storey(world, plan, storey, made[storey.number], sensors, counts, opened)
+        shut |= {hung.name for hung in leaves if not hung.opens}
     for lift in plan.lifts:
         add_lift(world, plan, lift)
         counts['lifts'] += 1
     _add_state(world, opened)
+    if plan.entrance in shut:
+        plan.entrance = next((name for name in plan.entrances if name not in shut), plan.entrance)
+        world.find(f'{{{ANGEN}}}home/{{{ANGEN}}}entrance').text = plan.entrance
     return root, counts
 
 
@@ -104,7 +123,7 @@ def _add_home(world: etree._Element, plan: Plan) -> None:
 
 
 def _add_storey(world: etree._Element, plan: Plan, storey: Storey, made: Slabs, sensors: str,
-                counts: dict[str, int], opened: list[tuple[Hung, str]]) -> None:
+                counts: dict[str, int], opened: list[tuple[Hung, str]]) -> list[Hung]:
     walls = boxes(storey.walls, storey.openings, SUNK)
     models = [(piece, piece_model(piece, sensors != 'none' and piece.thing in SEATS))
               for piece in storey.pieces]
@@ -140,6 +159,7 @@ def _add_storey(world: etree._Element, plan: Plan, storey: Storey, made: Slabs, 
             if room.use != 'outdoor':
                 rules.place(world, room, stem(room.name), str(storey.number),
                             solids + furniture, sensors)
+    return leaves
 
 
 def _add_building(world: etree._Element, plan: Plan, storey: Storey, made: Slabs,
@@ -176,6 +196,22 @@ def _add_building(world: etree._Element, plan: Plan, storey: Storey, made: Slabs
         _link(model, name, [part])
     if model.find('link') is None:  # a level with furniture only
         world.remove(model)
+    _divide(world, model)
+
+
+def _divide(world: etree._Element, model: etree._Element) -> None:
+    """Moves links of a model that is larger than the simulator reads into further ones."""
+    whole, links = model, model.findall('link')
+    size = sum(1 for _ in model.iter()) - sum(1 for link in links for _ in link.iter())
+    for link in links:
+        own = sum(1 for _ in link.iter())
+        if size + own > ELEMENTS:
+            size = 0
+            model = add(world, 'model', name=f'{whole.get("name")}_{len(world)}')
+            add(model, 'static', 'true')
+        if model is not whole:
+            model.append(link)
+        size += own
 
 
 def _add_room(model: etree._Element, room: Room) -> None:
@@ -198,8 +234,8 @@ def _add_passage(model: etree._Element, storey: Storey, opening: Opening) -> Non
 
 
 def _link(model: etree._Element, name: str, parts: list[Part]) -> None:
-    if parts:
-        add_link(model, name, parts, moves=False)
+    for i in range(0, len(parts), PARTS):
+        add_link(model, f'{name}_{i // PARTS}' if i else name, parts[i:i + PARTS], moves=False)
 
 
 def _add_walls(model: etree._Element, storey: Storey, walls: list[Box]) -> None:

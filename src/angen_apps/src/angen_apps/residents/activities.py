@@ -31,6 +31,11 @@ class Step:
     opens: str = ''
     runs: str = ''
 
+    @property
+    def optional(self) -> bool:
+        """Whether the activity is possible without it."""
+        return self.minutes is not None or bool(self.room)
+
 
 @dataclass(frozen=True)
 class Activity:

@@ -16,6 +16,7 @@ from angen_apps.residents.chance import around, chance, choose, spread
 from angen_apps.residents.profiles import DAY, Profile, Scheduled, Span
 
 SHORTEST = 90.0  # s: a gap that is shorter is not filled
+RESORT = 'relax'  # activity with nothing else to do
 AGAIN = 0.3  # how likely an activity follows itself, compared with others
 PAUSE = 5.0  # s after an interruption
 CLEAR = 60.0  # s between the begin of an activity and its interruption
@@ -51,10 +52,13 @@ Draw = Callable[..., Random]  # random numbers of more keys
 
 
 class Planner:
-    """Plans the days of one resident. `home`: the home's name; meals together have its keys."""
+    """Plans the days of one resident. `home`: the home's name; meals together have its keys.
+    `leaves_out`: activities that the home has no place for."""
 
-    def __init__(self, seed: int, home: str, resident: str, profile: Profile) -> None:
+    def __init__(self, seed: int, home: str, resident: str, profile: Profile,
+                 leaves_out: frozenset[str] = frozenset()) -> None:
         self.seed, self.home, self.resident, self.profile = seed, home, resident, profile
+        self.leaves_out = leaves_out
 
     def wakes(self, day: Day) -> float:
         """When the resident gets up on a day, s after its midnight."""
@@ -133,7 +137,7 @@ class Planner:
             else:
                 draw = self._draw(day, key, i)
             found.append((name, spread(draw, low, high)))
-        return found
+        return [(name, length) for name, length in found if name not in self.leaves_out]
 
     def _fill(self, day: Day, items: list[Item], until: float, done: dict[str, int]) -> None:
         """The chain: the next activity depends on the hour and on the last one."""
@@ -143,7 +147,7 @@ class Planner:
             hour = start / 3600.0 % 24
             weighted = [(name, free.weight(hour) * (AGAIN if name == items[-1].activity else 1.0))
                         for name, free in self.profile.free.items()
-                        if done.get(name, 0) < free.per_day]
+                        if done.get(name, 0) < free.per_day and name not in self.leaves_out]
             name = choose(draw, weighted) or self._resort()
             low, high = (self.profile.free[name].lasts if name in self.profile.free
                          else activities()[name].lasts)
@@ -154,7 +158,7 @@ class Planner:
             items.append(Item(start, end, name, 'free'))
 
     def _resort(self) -> str:
-        return 'relax' if self.profile.body == 'person' else 'nap'
+        return RESORT if self.profile.body == 'person' else 'nap'
 
     def _interrupted(self, day: Day, items: list[Item]) -> list[Item]:
         """The items with their interruptions between their parts."""
@@ -183,6 +187,8 @@ class Planner:
         found = []
         wakes, sleeps, ends = items[0].start, items[-1].start, items[-1].end
         for name, need in self.profile.needs.items():
+            if name in self.leaves_out:
+                continue
             draw = self._draw(day, 'needs', name)
             times: list[float] = []
             if need.every:

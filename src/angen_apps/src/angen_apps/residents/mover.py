@@ -127,6 +127,7 @@ class Mover:
         if storey != self.storey:
             yield from self._ride(storey)
             if storey != self.storey:
+                self.arrived = False  # it had come to the elevator
                 return
         yield from self._reach_on_foot(goal, storey)
 

@@ -35,8 +35,9 @@ def read_household(path: Path) -> tuple[list[tuple[str, Profile]], int, float]:
     return who, seed, 3600.0 * starts
 
 
-def run(path: Path, world: str) -> None:
-    """Lives in the running simulator until it ends; `world`: the file that it was started with."""
+def run(path: Path, world: str, strict: bool = False) -> None:
+    """Lives in the running simulator until it ends; `world`: the file that it was started with;
+    `strict`: Failure if residents cannot do all that they do."""
     who, seed, since = read_household(path)
     simulator = Live()
     ground = Ground(load_world(world), simulator.home)
@@ -46,7 +47,7 @@ def run(path: Path, world: str) -> None:
     def tell(now: Interval) -> None:
         simulator.publish({key: getattr(now, key) for key in HEAD if key != 'end'})
 
-    for resident in make(household, who):
+    for resident in make(household, who, strict):
         resident.diary.changed = tell
     while True:
         household.run(household.now + AHEAD)
@@ -55,12 +56,13 @@ def run(path: Path, world: str) -> None:
 
 
 def main() -> None:
-    """FILE WORLD: the node residents, see docs/data.md."""
+    """[--strict] FILE WORLD: the node residents, see docs/data.md."""
     from rospy import myargv
     words = myargv()[1:]
-    if len(words) != 2:
-        sys.exit('usage: residents FILE WORLD')
+    strict = words[:1] == ['--strict']
+    if len(words) != 2 + strict:
+        sys.exit('usage: residents [--strict] FILE WORLD')
     try:
-        run(Path(words[0]), words[1])
+        run(Path(words[-2]), words[-1], strict)
     except Failure as failure:
         sys.exit(f'angen: {failure}')

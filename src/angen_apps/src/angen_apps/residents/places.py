@@ -25,7 +25,6 @@ LONG = 1.4  # m of free cells in a line, on which a person can lie
 LYING, BESIDE = 0.65, 0.55  # m from the middle of a lying resident to head and feet, and past them
 PART, LEAST = 1.0, 0.05  # m2 of floor that a way has to lead to, and of a room
 OUTSIDE, ENTRANCE = 'outside', 'entrance'
-IN_ROOM = 'in room'  # instead of a posture
 UNUSED = ('landing', 'outdoor')
 
 
@@ -72,8 +71,6 @@ class Places:
         """The spots for a step, the best first; empty if no thing and no room serves."""
         posture = 'stand' if step.posture == 'roam' else step.posture
         found = [spot for what in step.at for spot in self._of(what, posture)]
-        if not found and posture == 'stand':
-            found = [spot for what in step.at for spot in self._of(what, IN_ROOM)]
         if not found and step.room:
             found = self.free(step.room, Random(step.room), 1)
         return found
@@ -162,17 +159,8 @@ class Places:
         found = []
         for thing in sorted(self.home.things, key=lambda t: t.name):
             if thing.type == kind and (not use or self.use(thing.room) == use):
-                found += self._in_room(thing) if posture == IN_ROOM else self._at(thing, posture)
+                found += self._at(thing, posture)
         return found
-
-    def _in_room(self, thing: Thing) -> list[Spot]:
-        """On the open floor of a thing's room: for a thing that residents cannot reach."""
-        room = self._rooms.get(thing.room)
-        if room is None or room.storey not in self.ground.planners:
-            return []
-        z = self.ground.elevation(room.storey)
-        return [Spot(point, room.storey, z, room.name)
-                for point in self.ground.spots(room.name, 1, Random(thing.name))]
 
     def _at(self, thing: Thing, posture: str) -> list[Spot]:
         room = self._rooms.get(thing.room)
@@ -214,15 +202,17 @@ class Places:
         return [Spot(point, storey, z, room.name if room else '')]
 
     def _inside(self) -> list[Spot]:
-        """Behind the entrance's door, clear of its leaf."""
+        """Behind the entrance's door, clear of its leaf, or before that of a landing."""
         door, porch = self.ground.entrance(), self.ground.porch()
         if door is None or porch is None:
             return []
-        x, y = 2 * door.pose[0] - porch[0][0], 2 * door.pose[1] - porch[0][1]
         z = self.ground.elevation(porch[1])
-        point = self.ground.near(x, y, z)
-        room = self.home.room_at(x, y, z + 0.1)
-        return [Spot(point, porch[1], z, room.name)] if point and room else []
+        for x, y in ((2 * door.pose[0] - porch[0][0], 2 * door.pose[1] - porch[0][1]), porch[0]):
+            point = self.ground.near(x, y, z)
+            room = self.home.room_at(x, y, z + 0.1)
+            if point and room:
+                return [Spot(point, porch[1], z, room.name)]
+        return []
 
 
 def _divides(free: np.ndarray, x: np.ndarray, y: np.ndarray, yaw: float) -> bool:

@@ -3,11 +3,12 @@ from __future__ import annotations
 
 import math
 import sys
+from dataclasses import replace
 from random import Random
 from typing import Any, Generator, Iterator
 
 from angen_apps.residents.activities import Activity, Step, activities
-from angen_apps.residents.agenda import Item, Planner
+from angen_apps.residents.agenda import RESORT, Item, Planner
 from angen_apps.residents.chance import chance
 from angen_apps.residents.household import Household
 from angen_apps.residents.interface import Rejected
@@ -39,28 +40,43 @@ class Resident(User):
     def __init__(self, household: Household, name: str, number: int, profile: Profile) -> None:
         super().__init__(household, name, number, profile)
         self.diary = Diary()
-        self.planner = Planner(household.seed, household.name, name, profile)
-        self._known = activities()
-        self._missing: dict[tuple[str, int], str] = {}  # by step: the missing thing
+        self._known = dict(activities())
+        self.leaves_out: dict[str, str] = {}  # by activity: what the home lacks
+        self._stands_in: dict[tuple[str, int], str] = {}  # by step: the missing thing
         self._tasks = {task: self._resolve(self._known[task])
                        for task in sorted(profile.does | {'sleep', 'leave'}
                                           | ({'relax', 'toilet', 'wash', 'shower', 'dress'}
                                              if profile.body == 'person' else {'nap'}))}
+        self.planner = Planner(household.seed, household.name, name, profile,
+                               frozenset(self.leaves_out))
 
     def _resolve(self, activity: Activity) -> list[list[Spot]]:
-        """The spots of each step. Without a bed a resident sleeps on the floor; Failure if
+        """The spots of each step; one that the home has no place for is left out, and so is the
+        activity if it needs that, but for sleep: without a bed one sleeps on the floor; Failure if
         no one can lie."""
         places = self.household.places
-        found = []
-        for index, step in enumerate(activity.steps):
+        person = self.profile.body == 'person'
+        found: list[list[Spot]] = []
+        steps: list[Step] = []
+        for step in activity.steps:
             spots = places.spots(step)
             if not spots and OUTSIDE not in step.at:
                 missing = f'no {" and no ".join(step.at or (step.room,))}'
-                self._missing[activity.name, index] = f'{missing} in reach'
-                sleeps = activity.name == 'sleep' and self.profile.body == 'person'
-                spots = (self._on_floor(missing) if sleeps and self.profile.lives else
-                         [places.anywhere(Random(number)) for number in range(ANYWHERE)])
-            found.append(spots)
+                if activity.name == 'sleep' and person and self.profile.lives:
+                    spots = self._on_floor(missing)
+                elif activity.name in ('sleep', RESORT) or not person:
+                    spots = [places.anywhere(Random(number)) for number in range(ANYWHERE)]
+                elif not step.optional:
+                    self.leaves_out[activity.name] = f'{missing} in reach'
+                if spots:
+                    self._stands_in[activity.name, len(found)] = f'{missing} in reach'
+            if spots or OUTSIDE in step.at:
+                found.append(spots)
+                steps.append(step)
+        if not steps:
+            rooms = ' and no '.join(sorted({step.room for step in activity.steps}))
+            self.leaves_out.setdefault(activity.name, f'no {rooms} in reach')
+        self._known[activity.name] = replace(activity, steps=tuple(steps))
         return found
 
     def _on_floor(self, missing: str) -> list[Spot]:
@@ -68,9 +84,22 @@ class Resident(User):
         if not spots:
             raise Failure(f'the home has {missing} where {self.name} ({self.profile.name}), who '
                           'sleeps, could lie, and no floor as long as that')
-        print(f'angen: {self.name} sleeps on the floor of {spots[0].room}: the home has {missing} '
-              'in reach', file=sys.stderr)
         return spots
+
+    def remarks(self) -> list[str]:
+        """What it does not do in this home, or does at another place."""
+        who = f'{self.name} ({self.profile.name})'
+        if self.profile.body != 'person':
+            return []
+        found = [f'{who} leaves out {name}: the home has {missing}'
+                 for name, missing in sorted(self.leaves_out.items())]
+        for (name, index), missing in sorted(self._stands_in.items()):
+            if not self.profile.lives and name == 'sleep':
+                continue
+            spot = self._tasks[name][index][0]
+            where = f'on the floor of {spot.room}' if spot.place else f'in {spot.room}'
+            found.append(f'{who} does {name} {where}: the home has {missing}')
+        return found
 
     def live(self) -> Process:
         """Lives day after day."""
@@ -100,7 +129,8 @@ class Resident(User):
         if not self.profile.lives or first is None or first.activity == 'leave':
             return
         spots = self._tasks.get(first.activity, self._tasks['sleep'])
-        spot = self._choose(spots[0]) or self.household.places.anywhere()
+        spot = self._choose(spots[0]) or (first.activity == 'sleep' and self._choose(
+            self.household.places.on_floor)) or self.household.places.anywhere()
         self.storey = spot.storey
         self.enter(spot)
         if first.activity == 'sleep':
@@ -138,9 +168,11 @@ class Resident(User):
         if step.posture == 'roam':
             yield from self._roam(activity, step, index, end)
             return
+        remark = ''
         if spot is None:
-            self.diary.note(f'no place for {activity.name}')
-            spot = self.household.places.beside(self._tasks[activity.name][index], self._habits)
+            remark = f'no place for {activity.name}'
+            spot = (activity.name == 'sleep' and self._choose(self.household.places.on_floor)) \
+                or self.household.places.beside(self._tasks[activity.name][index], self._habits)
         pause = PAUSE
         yield from self._reach(spot, activity.name)
         while not self.arrived:
@@ -154,8 +186,9 @@ class Resident(User):
             try:
                 self.settle(spot)
             except Rejected as error:
-                self.diary.note(str(error))
+                remark = str(error)
         self._note('does', activity.name, index)
+        self.diary.note(remark)
         self._lamps(activity.dark)
         used = self._use(step, spot)
         if used and step.opens:
@@ -322,13 +355,20 @@ class Resident(User):
         self.diary.turn(Interval(self.now, self.now, self.name, activity or 'leave', cause, phase,
                                  self.room, thing, posture, x, y))
         if phase == 'does':
-            self.diary.note(self._missing.get((activity, step), ''))
+            self.diary.note(self._stands_in.get((activity, step), ''))
 
 
-def make(household: Household, who: list[tuple[str, Profile]]) -> list[Any]:
-    """The residents of a household, whose days begin."""
+def make(household: Household, who: list[tuple[str, Profile]], strict: bool = False) -> list[Any]:
+    """The residents of a household, whose days begin. Says what they cannot do in their home;
+    Failure for that if `strict`."""
     for number, (name, profile) in enumerate(who):
         household.residents.append(Resident(household, name, number, profile))
+    remarks = [remark for resident in household.residents for remark in resident.remarks()]
+    for remark in remarks:
+        print(f'angen: {remark}', file=sys.stderr, flush=True)
+    if strict and remarks:
+        raise Failure(f'residents cannot live in {household.name} as they do elsewhere: '
+                      f'{len(remarks)} remarks')
     for resident in household.residents:
         household.add(resident.live())
     return household.residents

@@ -57,6 +57,7 @@ class User(Mover):
         side, wide = 1.0, 0.0
         for _ in range(LOOKS):
             yield self.now + 1.0
+            self.look()
             leaf = self.simulator.state(kind, name)
             if leaf.get('mode') == 'OPEN':
                 return

@@ -12,7 +12,7 @@ import numpy as np
 
 from angen_apps.data.generate import CABINS, HOME, LOADS, sha256
 from angen_apps.data.site import Site, apartment
-from angen_apps.data.validate import EVENTS, POWER, SLIDES, TRACK, TRUTH, homes, rows
+from angen_apps.data.tables import EVENTS, POWER, SLIDES, TRACK, TRUTH, homes, rows
 from angen_apps.residents.figures import walker
 from angen_apps.web.feed import row_of
 from angen_apps.web.played import Played
@@ -287,7 +287,10 @@ class Day(Played):
         most: dict[str, float] = defaultdict(float)
         for _, kind, name, watts in loads:
             most[f'{kind}/{name}'] = max(most[f'{kind}/{name}'], watts)
+        known = {(e['kind'], e['name']) for e in self.store.part('entities')}
         for time, kind, name, watts in loads:
+            if (kind, name) not in known:  # a fridge
+                continue
             share = watts / most[f'{kind}/{name}'] if watts else 0.0
             word = 'ON' if share > STANDBY and (kind == 'lamp' or watts > LEAST) else 'OFF'
             if kind == 'lamp':

@@ -2,7 +2,8 @@
 columns, in which each event has its label."""
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
+from bisect import bisect_left
+from dataclasses import replace
 from pathlib import Path
 
 from angen_apps.data.formats.periods import Period, periods
@@ -11,7 +12,7 @@ from angen_apps.residents.activities import activities
 from angen_tools.common.files import writing
 
 TYPES = {'motion': 'Control4-Motion', 'area': 'Control4-MotionArea', 'door': 'Control4-Door',
-         'item': 'Control4-Item', 'power': 'Control4-Power',
+         'item': 'Control4-Item', 'power': 'Control4-Plug', 'mains': 'Control4-Power',
          'temperature': 'Control4-Temperature', 'light': 'Control4-LightSensor'}
 ENTER = 'Enter_Home'
 ENTERING = 60.0  # s: the longest time in which a resident comes home
@@ -37,13 +38,12 @@ def labels(data: Data) -> dict[int, str]:
     several = len(data.residents) > 1
     numbers = {name: i for i, (name, _) in enumerate(data.residents, 1)}
     for period in _labeled(data):
-        inside = range(bisect_left(times, period.start), bisect_right(times, period.end))
+        inside = range(bisect_left(times, period.start), bisect_left(times, period.end))
         free = [i for i in inside if i not in found and _is_own(data, i, period)] \
             or [i for i in inside if i not in found and not data.events[i].resident]
         if len(free) < 2:
             continue
-        name = period.activity if period.activity == ENTER \
-            else activities()[period.activity].casas
+        name = ENTER if period.activity == ENTER else activities()[period.activity].casas
         label = f'R{numbers[period.resident]}_{name}' if several else name
         found[free[0]], found[free[-1]] = f'{label} begin', f'{label} end'
     return found
@@ -54,7 +54,7 @@ def _is_own(data: Data, index: int, period: Period) -> bool:
 
 
 def _labeled(data: Data) -> list[Period]:
-    """The activities; of an absence the ways out and in."""
+    """The activities, one after the other; of an absence the ways out and in."""
     found = []
     after: dict[str, Period] = {}
     for period in periods(data):
@@ -63,9 +63,11 @@ def _labeled(data: Data) -> list[Period]:
         if period.away:
             continue
         if before is not None and before.away and before.activity == 'leave':
-            found.append(Period(period.start, min(period.start + ENTERING, period.end),
-                                period.resident, ENTER))
-        found.append(period)
+            enters = min(period.start + ENTERING, period.end)
+            found.append(Period(period.start, enters, period.resident, ENTER))
+            period = replace(period, start=enters)
+        if period.end > period.start:
+            found.append(period)
     return found
 
 

@@ -30,10 +30,12 @@ class Period:
 
 
 def periods(data: Data) -> list[Period]:
-    """The activities of residents one after the other, with their durations."""
+    """The activities of residents one after the other, with their durations; those that were not
+    done, as the way to them was given up, are left out."""
     found: list[Period] = []
     for resident, _ in data.residents:
         own: list[Period] = []
+        done: set[float] = set()  # begins of those that were done
         for interval in data.intervals(resident):
             away = interval.phase == 'away'
             if own and own[-1].activity == interval.activity and own[-1].away == away \
@@ -41,7 +43,9 @@ def periods(data: Data) -> list[Period]:
                 own[-1] = replace(own[-1], end=interval.end)
             else:
                 own.append(Period(interval.start, interval.end, resident, interval.activity, away))
-        found += own
+            if interval.phase in ('does', 'away'):
+                done.add(own[-1].start)
+        found += [period for period in own if period.start in done]
     return sorted(found, key=lambda p: (p.start, p.resident))
 
 

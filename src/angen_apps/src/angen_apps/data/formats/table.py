@@ -45,9 +45,14 @@ def pyarrow() -> Any:
 def write_parquet(folder: Path, data: Data) -> list[Path]:
     """events.parquet."""
     arrow = pyarrow()
-    columns = list(zip(*rows(data))) or [()] * len(HEAD)
+    columns = dict(zip(HEAD, zip(*rows(data)) if data.events else [()] * len(HEAD)))
+    words = arrow.dictionary(arrow.int16(), arrow.string())
+    typed = {name: arrow.array([word or None for word in column], words)
+             for name, column in columns.items()}
+    typed['time'] = arrow.array([data.at(event.time) for event in data.events],
+                                arrow.timestamp('us'))
+    typed['value'] = arrow.array(columns['value'], arrow.string())
     path = folder / 'events.parquet'
     with writing(path, binary=True) as file:
-        arrow.parquet.write_table(arrow.table({name: list(column) for name, column
-                                               in zip(HEAD, columns)}), file, compression='zstd')
+        arrow.parquet.write_table(arrow.table(typed), file, compression='zstd')
     return [path]

@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 
-from angen_apps.data.validate import EVENTS, TRACK, rows, validate
+from angen_apps.data.tables import EVENTS, TRACK, rows
+from angen_apps.data.validate import validate
 from angen_tools.common.failure import Failure
 
 LAYOUT: dict[str, Any] = {
@@ -24,7 +25,8 @@ LAYOUT: dict[str, Any] = {
     ({**LAYOUT, 'start': 5}, 'layout.json: start is 5'),
     ({**LAYOUT, 'residents': [{'name': 'ann'}]}, 'layout.json: residents has no speed'),
     ({**LAYOUT, 'rooms': {}}, 'layout.json: rooms must be a list'),
-    ({**LAYOUT, 'doors': [{'kind': 'door', 'width': 1, 'pose': [None]}]}, 'pose is None')])
+    ({**LAYOUT, 'doors': [{'name': 'a', 'kind': 'door', 'width': 1, 'rooms': [], 'pose': [None]}]},
+     'pose is None')])
 def test_a_damaged_layout(layout: Any, what: str, tmp_path: Path) -> None:
     (tmp_path / 'layout.json').write_text(json.dumps(layout))
     with pytest.raises(Failure, match=what):

@@ -1,0 +1,131 @@
+"""Checks labels against place, posture and the thing in use, in the truth, events and casas.txt."""
+from __future__ import annotations
+
+import re
+
+from angen_apps.data.formats.casas import ENTER
+from angen_apps.data.tables import lines
+from angen_apps.data.written import Findings, Written
+from angen_apps.residents.activities import Step, activities
+from angen_apps.residents.places import ENTRANCE, OUTSIDE
+from angen_apps.residents.profiles import FOLDER, read
+
+EARLY, LATE = 3.0, 1.0  # s between a cause and its event: motion before, and at, it
+HAND = 31.0  # s between a command and the event of its device
+KINDS = {'motion': ('motion', 'area'), 'seat': ('item',), 'hand': ('door', 'power'),
+         'air': ('temperature',), 'light': ('light',), 'power': ('mains',)}  # kinds, by cause
+START = 1.0  # s, in which sensors report their first states
+OWN = ('motion', 'seat', 'hand')  # causes that are residents
+ALWAYS = {'sleep', 'leave', 'relax', 'toilet', 'wash', 'shower', 'dress', 'nap'}
+NOTED = 0.3  # share of a resident's time with notes of what did not go as planned, at most
+LABEL = re.compile(r'(?:(R\d+)_)?(\w+) (begin|end)')
+
+
+def check(findings: Findings, home: Written) -> None:
+    """All checks of labels."""
+    _does(findings, home)
+    _profiles(findings, home)
+    _noted(findings, home)
+    _events(findings, home)
+    if (home.folder / 'casas.txt').is_file():
+        _turns(findings, home)
+
+
+def _does(findings: Findings, home: Written) -> None:
+    """Who does something has the posture for it, at a thing or in a room for it, or the truth
+    says what was in the way."""
+    for row in home.truth:
+        activity = activities().get(row['activity'])
+        where = f'{row["resident"]} at {row["start"]}: {row["activity"]} {row["posture"]} at ' \
+            f'{row["thing"] or "no thing"} in {row["room"]}'
+        findings.say('an activity is in a room for it', activity is not None,
+                     f'{where}: no such activity')
+        if activity is None or row['phase'] != 'does' or row['note'] \
+                or row['resident'] not in home.people:
+            continue
+        findings.say('an activity is in a room for it',
+                     any(_fits(home, step, row) for step in activity.steps), where)
+
+
+def _fits(home: Written, step: Step, row: dict[str, str]) -> bool:
+    posture = 'stand' if step.posture == 'roam' else step.posture
+    if row['posture'] != posture:
+        return False
+    use, thing = home.use(row['room']), home.things.get(row['thing'])
+    if thing is not None:
+        return any(_is(what, thing['type'], use) for what in step.at)
+    return step.room == use or bool({OUTSIDE, ENTRANCE} & set(step.at))
+
+
+def _is(what: str, kind: str, use: str) -> bool:
+    wanted, _, name = what.rpartition(' ')
+    return name == kind and wanted in ('', use)
+
+
+def _profiles(findings: Findings, home: Written) -> None:
+    """Residents do what their profile has, if it is one of Angen's."""
+    for resident in home.layout['residents']:
+        profile = str(resident.get('profile', ''))
+        if (FOLDER / f'{profile}.yaml').is_file():
+            allowed = read(profile).does | ALWAYS
+            for row in home.truth:
+                if row['resident'] == resident['name']:
+                    findings.say('residents do what their profile has', row['activity'] in allowed,
+                                 f'{row["resident"]} ({profile}) at {row["start"]}: '
+                                 f'{row["activity"]}')
+
+
+def _noted(findings: Findings, home: Written) -> None:
+    for name in home.names:
+        own = [row for row in home.truth if row['resident'] == name and row['phase'] == 'does']
+        lost = sum(bool(row['note']) for row in own)
+        findings.say('most goes as planned', lost <= max(2, NOTED * len(own)),
+                     f'{name}: {lost} of {len(own)} have notes')
+
+
+def _events(findings: Findings, home: Written) -> None:
+    """Events have causes of their kind, and the activity that the truth has for their resident."""
+    whose: dict[str, tuple[str, str]] = {}  # resident and activity as it came on
+    for time, row in zip(home.times, home.events):
+        where = f'{row["time"]} {row["sensor"]} {row["value"]}'
+        cause, who, name = row['cause'], row['resident'], row['activity']
+        findings.say('each event has a cause or is noise',
+                     (bool(who) == (cause in OWN) or cause == 'light') and bool(who) == bool(name)
+                     and row['kind'] in KINDS.get(cause, (row['kind'],))
+                     and (cause in (*KINDS, 'noise') or cause == 'start' and time < START),
+                     f'{where} has cause {cause}')
+        if not who or row['sensor'] in home.faulty or who not in home.who:
+            continue
+        if row['value'] in ('OFF', 'ABSENT') and row['kind'] != 'power':
+            findings.say('an event has the activity of its resident',
+                         whose.get(row['sensor'], ('', '')) == (who, name),
+                         f'{where}: {who} {name}, it came on for {whose.get(row["sensor"])}')
+            continue
+        whose[row['sensor']] = who, name
+        early = HAND if cause == 'hand' else EARLY
+        did = {interval['activity'] for interval in
+               home.who[who].intervals(time - early, time + LATE)}
+        findings.say('an event has the activity of its resident', name in did,
+                     f'{where}: {who} {name}, the truth has {" and ".join(sorted(did))}')
+
+
+def _turns(findings: Findings, home: Written) -> None:
+    """Labels of casas.txt alternate: of each resident one at a time is open, and each is ended."""
+    check = 'each begin has its end'
+    names = {activity.casas for activity in activities().values()} | {ENTER}
+    opened: dict[str, str] = {}
+    for number, line in enumerate(lines(home.folder / 'casas.txt'), 1):
+        words = line.rstrip('\n').split('\t')
+        if len(words) < 5:
+            continue
+        found = LABEL.fullmatch(words[4])
+        where = f'casas.txt:{number}: {words[4]}'
+        findings.say(check, found is not None and found[2] in names, f'{where} is not a label')
+        if found is None:
+            continue
+        who, name, turn = found[1] or '', found[2], found[3]
+        fine = opened.get(who, '') == ('' if turn == 'begin' else name)
+        findings.say(check, fine, f'{where}, but {opened.get(who) or "nothing"} had begun')
+        opened[who] = name if turn == 'begin' else ''
+    for who, name in opened.items():
+        findings.say(check, not name, f'{who} {name} has no end'.strip())
