@@ -7,6 +7,7 @@ import time
 from pathlib import Path
 from typing import Callable, Sequence
 
+from angen_apps.automation.automations import Where
 from angen_apps.automation.bench import Bench, HomeAssistant, Record, Subject
 from angen_apps.automation.entities import Entities
 from angen_apps.automation.home import House
@@ -31,7 +32,7 @@ def run_scenario(scenario: Scenario, automations: Sequence[Path] = ()) -> Judged
             record = Bench(scenario, subject, read, progress.update).run()
     except Failure as error:
         raise WrongWords(str(error)) from None
-    record.tested = ', '.join(path.stem for path in paths)
+    record.tested = ', '.join(path.stem for path in paths) or 'program'
     return record, judge(record)
 
 
@@ -40,7 +41,7 @@ def _subject(scenario: Scenario, paths: Sequence[Path]
     """What is tested, and what reads its files when the entities are known."""
     if scenario.program and not paths:
         from angen_apps.automation.program import MqttProgram
-        where = f'{scenario.path}:{scenario.program.line}'
+        where = Where(scenario.path, scenario.program.line)
         return MqttProgram(scenario.program, where), lambda _: None
     subject = HomeAssistant(paths)
     return subject, subject.read

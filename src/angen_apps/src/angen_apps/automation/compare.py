@@ -128,17 +128,18 @@ def draw(scores: Sequence[Score], days: float, path: Path) -> None:
     """Writes the picture: a row of bars for each figure, side by side."""
     from angen_apps.automation.figure import BAD, FAINT, GOOD, INK
     rows = [one.rows(days) for one in scores]
+    shown = [i for i in range(len(rows[0]) - 1) if any(float(row[i][1]) for row in rows)]
     colors = (FAINT, GOOD)
     with pyplot().rc_context({'font.size': 9}):
-        figure, axes = pyplot().subplots(1, len(rows[0]) - 1, figsize=(13.0, 3.4))
-        for i, axis in enumerate(axes):
+        figure, axes = pyplot().subplots(1, len(shown), figsize=(13.0, 3.4), squeeze=False)
+        for i, axis in zip(shown, axes[0]):
             values = [float(row[i][1]) for row in rows]
             most = max(*values, 1e-9)
             for j, (value, color) in enumerate(zip(values, colors)):
                 axis.bar(j, value, 0.62, color=color)
                 axis.text(j, value + 0.02 * most, rows[j][i][1], ha='center', va='bottom',
                           fontsize=9, color=INK)
-            axis.set_title(rows[0][i][0].replace(', ', '\n').replace(' a day', '\na day'),
+            axis.set_title(rows[0][i][0].replace(', ', '\n').replace('nobody a', 'nobody\na'),
                            fontsize=8.5, color=INK)
             axis.set_xticks([])
             axis.set_yticks([])

@@ -27,7 +27,7 @@ COLORS = {'light': '#e8a33d', 'binary_sensor': '#5b8db8', 'sensor': '#7a6fb0',
           'cover': '#4f9d9a', 'climate': '#c9653b', 'switch': '#6a8f3c', 'fan': '#6a8f3c'}
 ROOMS = ('#5b8db8', '#e8a33d', '#7a6fb0', '#4f9d9a', '#c9653b', '#6a8f3c', '#b0658c', '#8a7a5a')
 OFF = ('off', 'closed', 'unknown', 'None', '')
-LABELS = 8  # of commands on a lane before they become marks only
+BELOW = 0.4  # m: a lamp at the ceiling is on the storey below
 
 
 @dataclass
@@ -43,7 +43,7 @@ class Lane:
 def draw(record: Record, verdicts: Sequence[Verdict], path: Path) -> None:
     """Writes the picture of a run."""
     lanes = _lanes(record, verdicts)
-    tall = sum(lane.height for lane in lanes) + GAP * 3 + FOOT
+    tall = sum(lane.height for lane in lanes) + FOOT
     scene = _scene(record)
     with pyplot().rc_context({'font.size': 8}):
         figure = pyplot().figure(figsize=(WIDTH, tall + (PLAN if scene else 0.4)))
@@ -105,7 +105,8 @@ def _mark(axis: Any, record: Record, storey: Any) -> None:
             continue
         entity = record.entities.find(name)
         pose = poses.get(entity.thing.key)
-        if pose is None or entity.thing.key in seen or not is_on(pose[2], storey):
+        if pose is None or entity.thing.key in seen or not is_on(
+                pose[2] - BELOW, storey):
             continue
         seen.add(entity.thing.key)
         color = COLORS.get(entity.domain, INK)

@@ -48,10 +48,9 @@ class Clocked(Simulated):
 class Actor:
     """A person of the script."""
 
-    def __init__(self, home: House, name: str, at: tuple[float, float]) -> None:
+    def __init__(self, home: House, name: str) -> None:
         self._home, self.name, self.posture, self.away = home, name, 'stand', True
-        self._before = at
-        self.appear(at)
+        self._before: tuple[float, float] | None = None
 
     @property
     def line(self) -> str:
@@ -71,22 +70,23 @@ class Actor:
         words = text.split()
         if words == ['leaves']:
             self._home.simulator.vanish(self.name)
-            self.away = True
+            self.posture, self.away = 'stand', True
         elif words[:2] == ['goes', 'to'] and len(words) in (3, 4):
             at = self._home.place(words[2:])
+            if self.away:
+                raise ValueError(f'{self.name} is away; write appears at')
             if self.posture != 'stand':
-                self.appear(self._before)
+                self.appear(self._before or self._home.beside(self.name))
             self._home.simulator.command('person', self.name, f'GoTo {at[0]:.3f} {at[1]:.3f}')
         elif words[:2] == ['appears', 'at'] and len(words) in (3, 4):
             self.appear(self._home.place(words[2:]))
         elif words[:2] in (['sits', 'on'], ['lies', 'on']) and len(words) == 3:
             place = self._home.seat(words[2], words[0][:-1])
-            if self.posture == 'stand' and not self.away:
-                body = self._home.simulator.body(self.name)
-                self._before = body.x, body.y
+            if self.posture == 'stand':
+                self._before = None if self.away else self._home.at(self.name)
             self._home.simulator.settle(self.name, place)
             self.posture, self.away = place.posture, False
-        elif words == ['fidgets'] and self.posture != 'stand':
+        elif words == ['fidgets'] and self.posture != 'stand' and not self.away:
             self._home.simulator.fidget(self.name, 0.12)
         else:
             raise ValueError(f"'{text}' is not what a person does; write goes to ROOM or X Y, "
@@ -175,12 +175,10 @@ class House:
         if scenario.leaves_lamps:
             who = [(name, replace(profile, lamps_on=0.0, lamps_off=0.0)) for name, profile in who]
         make(self.household, who)
-        self.actors = {}
+        self.actors: dict[str, Actor] = {}
         for person in scenario.people:
-            try:
-                self.actors[person.name] = Actor(self, person.name, person.at)
-            except Rejected as error:
-                raise WrongWords(scenario.fail(person.line, str(error))) from None
+            actor = self.actors[person.name] = Actor(self, person.name)
+            self._execute(Order(0.0, f'{person.name} {person.does}', person.line), actor)
         self._orders = [self._checked(order) for order in scenario.script]
 
     def _checked(self, order: Order) -> tuple[Order, Any]:
@@ -217,10 +215,27 @@ class House:
         except (ValueError, Rejected) as error:
             raise WrongWords(self.scenario.fail(order.line, str(error))) from None
 
+    def at(self, name: str) -> tuple[float, float]:
+        """Where a person is."""
+        body = self.simulator.body(name)
+        return body.x, body.y
+
+    def beside(self, name: str) -> tuple[float, float]:
+        """A free place in the room of a person."""
+        body = self.simulator.body(name)
+        room = self.site.home.room_at(body.x, body.y, body.z + 0.5)
+        if room is None:
+            raise ValueError(f'{name} is in no room, and cannot get up')
+        return self.place([room.name])
+
     def place(self, words: list[str]) -> tuple[float, float]:
         """X Y, or a free place of a room; ValueError."""
         if len(words) == 2:
-            return float(words[0]), float(words[1])
+            try:
+                return float(words[0]), float(words[1])
+            except ValueError:
+                raise ValueError(f"'{' '.join(words)}' is not a place; write ROOM or X Y"
+                                 ) from None
         if self.site.home.room(words[0]) is None:
             raise ValueError(f"there is no room '{words[0]}'; {self._rooms(words[0])}")
         return self.site.ground.spots(words[0], 1, Random(0))[0]

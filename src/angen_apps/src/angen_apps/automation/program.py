@@ -16,6 +16,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Callable, Sequence
 
+from angen_apps.automation.automations import Where
 from angen_apps.automation.scenario import Program
 from angen_apps.mqtt.broker import Access, Broker, Log, Message
 from angen_apps.mqtt.discovery import Discovery
@@ -31,6 +32,7 @@ BASE = 'angen'
 TICK = 1.0      # s of simulated time between two messages of it
 ANSWER = 10.0   # s of wall time in which a program answers
 START = 60.0    # the same, for its first answer
+AGAIN = 0.3     # the same, until it is asked again
 TAKE = 50       # messages at a time
 
 
@@ -38,7 +40,7 @@ class MqttProgram:
     """See bench.Subject. After all that one moment changes, a barrier is published; it has been
     read by the program when that has answered, or when nothing has come for a while."""
 
-    def __init__(self, program: Program, where: str) -> None:
+    def __init__(self, program: Program, where: Where) -> None:
         self._program, self._where = program, where
         self.needs: set[str] = set()
         self._style = Plain(BASE)
@@ -65,8 +67,10 @@ class MqttProgram:
         self._publish_all()
         self._log = Path(self._folder.name) / 'program.log'
         with self._log.open('wb') as log:
-            text = self._program.command.format(host='127.0.0.1', port=port,
-                                                broker=f'127.0.0.1:{port}')
+            text = self._program.command
+            for word, value in (('host', '127.0.0.1'), ('port', str(port)),
+                                ('folder', str(self._where.path.parent))):
+                text = text.replace(f'{{{word}}}', value)
             try:
                 self._processes.append(subprocess.Popen(
                     shlex.split(text), stdin=subprocess.DEVNULL, stdout=log, stderr=log,
@@ -84,7 +88,10 @@ class MqttProgram:
         with socket.socket() as probe:
             probe.bind(('127.0.0.1', 0))
             port = int(probe.getsockname()[1])
-        self._processes.append(subprocess.Popen([found, '-p', str(port)],
+        config = Path(self._folder.name) / 'mosquitto.conf'
+        config.write_text(f'listener {port} 127.0.0.1\nallow_anonymous true\n'
+                          'set_tcp_nodelay true\n', encoding='utf-8')
+        self._processes.append(subprocess.Popen([found, '-c', str(config)],
                                                 stdin=subprocess.DEVNULL,
                                                 stdout=subprocess.DEVNULL,
                                                 stderr=subprocess.DEVNULL,
@@ -137,11 +144,14 @@ class MqttProgram:
         assert self._broker is not None
         self._barriers += 1
         number = str(self._barriers)
-        self._broker.publish(self._topic('barrier'), number, retain=False)
+        asked = -math.inf
         waits = self._topic('barrier' if self._program.answers == 'quiet' else 'barrier/done')
         end, heard, came = time.monotonic() + limit, math.inf, False
         while not came or time.monotonic() < heard + self._quiet:
             left = (heard + self._quiet if came else end) - time.monotonic()
+            if not came and time.monotonic() > asked + AGAIN:  # it was not connected yet
+                asked = time.monotonic()
+                self._broker.publish(self._topic('barrier'), number, retain=False)
             if not came and left <= 0.0:
                 self._fail(f'the program has not answered for {limit:g} s')
             self._wakes.wait(min(max(left, 0.0), 0.1))

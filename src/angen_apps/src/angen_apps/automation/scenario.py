@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Callable
 
-from angen_apps.automation.claims import Claim, parsed
+from angen_apps.automation.claims import ANYONE, NOBODY, Claim, parsed
 from angen_apps.residents.profiles import is_file
 from angen_tools.common.clock import DAY, duration, time_of_day
 from angen_tools.common.yaml_file import YamlFile, is_list, is_text, line_of
@@ -18,6 +18,7 @@ GENERATED = 'generated'
 LONGEST = 366 * DAY
 KINDS = ('expect', 'never', 'always', 'at_most', 'at_least')
 COUNTED = ('changes_of', 'times', 'energy_of', 'time_of', 'notes')
+PLACES = {'at': 'appears at', 'sits_on': 'sits on', 'lies_on': 'lies on'}
 ANSWERS = ('barrier', 'quiet')
 
 
@@ -43,8 +44,10 @@ class Added:
 
 @dataclass(frozen=True)
 class Person:
+    """One of the script. `does`: where it is at the start, in words of the script."""
+
     name: str
-    at: tuple[float, float]
+    does: str
     line: int
 
 
@@ -158,12 +161,17 @@ class _Reader(YamlFile):
             raise self.fail(node, f"start is '{node.value}', must be as 2026-03-23 18:00") from None
 
     def _person(self, node: Any) -> Person:
-        parts = self.entries(node, 'a person', ('name', 'at'), ('name', 'at'))
-        x, y = (self.number(each, 'at', -1e4, 1e4) for each in self._count(parts['at'], 'at', 2))
+        parts = self.entries(node, 'a person', ('name', *PLACES), ('name',))
+        places = [key for key in PLACES if key in parts]
+        if len(places) != 1:
+            raise self.fail(node, f'a person has one of {", ".join(PLACES)}')
         name = self.text(parts['name'], 'name')
-        if not re.fullmatch('[a-z][a-z0-9]*', name):
+        if not re.fullmatch('[a-z][a-z0-9]*', name) or name in (ANYONE, NOBODY):
             raise self.fail(parts['name'], f"'{name}' must be a word of small letters")
-        return Person(name, (x, y), line_of(node))
+        place, node = places[0], parts[places[0]]
+        where = self.text(node, place) if is_text(node) else ' '.join(
+            f'{self.number(each, place, -1e4, 1e4):g}' for each in self._count(node, place, 2))
+        return Person(name, f'{PLACES[place]} {where}', line_of(node))
 
     def _count(self, node: Any, what: str, count: int) -> list[Any]:
         nodes = self.list(node, what)
