@@ -87,3 +87,23 @@ def test_long_steps_are_not_recorded(tmp_path) -> None:
     with pytest.raises(angen.Error, match='long steps cannot be recorded'):
         w.run(1.0, long_steps=True)
     assert w.time == 0.0
+
+
+def test_a_run_can_end_with_each_event(world: World) -> None:
+    """It stops in the tick of an event, goes on from there, and all is as in one run."""
+    whole, parts = world(SENSORS + ANN), world(SENSORS + ANN)
+    for each in (whole, parts):
+        each.run(1.0)
+        each.events()
+        each.command('person', 'ann', 'GoTo 4 0.4')
+    whole.run(8.0)
+    end, found, stops = whole.time, parts.events(), []
+    while parts.time < end - 1e-9:
+        parts.run(end - parts.time, until_event=True)
+        new = parts.events()
+        stops += [parts.time] * bool(new)
+        found += new
+    assert found == whole.events()
+    assert stops == sorted({at + 0.001 for at, *_ in found if at >= 1.0 and at + 0.001 in stops})
+    assert len(stops) >= 5 and len(set(stops)) == len(stops)
+    assert whole.device('person', 'ann') == parts.device('person', 'ann')

@@ -10,10 +10,11 @@ from typing import Any, Sequence
 import numpy as np
 
 from angen_apps.automation.bench import Record
+from angen_apps.automation.card import storey_of
 from angen_apps.automation.claims import Line
 from angen_apps.automation.judge import FAILED, OPEN, Verdict
 from angen_apps.care.figure import STEPS
-from angen_apps.plan.draw import DPI, INK, Scene, is_on, read_scene, sheet
+from angen_apps.plan.draw import DPI, INK, Scene, draw_storey, extent, read_scene
 from angen_tools.common.clock import show_time
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import pyplot, save_figure
@@ -27,7 +28,6 @@ COLORS = {'light': '#e8a33d', 'binary_sensor': '#5b8db8', 'sensor': '#7a6fb0',
           'cover': '#4f9d9a', 'climate': '#c9653b', 'switch': '#6a8f3c', 'fan': '#6a8f3c'}
 ROOMS = ('#5b8db8', '#e8a33d', '#7a6fb0', '#4f9d9a', '#c9653b', '#6a8f3c', '#b0658c', '#8a7a5a')
 OFF = ('off', 'closed', 'unknown', 'None', '')
-BELOW = 0.4  # m: a lamp at the ceiling is on the storey below
 
 
 @dataclass
@@ -79,7 +79,6 @@ def _scene(record: Record) -> Scene | None:
 def _draw_plan(figure: Any, record: Record, scene: Scene, verdicts: Sequence[Verdict],
                size: tuple[float, float]) -> None:
     """The plan at the top left, the expectations beside it."""
-    from angen_apps.plan.draw import draw_storey, extent
     storeys = scene.drawn()
     wide, high = size
     extents = [extent(scene, storey) for storey in storeys]
@@ -105,8 +104,8 @@ def _mark(axis: Any, record: Record, storey: Any) -> None:
             continue
         entity = record.entities.find(name)
         pose = poses.get(entity.thing.key)
-        if pose is None or entity.thing.key in seen or not is_on(
-                pose[2] - BELOW, storey):
+        if pose is None or entity.thing.key in seen or storey.number != storey_of(
+                record.house.site.home, pose[:3]):
             continue
         seen.add(entity.thing.key)
         color = COLORS.get(entity.domain, INK)

@@ -81,8 +81,10 @@ def read_running(copy: Path) -> Scene:
     return read_scene(copy)
 
 
-def draw(path: Path, output: Path, what: overlays.What) -> dict[str, Any]:
-    """Draws a world's plan as SVG or PNG, by the ending of `output`; returns the result."""
+def draw(path: Path, output: Path, what: overlays.What, card: Path | None = None
+         ) -> dict[str, Any]:
+    """Draws a world's plan as SVG or PNG, by the ending of `output`, and writes a card of Home
+    Assistant with it; returns the result."""
     kind = output.suffix.lower().lstrip('.')
     if kind not in ('svg', 'png'):
         raise Failure(f'{output}: must end in .svg or .png')
@@ -92,6 +94,9 @@ def draw(path: Path, output: Path, what: overlays.What) -> dict[str, Any]:
         figure, axes = sheet(scene, scene.drawn())
         for axis, storey in axes:
             overlays.draw(axis, scene, storey, data, what)
+        if card is not None:
+            from angen_apps.automation.card import write
+            write(card, angen_module().World(str(path)), axes, output.name)
         metadata = {'Date': None} if kind == 'svg' else {'Software': None}
         save_figure(figure, output, format=kind, dpi=DPI, metadata=metadata)
     counts = {'floors': len(axes), 'rooms': len(scene.home.rooms),
