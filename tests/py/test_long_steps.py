@@ -97,13 +97,11 @@ def test_a_run_can_end_with_each_event(world: World) -> None:
         each.events()
         each.command('person', 'ann', 'GoTo 4 0.4')
     whole.run(8.0)
-    end, found, stops = whole.time, parts.events(), []
+    end, found, stops = whole.time, parts.events(), 0
     while parts.time < end - 1e-9:
         parts.run(end - parts.time, until_event=True)
         new = parts.events()
-        stops += [parts.time] * bool(new)
-        found += new
-    assert found == whole.events()
-    assert stops == sorted({at + 0.001 for at, *_ in found if at >= 1.0 and at + 0.001 in stops})
-    assert len(stops) >= 5 and len(set(stops)) == len(stops)
+        assert all(-1e-6 < parts.time - at < 0.001 + 1e-6 for at, *_ in new)
+        stops, found = stops + bool(new), found + new
+    assert found == whole.events() and stops >= 5
     assert whole.device('person', 'ann') == parts.device('person', 'ann')

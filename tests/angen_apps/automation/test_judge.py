@@ -88,8 +88,8 @@ def test_spans_are_as_their_points() -> None:
             assert all(b < c for (_, b), (c, _) in zip(found, found[1:]))
 
 
-@pytest.mark.parametrize('text', ['light is on', 'light.x', 'light.x is', 'anna on x', 'x.y below z',
-                                  'time 25:00 to 26:00'])
+@pytest.mark.parametrize('text', ['light is on', 'light.x', 'light.x is', 'anna on x',
+                                  'x.y below z', 'time 25:00 to 26:00'])
 def test_what_is_no_claim(text: str) -> None:
     with pytest.raises(ValueError):
         parsed(text)

@@ -176,9 +176,9 @@ class _Reader(YamlFile):
         parts = self._parts(node, 'a state trigger', (word, 'entity_id', 'from', 'to', 'for', 'id'),
                             ('entity_id',))
         entities = self._ids(parts['entity_id'])
-        return StateTrigger(entities, *(self._states(parts[key], entities) if key in parts else ()
-                                        for key in ('to', 'from')), self._held(parts),
-                            self._id(parts))
+        to, origin = (self._states(parts[key], entities) if key in parts else ()
+                      for key in ('to', 'from'))
+        return StateTrigger(entities, to, origin, self._held(parts), self._id(parts))
 
     def _numeric_trigger(self, node: Any, word: str) -> Trigger:
         parts = self._parts(node, 'a numeric_state trigger', (
@@ -247,15 +247,16 @@ class _Reader(YamlFile):
             nodes = self.list(parts['weekday'], 'weekday') if is_list(parts['weekday']) \
                 else [parts['weekday']]
             days = tuple(WEEKDAYS.index(self.choice(each, 'weekday', WEEKDAYS)) for each in nodes)
-        return TimeCondition(*(self._time(parts[key], key) if key in parts else None
-                               for key in ('after', 'before')), days)
+        after, before = (self._time(parts[key], key) if key in parts else None
+                         for key in ('after', 'before'))
+        return TimeCondition(after, before, days)
 
     def _sun_condition(self, node: Any) -> Condition:
         parts = self._parts(node, 'a sun condition', ('condition', 'after', 'before',
                                                       'after_offset', 'before_offset'))
-        return SunCondition(*(self.choice(parts[key], key, SUN) if key in parts else ''
-                              for key in ('after', 'before')),
-                            self._offset(parts, 'after_offset'),
+        after, before = (self.choice(parts[key], key, SUN) if key in parts else ''
+                         for key in ('after', 'before'))
+        return SunCondition(after, before, self._offset(parts, 'after_offset'),
                             self._offset(parts, 'before_offset'))
 
     def _trigger_condition(self, node: Any) -> Condition:
@@ -293,7 +294,8 @@ class _Reader(YamlFile):
                 raise self.fail(data[key], f"'{key}' is not known in data of {name}; "
                                 + did_you_mean(key, data_of(name)))
         texts = tuple((key, self.text(each, key)) for key, each in data.items())
-        found = Service(name, self._targets(node, name, ids), texts, Where(self.path, line_of(node)))
+        found = Service(name, self._targets(node, name, ids), texts,
+                        Where(self.path, line_of(node)))
         self._check(node, found)
         return found
 

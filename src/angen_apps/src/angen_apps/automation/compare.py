@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from angen_apps.automation.bench import Record
-from angen_apps.automation.claims import ANYONE, Claim, Part, Spans, both, inverse, power_used, total
+from angen_apps.automation.claims import (ANYONE, Claim, Part, Spans, both, inverse, power_used,
+                                          total)
 from angen_apps.automation.judge import FAILED, Verdict
 from angen_apps.residents.household import LATITUDE
 from angen_apps.residents.light import daylight

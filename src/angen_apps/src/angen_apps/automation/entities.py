@@ -13,6 +13,7 @@ from angen_tools.common.nearest import did_you_mean
 from angen_tools.session import Event, World
 
 UNKNOWN = 'unknown'
+LISTED = 'angen automation-test SCENARIO --entities'
 ATTRIBUTES = {'position': 'current_position'}  # Home Assistant's words for roles of parts
 
 
@@ -89,7 +90,7 @@ class Entities:
         if name not in self.all:
             alike = [one for one in self.all if one.partition('.')[0] == name.partition('.')[0]]
             raise Failure(f"there is no entity '{name}'; "
-                          + did_you_mean(name, alike or self.all, 'angen automation-test SCENARIO --entities'))
+                          + did_you_mean(name, alike or self.all, LISTED))
         return self.all[name]
 
     def read(self, keys: Iterable[tuple[str, str]], now: float, flags: bool = True

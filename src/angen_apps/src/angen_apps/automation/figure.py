@@ -144,13 +144,13 @@ def _wrapped(text: str, columns: int) -> str:
 
 # --- the time line
 
-def _lanes(record: Record, verdicts: Sequence[Verdict]) -> list[Lane | None]:
-    """People, states, commands and expectations; None is a gap."""
+def _lanes(record: Record, verdicts: Sequence[Verdict]) -> list[Lane]:
+    """People, states, commands and expectations, with gaps."""
     lines = record.lines.values
     rooms = [room.name for room in record.house.site.home.rooms]
-    lanes: list[Any] = [Lane(name, lambda axis, low, high, name=name: _draw_person(
+    lanes = [Lane(name, lambda axis, low, high, name=name: _draw_person(
         axis, record, lines[name, ''], rooms, low, high)) for name in record.lines.people]
-    groups = [lanes, [], [], []]
+    groups: list[list[Lane]] = [lanes, [], [], []]
     for (name, attribute), line in lines.items():
         if '.' in name and (not attribute or _is_named(record, name, attribute)):
             groups[1].append(_state_lane(record, name, attribute, line))
@@ -163,10 +163,10 @@ def _lanes(record: Record, verdicts: Sequence[Verdict]) -> list[Lane | None]:
         groups[3].append(Lane(_cut(verdict.expectation.name), lambda axis, low, high, v=verdict:
                               _draw_verdict(axis, record, v, low, high), SMALL,
                               BAD if verdict.outcome == FAILED else INK))
-    return [lane for group in groups if group for lane in (*group, Gap)][:-1]
+    return [lane for group in groups if group for lane in (*group, GAP_LANE)][:-1]
 
 
-Gap = Lane('', lambda axis, low, high: None, GAP / 2)
+GAP_LANE = Lane('', lambda axis, low, high: None, GAP / 2)
 
 
 def _is_named(record: Record, name: str, attribute: str) -> bool:

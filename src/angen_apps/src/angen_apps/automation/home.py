@@ -188,8 +188,8 @@ class House:
             return order, self.actors[name]
         kind, slash, device = name.partition('/')
         if not slash:
-            raise WrongWords(self.scenario.fail(order.line, f"'{name}' is no person of the scenario "
-                                                'and no KIND/NAME, as stove/kitchen_stove0'))
+            raise WrongWords(self.scenario.fail(order.line, f"'{name}' is no person of the "
+                                                'scenario and no KIND/NAME, as stove/kitchen_stove0'))
         where = self.scenario.fail(order.line, '').rstrip(': ')
         try:
             return order, day.checked_orders(self.site.world, [day.Order(

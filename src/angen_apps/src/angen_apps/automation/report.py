@@ -85,5 +85,3 @@ def tables(folder: Path, record: Record) -> None:
     write_csv(folder / 'states.csv', ('time', 'clock', 'entity', 'attribute', 'value'),
               [(f'{time:.3f}', clock(record, time), name, attribute, value)
                for time, name, attribute, value in rows])
-
-

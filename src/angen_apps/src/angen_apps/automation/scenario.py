@@ -261,7 +261,7 @@ class _Reader(YamlFile):
             raise self.fail(node, f'{kind} needs one of {", ".join(COUNTED)}')
         key = counted[0]
         limit, unit = self._quantity(parts[kind], kind, key)
-        claims, things = {}, ()
+        claims, things = dict[str, Claim](), tuple[str, ...]()
         if key in ('times', 'time_of'):
             claims[key] = self._claim(parts[key], key)
         elif key in ('changes_of', 'energy_of'):

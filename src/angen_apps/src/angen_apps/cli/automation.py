@@ -31,8 +31,8 @@ def add_automation_test(commands: Any) -> None:
                    'automation-test examples/automation/hall_light.yaml',
                    'automation-test my_scenario.yaml --automation my_automations.yaml',
                    'automation-test month.yaml --compare naive.yaml good.yaml',
-                   more='exit code: 0 all expectations hold, 1 one failed, 2 a mistake in a file, or '
-                   'an expectation that was not judged')
+                   more='exit code: 0 all expectations hold, 1 one failed, 2 a mistake in a file, '
+                   'or an expectation that was not judged')
     made.set_defaults(parser=made)
     made.add_argument('scenario', metavar='SCENARIO', type=Path, nargs='+',
                       help='a YAML file, as docs/automation.md describes it')
