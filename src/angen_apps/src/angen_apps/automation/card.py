@@ -12,7 +12,7 @@ from angen_tools.common.files import write_text
 from angen_tools.common.home import Home
 from angen_tools.session.in_process import InProcess
 
-ICONS = ('light', 'switch', 'fan', 'cover', 'binary_sensor', 'climate', 'device_tracker')
+ICONS = ('light', 'switch', 'fan', 'cover', 'binary_sensor', 'climate', 'vacuum')
 TOGGLED = ('light', 'switch', 'fan', 'cover')
 APART = 2.4   # % of the picture's width between two elements
 RINGS = 4     # of places around one that is taken

@@ -162,4 +162,4 @@ def _text(part: Part, thing: Thing) -> str:
         return UNKNOWN
     if isinstance(value, bool):
         return 'on' if value else 'off'
-    return plain(value, part)
+    return str(value) if part.json else plain(value, part)

@@ -189,7 +189,7 @@ class House:
         kind, slash, device = name.partition('/')
         if not slash:
             raise WrongWords(self.scenario.fail(order.line, f"'{name}' is no person of the "
-                                                'scenario and no KIND/NAME, as stove/kitchen_stove0'))
+                                                'scenario and no KIND/NAME, as stove/kitchen0'))
         where = self.scenario.fail(order.line, '').rstrip(': ')
         try:
             return order, day.checked_orders(self.site.world, [day.Order(
