@@ -8,6 +8,7 @@ import pytest
 import yaml
 from PIL import Image
 
+from angen_apps.automation.card import write
 from angen_apps.plan.draw import draw
 from angen_apps.plan.overlays import What
 
@@ -18,7 +19,8 @@ def test_lamps_are_where_they_hang(tmp_path: Path) -> None:
     """Two lamps of a floor give the scale; a third is where that says, and one upstairs as far
     right as the floors are apart. The picture has the tint of a kitchen beside its lamp."""
     world = ROOT / 'worlds/angen.world'
-    draw(world, tmp_path / 'plan.png', What(), tmp_path / 'card.yaml')
+    draw(world, tmp_path / 'plan.png', What(),
+         lambda axes: write(tmp_path / 'card.yaml', world, axes, 'plan.png'))
     card = yaml.safe_load((tmp_path / 'card.yaml').read_text())
     assert (card['type'], card['image']) == ('picture-elements', '/local/plan.png')
     at = {each['entity']: [float(each['style'][key].rstrip('%')) for key in ('left', 'top')]

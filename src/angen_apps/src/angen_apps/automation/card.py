@@ -3,11 +3,12 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any, Iterable, Iterator, NamedTuple
+from typing import Iterator, NamedTuple
 
 from angen_apps.automation.entities import ids_of
 from angen_apps.mqtt.table import SIMULATION, Component
 from angen_apps.mqtt.things import things_of
+from angen_apps.plan.draw import Axes
 from angen_tools.common.files import write_text
 from angen_tools.common.home import Home
 from angen_tools.session.in_process import InProcess
@@ -15,7 +16,7 @@ from angen_tools.session.in_process import InProcess
 ICONS = ('light', 'switch', 'fan', 'cover', 'binary_sensor', 'climate', 'vacuum')
 TOGGLED = ('light', 'switch', 'fan', 'cover')
 APART = 2.4   # % of the picture's width between two elements
-RINGS = 4     # of places around one that is taken
+RINGS = 4     # rounds of places about one that is taken
 
 
 class Element(NamedTuple):
@@ -26,10 +27,11 @@ class Element(NamedTuple):
     top: float
 
 
-def write(path: Path, world: Any, axes: Iterable[tuple[Any, Any]], image: str) -> int:
-    """Writes the card of a world that is drawn on axes; returns the number of its elements."""
-    world.step()  # all devices have a state
-    found = list(_elements(InProcess(world), list(axes)))
+def write(path: Path, world: Path, axes: Axes, image: str) -> None:
+    """Writes the card of a world that is drawn on axes."""
+    opened = InProcess.load(str(world))
+    opened.world.step()  # all devices have a state
+    found = list(_elements(opened, axes))
     lines = ['type: picture-elements', f'image: /local/{image}', 'elements:']
     for each in found:
         domain = each.entity.partition('.')[0]
@@ -39,10 +41,9 @@ def write(path: Path, world: Any, axes: Iterable[tuple[Any, Any]], image: str) -
             lines.append('    tap_action: {action: toggle}')
         lines.append(f'    style: {{left: {each.left:.2f}%, top: {each.top:.2f}%}}')
     write_text(path, '\n'.join(lines) + '\n')
-    return len(found)
 
 
-def _elements(world: InProcess, axes: list[tuple[Any, Any]]) -> Iterator[Element]:
+def _elements(world: InProcess, axes: Axes) -> Iterator[Element]:
     poses = {(entity.kind, entity.name): entity.pose for entity in world.entities()}
     things = {key: thing for key, thing in things_of(world, truth=False).items()
               if key != (SIMULATION, SIMULATION)}

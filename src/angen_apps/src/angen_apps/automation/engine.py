@@ -19,7 +19,7 @@ from angen_tools.common.sun import sun
 
 FEW = 1e-6  # s, more than the rounding of a time
 ROUNDS = 1000  # automations that start one another at one moment
-HALVINGS = 20  # of a day, to a tenth of a second
+HALVINGS = 20  # so often a part of a day is halved, to milliseconds
 STEPS = 288  # looks at the sun a day
 RISEN = -0.267  # degrees: the apparent elevation of the sun's middle when its edge rises
 

@@ -30,7 +30,7 @@ from angen_tools.session.in_process import InProcess
 from angen_tools.world import sdf
 
 SPEED = 1.0  # m/s of people of a script
-CORNER = 1  # of a room, where added sensors are
+CORNER = 1  # the number of the one where added sensors are
 FEEDS = ('plug',)  # sensors that devices need
 
 

@@ -68,9 +68,9 @@ class Expectation:
     kind: str
     name: str
     claims: dict[str, Claim]
-    within: float = 0.0   # of expect
-    held: float = 0.0     # of never and always: `for`
-    counted: str = ''     # of at_most and at_least: the key of what is counted
+    within: float = 0.0
+    held: float = 0.0     # `for` in the file
+    counted: str = ''     # the key of what is counted
     things: tuple[str, ...] = ()
     limit: float = 0.0
     unit: str = ''

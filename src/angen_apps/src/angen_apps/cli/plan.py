@@ -11,13 +11,19 @@ from angen_tools.common.output import show_done
 
 
 def run_plan(args: argparse.Namespace) -> int:
-    from angen_apps.plan.draw import draw
+    from angen_apps.automation.card import write
+    from angen_apps.plan.draw import Axes, draw
     from angen_apps.plan.overlays import What
     check_output(args.output)
     if args.card:
         check_output(args.card, '.yaml')
-    show_done(draw(args.world, args.output, What(args.sensors, args.events, args.track),
-                   args.card), args.json)
+
+    def placed(axes: Axes) -> None:
+        if args.card:
+            write(args.card, args.world, axes, args.output.name)
+
+    show_done(draw(args.world, args.output, What(args.sensors, args.events, args.track), placed),
+              args.json)
     return 0
 
 
