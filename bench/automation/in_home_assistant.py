@@ -14,9 +14,10 @@ import logging
 import sys
 import time
 from collections import Counter
+from pathlib import Path
 from typing import Any, Callable
 
-from homeassistant import bootstrap, config_entries, core, loader  # type: ignore[import]
+from homeassistant import auth, bootstrap, config_entries, core, loader  # type: ignore[import]
 from homeassistant.setup import async_setup_component  # type: ignore[import]
 
 LIMIT = 60.0  # s
@@ -46,12 +47,13 @@ async def until(holds: Callable[[], bool]) -> float:
 
 
 async def started(folder: str, broker: int, http: int) -> Any:
+    (Path(folder) / 'configuration.yaml').touch()
     hass = core.HomeAssistant(folder)
     hass.config.skip_pip = True
     loader.async_setup(hass)
-    await bootstrap.async_load_base_functionality(hass)
     hass.config_entries = config_entries.ConfigEntries(hass, {})
-    await hass.config_entries.async_initialize()
+    await bootstrap.async_load_base_functionality(hass)
+    hass.auth = await auth.auth_manager_from_config(hass, [{'type': 'homeassistant'}], [])
     for component, config in (('homeassistant', {}), ('http', {'server_port': http})):
         await async_setup_component(hass, component, {component: config})
     entry = config_entries.ConfigEntry(
@@ -64,6 +66,7 @@ async def started(folder: str, broker: int, http: int) -> Any:
 
 
 async def main() -> None:
+    logging.basicConfig(level=logging.ERROR)
     complaints = Complaints()
     logging.getLogger().addHandler(complaints)
     hass = await started(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]))

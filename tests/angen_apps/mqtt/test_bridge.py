@@ -270,3 +270,12 @@ def test_a_robot_is_a_vacuum_that_cleans_while_it_drives() -> None:
     rig.broker.receives('angen/drive/robot/state/set', 'stop')
     rig.turns()
     assert rig.world.commands == ['drive/robot Stop']
+
+
+def test_floors_of_summaries_have_their_words() -> None:
+    """Home Assistant rejects a state of a select that is none of its options."""
+    rig = Rig('elevator/lift').turns()
+    rig.world.has_summary('elevator', 'lift', 1.0, target_floor=1.0)
+    rig.turns()
+    options = rig.broker.json('homeassistant/select/angen/elevator_lift_floor/config')['options']
+    assert rig.broker.retained['angen/elevator/lift/floor'] == options[1] == 'Floor 1'

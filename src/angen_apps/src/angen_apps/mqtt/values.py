@@ -25,8 +25,9 @@ def value_of(part: Part, fields: Mapping[str, Any], before: Value = None) -> Val
         return None
     if part.over:
         found = abs(found) > part.over
-    if part.words:
-        return part.words.get(str(found), str(found))
+    if part.words:  # a summary has floors as 1.0
+        word = f'{found:g}' if isinstance(found, float) else str(found)
+        return part.words.get(word, word)
     if part.type == 'flag':
         return None if math.isnan(found) else bool(found) != part.invert
     if isinstance(found, str):
