@@ -77,7 +77,7 @@ def unknown(span: str, own: set[str]) -> list[str]:
     if is_path(span):
         return [] if exists(span) else [span]
     wrong = []
-    command = re.match(r'(?:\./)?angen ([a-z]\w+)', span)
+    command = re.match(r'(?:\./)?angen ([a-z][\w-]+)', span)
     if command and command.group(1) not in subcommands():
         wrong.append(command.group())
     if re.fullmatch(r'\w+_test|test_\w+(\.py)?', span) and not (

@@ -87,3 +87,21 @@ def test_long_steps_are_not_recorded(tmp_path) -> None:
     with pytest.raises(angen.Error, match='long steps cannot be recorded'):
         w.run(1.0, long_steps=True)
     assert w.time == 0.0
+
+
+def test_a_run_can_end_with_each_event(world: World) -> None:
+    """It stops in the tick of an event, goes on from there, and all is as in one run."""
+    whole, parts = world(SENSORS + ANN), world(SENSORS + ANN)
+    for each in (whole, parts):
+        each.run(1.0)
+        each.events()
+        each.command('person', 'ann', 'GoTo 4 0.4')
+    whole.run(8.0)
+    end, found, stops = whole.time, parts.events(), 0
+    while parts.time < end - 1e-9:
+        parts.run(end - parts.time, until_event=True)
+        new = parts.events()
+        assert all(-1e-6 < parts.time - at < 0.001 + 1e-6 for at, *_ in new)
+        stops, found = stops + bool(new), found + new
+    assert found == whole.events() and stops >= 5
+    assert whole.device('person', 'ann') == parts.device('person', 'ann')

@@ -95,15 +95,16 @@ std::vector<Entity> entities(const World& world, const std::string& kind) {
   return all;
 }
 
-// In slices so that Ctrl-C ends a long run.
+// In slices so that Ctrl-C ends a long run; until `take` returns true.
 template <class F>
 void advance(std::uint64_t ticks, F&& take) {
   constexpr std::uint64_t kSlice = 10000;
-  while (ticks > 0) {
+  bool stops = false;
+  while (ticks > 0 && !stops) {
     const std::uint64_t slice = std::min(ticks, kSlice);
     {
       const pyb::gil_scoped_release release;
-      take(slice);
+      stops = take(slice);
     }
     ticks -= slice;
     if (PyErr_CheckSignals() != 0) throw pyb::error_already_set();
@@ -156,18 +157,22 @@ void bind_world(pyb::module_& module) {
       .def(
           "step",
           [](World& w, std::uint64_t ticks) {
-            advance(ticks, [&](std::uint64_t n) { w.step(n); });
+            advance(ticks, [&](std::uint64_t n) {
+              w.step(n);
+              return false;
+            });
           },
           pyb::arg("ticks") = 1, "Advances by ticks, each of them taken.")
       .def(
           "run",
-          [](World& w, double seconds, bool long_steps) {
-            advance(w.ticks_in(seconds), [&](std::uint64_t n) { w.run(n, long_steps); });
+          [](World& w, double seconds, bool long_steps, bool until_event) {
+            advance(w.ticks_in(seconds),
+                    [&](std::uint64_t n) { return w.run(n, long_steps, until_event); });
           },
-          pyb::arg("seconds"), pyb::arg("long_steps") = false,
+          pyb::arg("seconds"), pyb::arg("long_steps") = false, pyb::arg("until_event") = false,
           "Advances by simulated seconds; ticks in which nothing happens are leapt over. With "
           "long_steps ticks are up to 20 ms long while nothing moves but people who walk free of "
-          "contact.")
+          "contact. With until_event it ends earlier: with the tick of the first event.")
       .def("command", &World::command, pyb::arg("kind"), pyb::arg("name"), pyb::arg("text") = "",
            pyb::arg("values") = std::vector<double>{},
            "Commands a device, e.g. ('door', 'bathroom1', 'Open'); ('drive', 'turtlebot', "

@@ -136,15 +136,21 @@ void World::step(std::uint64_t ticks) {
   raise_failure();
 }
 
-void World::run(std::uint64_t ticks, bool long_steps) {
+bool World::run(std::uint64_t ticks, bool long_steps, bool until_event) {
   require_open();
-  if (ticks == 0) return;
+  if (ticks == 0) return false;
   if (long_steps && recorder_) throw Error("long steps cannot be recorded: a replay has none");
-  const std::future<sim::Outcome> done = simulation_.post(sim::Step{ticks});
+  const auto ticket = std::make_shared<sim::Ticket>();
+  const std::future<sim::Outcome> done = simulation_.post(sim::Step{ticks}, ticket);
   const std::int64_t last = snapshot_->tick + static_cast<std::int64_t>(ticks);
-  while (snapshot_->tick < last)
+  bool stops = false;
+  while (snapshot_->tick < last && !stops) {
     take(simulation_.leap(leap_limit(last * snapshot_->step), long_steps));
+    stops = until_event && !snapshot_->events.empty();
+  }
+  if (stops) ticket->withdraw();
   raise_failure();
+  return stops;
 }
 
 Nanoseconds World::leap_limit(Nanoseconds until) const {

@@ -34,8 +34,9 @@ class World {
 
   void step(std::uint64_t ticks);
   /// Runs ticks, leaping over those without a change; for `long_steps` see Simulation::leap.
-  void run(std::uint64_t ticks) { run(ticks, false); }
-  void run(std::uint64_t ticks, bool long_steps);
+  void run(std::uint64_t ticks) { run(ticks, false, false); }
+  /// Whether it has ended with an event, before `ticks`.
+  bool run(std::uint64_t ticks, bool long_steps, bool until_event);
   std::uint64_t ticks_in(double seconds) const;
 
   /// Throw Error if the simulator rejects the action.

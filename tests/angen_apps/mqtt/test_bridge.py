@@ -256,3 +256,26 @@ def test_hostile_names_are_escaped_in_topics() -> None:
                         'ON')
     rig.turns()
     assert rig.world.commands == ['lamp/a/#+ ü\x7f On']
+
+
+def test_a_robot_is_a_vacuum_that_cleans_while_it_drives() -> None:
+    """Home Assistant takes the state of a vacuum as JSON."""
+    rig = Rig('drive/robot').turns()
+    states = []
+    for time, speed in enumerate((0.0, -0.2, 0.001), 1):
+        rig.world.has_summary('drive', 'robot', float(time), v=speed)
+        rig.turns()
+        states.append(rig.broker.json('angen/drive/robot/state'))
+    assert states == [{'state': word} for word in ('idle', 'cleaning', 'idle')]
+    rig.broker.receives('angen/drive/robot/state/set', 'stop')
+    rig.turns()
+    assert rig.world.commands == ['drive/robot Stop']
+
+
+def test_floors_of_summaries_have_their_words() -> None:
+    """Home Assistant rejects a state of a select that is none of its options."""
+    rig = Rig('elevator/lift').turns()
+    rig.world.has_summary('elevator', 'lift', 1.0, target_floor=1.0)
+    rig.turns()
+    options = rig.broker.json('homeassistant/select/angen/elevator_lift_floor/config')['options']
+    assert rig.broker.retained['angen/elevator/lift/floor'] == options[1] == 'Floor 1'

@@ -11,10 +11,19 @@ from angen_tools.common.output import show_done
 
 
 def run_plan(args: argparse.Namespace) -> int:
-    from angen_apps.plan.draw import draw
+    from angen_apps.automation.card import write
+    from angen_apps.plan.draw import Axes, draw
     from angen_apps.plan.overlays import What
     check_output(args.output)
-    show_done(draw(args.world, args.output, What(args.sensors, args.events, args.track)), args.json)
+    if args.card:
+        check_output(args.card, '.yaml')
+
+    def placed(axes: Axes) -> None:
+        if args.card:
+            write(args.card, args.world, axes, args.output.name)
+
+    show_done(draw(args.world, args.output, What(args.sensors, args.events, args.track), placed),
+              args.json)
     return 0
 
 
@@ -24,6 +33,7 @@ def add_plan(commands: Any) -> None:
                      'draws the floor plan of a world to scale; needs no simulator',
                      'plan home.world -o plan.svg', 'plan home.world --sensors -o plan.png',
                      'plan worlds/angen.world --events out/events.csv -o plan.png',
+                     'plan worlds/angen.world --card card.yaml -o plan.png',
                      'plan worlds/angen.world --track out/track.csv -o plan.png')
     add_world_file(parser, 'the SDF file of the building', required=True)
     parser.add_argument('--sensors', action='store_true',
@@ -34,6 +44,8 @@ def add_plan(commands: Any) -> None:
     parser.add_argument('--track', metavar='FILE', type=Path, help='with ways: track.csv of '
                         'angen demo or task seek, track.csv.gz of angen generate, or a CSV file '
                         'with the columns x, y and, if it has them, z, storey and name')
+    parser.add_argument('--card', metavar='FILE', type=Path, help='also writes a picture-elements '
+                        'card of Home Assistant, a YAML file with the entities of angen mqtt')
     add_file(parser, 'a file .svg or .png')
     add_allow_paths(parser)
     add_json(parser)

@@ -95,7 +95,7 @@ class Site:
             self._clear()
             _Placer(self, light).place()
         self._heat()
-        self.sensors = self._listed()
+        self.sensors = self.listed()
         if placed:
             self.sensors.append(Sensor(MAINS, 'mains', '', 'mains', '', 0.0, 0.0, 0.0))
 
@@ -114,7 +114,7 @@ class Site:
             if kind == 'climate':
                 self.simulator.command(kind, name, f'Heat {HEATING:g}')
 
-    def _listed(self) -> list[Sensor]:
+    def listed(self) -> list[Sensor]:
         """The sensors by id, counted from 1 by kind in the order of their names."""
         found: dict[str, list[tuple[str, str, Entity]]] = {}
         for entity in entities_of(InProcess(self.world)):
@@ -132,6 +132,21 @@ class Site:
                 sensors.append(Sensor(f'{letter}{number:03d}', kind, entity.kind, name,
                                       entity.room, x, y, z))
         return sensors
+
+
+def corner(room: Room, number: int) -> tuple[float, float]:
+    """Beside a corner of a room, inside."""
+    at = room.polygon[number % len(room.polygon)]
+    cx, cy = room.center
+    share = 2 * WALL / math.dist(at, (cx, cy))
+    return at[0] + (cx - at[0]) * share, at[1] + (cy - at[1]) * share
+
+
+def facing(room: Room, number: int) -> tuple[float, float, float]:
+    """Beside a corner, and the yaw from there to the room's middle."""
+    x, y = corner(room, number)
+    cx, cy = room.center
+    return x, y, math.atan2(cy - y, cx - x)
 
 
 def _sampled(model: str) -> str:
@@ -160,9 +175,9 @@ class _Placer:
             if room.use in AREAS:
                 self._area(room)
             self._spawn('model://temperature_sensor', f'{room.name}_temperature',
-                        (*self._corner(room, 0), room.floor + 1.5, 0.0))
+                        (*corner(room, 0), room.floor + 1.5, 0.0))
             if self.light:
-                x, y, yaw = self._facing(room, 1)
+                x, y, yaw = facing(room, 1)
                 self._spawn('model://luminosity_sensor', f'{room.name}_light',
                             (x, y, room.floor + HIGH, yaw))
         for door in self.home.doors:
@@ -204,22 +219,9 @@ class _Placer:
                         (x, y, room.ceiling - CEILING, 0.0), math.pi / 2)
 
     def _area(self, room: Room) -> None:
-        x, y, yaw = self._facing(room, 2)
+        x, y, yaw = facing(room, 2)
         self._spawn(_sampled('pir_pyroelectric'), f'area_{room.name}',
                     (x, y, room.floor + HIGH, yaw))
-
-    def _corner(self, room: Room, number: int) -> tuple[float, float]:
-        """Beside a corner of the room, inside."""
-        corner = room.polygon[number % len(room.polygon)]
-        cx, cy = room.center
-        away = math.dist(corner, (cx, cy))
-        share = 2 * WALL / away
-        return corner[0] + (cx - corner[0]) * share, corner[1] + (cy - corner[1]) * share
-
-    def _facing(self, room: Room, number: int) -> tuple[float, float, float]:
-        x, y = self._corner(room, number)
-        cx, cy = room.center
-        return x, y, math.atan2(cy - y, cx - x)
 
     def _contact(self, door: str) -> None:
         """A reed contact at the upper edge of a leaf, on a model with links base and door."""

@@ -31,6 +31,10 @@ UNKNOWN = 'None'
 BIRTH = f'{ROOT}/status'  # Home Assistant sends it when it starts
 
 
+class Taken(Failure):
+    """Another bridge has our prefix."""
+
+
 class Link(Protocol):
     """A Broker, or what stands for it in a test."""
 
@@ -154,8 +158,8 @@ class Bridge:
             if ' ' not in text:
                 self._broker.publish(self._topic('hello'), f'{text} {self._id}', retain=False)
         elif text.startswith(f'{self._id} '):
-            raise Failure(f'another angen mqtt has the prefix {self._style.base} on this broker; '
-                          'give this one another --prefix')
+            raise Taken(f'another angen mqtt has the prefix {self._style.base} on this broker; '
+                        'give this one another --prefix')
 
     def _topics_before(self, text: str) -> tuple[list[str], str]:
         """Topics that a bridge with our prefix has left, and its id."""

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import secrets
+import socket
 import ssl
 import sys
 import threading
@@ -144,6 +145,7 @@ class Broker:
         if code != 0:
             self._fail(REASONS.get(code, f'refuses the connection ({code})'))
             return
+        self._client.socket().setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         with self._lock:
             self.connected = self._is_new = True
             self.connections += 1

@@ -2,12 +2,14 @@
 from __future__ import annotations
 
 import math
+import os
 import signal
+import sys
 import time
 from pathlib import Path
 from typing import Any
 
-from angen_apps.mqtt.bridge import Bridge
+from angen_apps.mqtt.bridge import Bridge, Taken
 from angen_apps.mqtt.broker import Access, Broker, Log
 from angen_apps.mqtt.discovery import Discovery
 from angen_apps.mqtt.habits import SHOP, Habits
@@ -19,12 +21,14 @@ from angen_tools.session.live import Live
 
 TURN = 0.5  # s of wall time between two turns without news
 REST = 0.01  # s between two turns with news, which take several messages at once
+PAUSE = 1.0  # s after a simulator has ended
 TLS_PORT = 8883
 
 
 def serve(access: Access, prefix: str, style_name: str, discovery: str, profile: str, truth: bool
           ) -> None:
-    """Bridges until Ctrl-C, or until the simulator ends."""
+    """Bridges until Ctrl-C. If the simulator ends, this process starts again and waits for the
+    next one."""
     start_node('mqtt')
     log = Log()
     world = _simulator(log)
@@ -50,9 +54,16 @@ def serve(access: Access, prefix: str, style_name: str, discovery: str, profile:
             if not bridge.has_work:
                 world.until(lambda: bool(ends or broker.waiting or world.received != seen), TURN)
                 time.sleep(REST)
+    except Taken:
+        raise
+    except Failure as why:  # the simulator has ended, perhaps within a call
+        log.say(f'{why}; waits for the next simulator', True)
     finally:
         bridge.stop()
         broker.stop()
+    if not ends:
+        time.sleep(PAUSE)
+        os.execv(sys.executable, sys.orig_argv)  # a new node, of the next master
 
 
 def _simulator(log: Log) -> Live:

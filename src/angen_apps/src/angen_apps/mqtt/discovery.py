@@ -87,7 +87,7 @@ class Discovery:
             found[state] = self._style.topic(thing, part)
             if part.event and self._style.template(part):
                 found[state] += f'/{part.key}'
-            elif self._style.template(part):
+            elif self._style.template(part) and not part.json:
                 found[template] = self._style.template(part)
         if part.takes_commands:
             found[command] = self._style.command_topic(thing, part)

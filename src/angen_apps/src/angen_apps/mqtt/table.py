@@ -38,6 +38,8 @@ class Part:
     scale: float = 1.0
     decimals: int = 0
     share: str = ''
+    over: float = 0.0
+    json: bool = False
     each: str = ''
     index: int | None = None
     event: str = ''
@@ -166,8 +168,9 @@ def _part(kind: Plugin, key: str, role: str, entry: Mapping[str, Any], floors: S
         math.inf if high is None else float(high), words,
         decimals=entry.get('decimals', table()['units'].get(found.get('unit'), {}).get(
             'decimals', 0)),
-        **{name: entry[name] for name in ('invert', 'scale', 'share', 'each', 'index', 'event',
-                                          'constant', 'zigbee') if name in entry})
+        **{name: entry[name] for name in ('invert', 'scale', 'share', 'over', 'json', 'each',
+                                          'index', 'event', 'constant', 'zigbee')
+           if name in entry})
 
 
 def guessed(kind: Plugin) -> dict[str, Any]:

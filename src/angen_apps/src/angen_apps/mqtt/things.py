@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cache
 from typing import Any, Iterator
 
 from angen_apps.controls.offers import walk
@@ -100,6 +101,7 @@ def followed(things: dict[tuple[str, str], Thing]) -> list[str]:
     return sorted(found)
 
 
+@cache
 def flags_by_event(kind: str) -> dict[str, tuple[str, bool]]:
     """The field and its value after an event of a sensor, by the event's name."""
     return {event: (each['name'], value) for each in kinds().get(kind, {'fields': []})['fields']

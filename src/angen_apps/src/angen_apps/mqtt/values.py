@@ -23,8 +23,11 @@ def value_of(part: Part, fields: Mapping[str, Any], before: Value = None) -> Val
         found = _of_list(part, found)
     if found is None:
         return None
-    if part.words:
-        return part.words.get(str(found), str(found))
+    if part.over:
+        found = abs(found) > part.over
+    if part.words:  # a summary has floors as 1.0
+        word = f'{found:g}' if isinstance(found, float) else str(found)
+        return part.words.get(word, word)
     if part.type == 'flag':
         return None if math.isnan(found) else bool(found) != part.invert
     if isinstance(found, str):
@@ -61,6 +64,8 @@ def plain(value: Value, part: Part) -> str:
     """A value as the payload of its own topic; None is what Home Assistant takes as unknown."""
     if isinstance(value, bool):
         return 'ON' if value else 'OFF'
+    if part.json and value is not None:
+        return json.dumps({'state': value})
     return f'{value:.{part.decimals}f}' if isinstance(value, float) else str(value)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import cos, pi, sin
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Any, Callable, Sequence
 
 import numpy as np
 
@@ -24,6 +24,7 @@ MARGIN = 1.0  # m around a storey
 DPI = 130
 TINTS = {'kitchen': '#fdf0d8', 'bedroom': '#e8eefa', 'bathroom': '#dff2f2', 'living': '#f3f0e4',
          'hall': '#efefef', 'work': '#e9f3e4', 'landing': '#e6e6e6', 'outdoor': '#e4f1dc'}
+Axes = Sequence[tuple[Any, Storey]]  # one pair for each storey
 INK, GRAY, THIN = '#222222', '#8a8a8a', 0.7
 
 
@@ -81,8 +82,10 @@ def read_running(copy: Path) -> Scene:
     return read_scene(copy)
 
 
-def draw(path: Path, output: Path, what: overlays.What) -> dict[str, Any]:
-    """Draws a world's plan as SVG or PNG, by the ending of `output`; returns the result."""
+def draw(path: Path, output: Path, what: overlays.What,
+         placed: Callable[[Axes], None] = lambda _: None) -> dict[str, Any]:
+    """Draws a world's plan as SVG or PNG, by the ending of `output`; returns the result. `placed`
+    is called with the axes before it is written."""
     kind = output.suffix.lower().lstrip('.')
     if kind not in ('svg', 'png'):
         raise Failure(f'{output}: must end in .svg or .png')
@@ -92,6 +95,7 @@ def draw(path: Path, output: Path, what: overlays.What) -> dict[str, Any]:
         figure, axes = sheet(scene, scene.drawn())
         for axis, storey in axes:
             overlays.draw(axis, scene, storey, data, what)
+        placed(axes)
         metadata = {'Date': None} if kind == 'svg' else {'Software': None}
         save_figure(figure, output, format=kind, dpi=DPI, metadata=metadata)
     counts = {'floors': len(axes), 'rooms': len(scene.home.rooms),

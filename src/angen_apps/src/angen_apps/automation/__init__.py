@@ -1,0 +1,1 @@
+"""angen automation-test: home automations over simulated days of a home."""

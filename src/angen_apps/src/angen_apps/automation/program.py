@@ -1,0 +1,222 @@
+"""A program on MQTT that is tested: it gets a broker of its own with the topics of angen mqtt, and
+simulated time waits for its answers."""
+from __future__ import annotations
+
+import math
+import os
+import shlex
+import shutil
+import signal
+import socket
+import subprocess
+import tempfile
+import threading
+import time
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Callable, Sequence
+
+from angen_apps.automation.automations import Where
+from angen_apps.automation.scenario import Program
+from angen_apps.mqtt.broker import Access, Broker, Log, Message
+from angen_apps.mqtt.discovery import Discovery
+from angen_apps.mqtt.styles import Plain
+from angen_apps.mqtt.things import Thing
+from angen_tools.common.catalog import angen_module
+from angen_tools.common.failure import Failure, WrongWords
+
+if TYPE_CHECKING:
+    from angen_apps.automation.bench import Bench, Change
+
+BASE = 'angen'
+TICK = 1.0      # s of simulated time between two messages of it
+ANSWER = 10.0   # s of wall time in which a program answers
+START = 60.0    # the same, for its first answer
+AGAIN = 0.3     # the same, until it is asked again
+TAKE = 50       # messages at a time
+
+
+class MqttProgram:
+    """See bench.Subject. After all that one moment changes, a barrier is published; it has been
+    read by the program when that has answered, or when nothing has come for a while."""
+
+    def __init__(self, program: Program, where: Where) -> None:
+        self._program, self._where = program, where
+        self.needs: set[str] = set()
+        self._style = Plain(BASE)
+        self._wakes = threading.Event()
+        self._barriers = 0
+        self._next = 0.0
+        self._processes: list[subprocess.Popen[bytes]] = []
+        self._broker: Broker | None = None
+
+    @property
+    def due(self) -> float:
+        return self._next
+
+    def begin(self, bench: Bench) -> None:
+        self._bench = bench
+        self._folder = tempfile.TemporaryDirectory(prefix='angen_')
+        port = self._start_broker()
+        self._broker = Broker(Access('127.0.0.1', port), Log(), self._wakes.set)
+        self._broker.start((f'{BASE}/bridge/state', self._style.offline))
+        self._until(lambda: bool(self._broker and self._broker.connected), START,
+                    'there is no connection to the broker')
+        self._broker.subscribe([*self._style.filters, self._topic('barrier'),
+                                self._topic('barrier/done')])
+        self._publish_all()
+        self._log = Path(self._folder.name) / 'program.log'
+        with self._log.open('wb') as log:
+            text = self._program.command
+            for word, value in (('host', '127.0.0.1'), ('port', str(port)),
+                                ('folder', str(self._where.path.parent))):
+                text = text.replace(f'{{{word}}}', value)
+            try:
+                self._processes.append(subprocess.Popen(
+                    shlex.split(text), stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                    start_new_session=True))
+            except OSError as error:
+                raise WrongWords(f'{self._where}: {text}: {error.strerror}') from None
+        self._barrier(START)
+        self._next = bench.now
+
+    def _start_broker(self) -> int:
+        found = shutil.which('mosquitto', path=os.environ.get('PATH', '') + ':/usr/sbin')
+        if found is None:
+            raise WrongWords(f'{self._where}: a program needs the broker mosquitto; '
+                             'sudo apt-get install mosquitto')
+        with socket.socket() as probe:
+            probe.bind(('127.0.0.1', 0))
+            port = int(probe.getsockname()[1])
+        config = Path(self._folder.name) / 'mosquitto.conf'
+        config.write_text(f'listener {port} 127.0.0.1\nallow_anonymous true\n'
+                          'set_tcp_nodelay true\n', encoding='utf-8')
+        self._processes.append(subprocess.Popen([found, '-c', str(config)],
+                                                stdin=subprocess.DEVNULL,
+                                                stdout=subprocess.DEVNULL,
+                                                stderr=subprocess.DEVNULL,
+                                                start_new_session=True))
+        end = time.monotonic() + START
+        while time.monotonic() < end:
+            with suppress(OSError):
+                socket.create_connection(('127.0.0.1', port), 1.0).close()
+                break
+            time.sleep(0.02)
+        return port
+
+    def _topic(self, name: str) -> str:
+        return f'{BASE}/bridge/{name}'
+
+    def _publish_all(self) -> None:
+        assert self._broker is not None
+        discovery = Discovery(self._style, False, angen_module().__version__)
+        for thing in self._bench.entities.things.values():
+            for topic, payload in {**discovery.messages(thing), **self._states(thing)}.items():
+                self._broker.publish(topic, payload)
+        self._broker.publish(self._topic('state'), self._style.online)
+
+    def _states(self, thing: Thing) -> dict[str, str]:
+        return self._style.states(thing, thing.shown)
+
+    def observe(self, changes: Sequence[Change], now: float) -> None:
+        assert self._broker is not None
+        self._send_time(now)
+        for key in dict.fromkeys(entity.thing.key for entity, _, _ in changes):
+            thing = self._bench.entities.things[key]
+            for topic, payload in self._states(thing).items():
+                self._broker.publish(topic, payload)
+        self._barrier(ANSWER)
+
+    def advance(self, now: float) -> bool:
+        if now < self._next - 1e-6:
+            return False
+        self._next = (math.floor(now / TICK + 1e-6) + 1) * TICK
+        self._send_time(now)
+        self._barrier(ANSWER)
+        return True
+
+    def _send_time(self, now: float) -> None:
+        assert self._broker is not None
+        self._broker.publish(f'{BASE}/simulation/simulation/time', f'{now:.3f}')
+
+    def _barrier(self, limit: float) -> None:
+        """Returns when the program has read all, and its commands are executed."""
+        assert self._broker is not None
+        self._barriers += 1
+        number = str(self._barriers)
+        asked = -math.inf
+        waits = self._topic('barrier' if self._program.answers == 'quiet' else 'barrier/done')
+        end, heard, came = time.monotonic() + limit, math.inf, False
+        while not came or time.monotonic() < heard + self._quiet:
+            left = (heard + self._quiet if came else end) - time.monotonic()
+            if not came and time.monotonic() > asked + AGAIN:  # it was not connected yet
+                asked = time.monotonic()
+                self._broker.publish(self._topic('barrier'), number, retain=False)
+            if not came and left <= 0.0:
+                self._fail(f'the program has not answered for {limit:g} s')
+            self._wakes.wait(min(max(left, 0.0), 0.1))
+            self._wakes.clear()
+            while messages := self._broker.take(TAKE):
+                for message in messages:
+                    heard = time.monotonic()
+                    if message.topic == waits and message.payload.decode() == number:
+                        came = True
+                    elif message.topic.endswith('/set') and not message.retained:
+                        self._execute(message)
+            self._check()
+
+    @property
+    def _quiet(self) -> float:
+        return self._program.quiet if self._program.answers == 'quiet' else 0.0
+
+    def _execute(self, message: Message) -> None:
+        from angen_apps.automation.bench import Done
+        entities, now = self._bench.entities, self._bench.now
+        try:
+            payload = message.payload.decode()
+            for thing, part, text in self._style.find(message.topic, payload,
+                                                      entities.things.values()):
+                entity = next(one for one in entities.all.values()
+                              if one.thing is thing and part in one.component.parts)
+                error = ''
+                try:
+                    entities.command(entity, part, text)
+                except Failure as why:
+                    error = str(why)
+                self._bench.done.append(Done(now, 'program', f'{part.key} {text}', entity.id,
+                                             error))
+        except ValueError as why:
+            self._bench.done.append(Done(now, 'program', message.topic, '', str(why)))
+
+    def _check(self) -> None:
+        """Whether all run."""
+        assert self._broker is not None
+        if not self._broker.connected:
+            self._fail('the broker has closed the connection')
+        if self._processes[-1].poll() is not None:
+            said = self._log.read_text(errors='replace').strip().splitlines()
+            self._fail(f'the program has ended with {self._processes[-1].returncode}'
+                       + (f': {said[-1]}' if said else ''))
+
+    def _fail(self, why: str) -> None:
+        from angen_apps.automation.bench import Cut
+        raise Cut(f'{self._where}: {why}')
+
+    def _until(self, holds: Callable[[], bool], limit: float, why: str) -> None:
+        end = time.monotonic() + limit
+        while not holds():
+            if time.monotonic() > end:
+                self._fail(why)
+            time.sleep(0.005)
+
+    def end(self) -> None:
+        if self._broker is not None:
+            self._broker.stop()
+        for process in reversed(self._processes):
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGTERM)
+            try:
+                process.wait(5.0)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
