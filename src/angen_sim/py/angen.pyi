@@ -273,10 +273,10 @@ class World:
     def step(self, ticks: int = 1) -> None:
         """Advances by ticks, each of them taken."""
 
-    def run(self, seconds: float, long_steps: bool = False) -> None:
+    def run(self, seconds: float, long_steps: bool = False, until_event: bool = False) -> None:
         """Advances by simulated seconds; ticks in which nothing happens are leapt over. With
         long_steps ticks are up to 20 ms long while nothing moves but people who walk free of
-        contact."""
+        contact. With until_event it ends earlier: with the tick of the first event."""
 
     def command(self, kind: str, name: str, text: str = '', values: Sequence[float] = []) -> None:
         """Commands a device, e.g. ('door', 'bathroom1', 'Open'); ('drive', 'turtlebot', values=[0.3,

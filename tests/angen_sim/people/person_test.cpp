@@ -252,7 +252,8 @@ TEST(Person, GoesWhereItIsSentRoundWhatStandsInTheWay) {
 
 TEST(Person, RejectsToGoNowhere) {
   Walk walk(Parameters{});
-  for (const char* text : {"GoTo", "GoTo 1", "GoTo 1 x", "GoTo nan 1", "GoTo 1 2 3 4", "PushTo 1"}) {
+  for (const char* text :
+       {"GoTo", "GoTo 1", "GoTo 1 x", "GoTo nan 1", "GoTo 1 2 3 4", "PushTo 1"}) {
     const Verdict verdict = walk.rig->command(text);
     EXPECT_FALSE(verdict.accepted) << text;
     EXPECT_NE(verdict.reason.find("GoTo <x> <y>"), std::string::npos) << verdict.reason;
