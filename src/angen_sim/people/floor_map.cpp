@@ -23,6 +23,7 @@ constexpr double kMaxMapCells = 4e6;
 constexpr double kTightMap = 3.0;    // per meter nearer to something than kRoomyMap
 constexpr double kInside = 0.3;      // m from the surface: deeper places need no distances
 constexpr double kStep = 0.2;        // m up or down that a floor may be
+constexpr double kGap = 0.15;        // m: one steps over it, as between a landing and a cabin
 constexpr double kFloorStep = 0.01;  // m, of the heights of maps
 constexpr double kStartAway = 1.0;   // m, at most, from a place without room to a free one
 
@@ -264,7 +265,12 @@ bool FloorMap::has_floor(const View& view, const Vec2& from, const Vec2& to) con
   }
   std::vector<rays::Hit> hits;
   view.cast(down, hits);
-  return std::all_of(hits.begin(), hits.end(), [](const rays::Hit& hit) { return hit.hit(); });
+  int missing = 0;
+  for (const rays::Hit& hit : hits) {
+    missing = hit.hit() ? 0 : missing + 1;
+    if (missing * kCell > kGap) return false;
+  }
+  return missing == 0;
 }
 
 /// A* over the free cells.

@@ -41,7 +41,7 @@ class FloorMap {
   bool is_free(const Vec2& place) const;
   /// Whether a person who walks straight stays free.
   bool is_clear(const Vec2& from, const Vec2& to) const;
-  /// Whether there is floor all along a straight way.
+  /// Whether there is floor along a straight way, but for gaps that one steps over.
   bool has_floor(const View& view, const Vec2& from, const Vec2& to) const;
   /// The best way on floor, as places at most two cells apart, to within `tolerance` (m) of `to`;
   /// none if no way leads there. Ways along the middle of a passage are better than ways along a
