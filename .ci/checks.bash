@@ -52,7 +52,7 @@ check_ctest() { # [WORDS]
 check_pytest() { # [WORDS]
   local code=0
   # Many tests wait for wall time: more workers than processors. tests/conftest.py lists the tests that share a worker.
-  timeout $((2400 * slowness)) env ${preloaded:+"LD_PRELOAD=$preloaded"} python3 -m pytest -q -n $(($(nproc) + extra_workers)) --dist loadfile --durations=10 ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
+  timeout $((3600 * slowness)) env ${preloaded:+"LD_PRELOAD=$preloaded"} python3 -m pytest -q -n $(($(nproc) + extra_workers)) --dist loadfile --durations=10 ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
   ((code != 1)) || fails_alone || code=0
   if ((code != 5)); then
     matched=1
