@@ -24,9 +24,8 @@ def test_a_goal_beside_a_wall_is_reached_nearly(world, beside):
     assert np.hypot(state['x'] - 5.0, state['y']) < 0.25
 
 
-@pytest.mark.parametrize('aside', [0.1, 0.2, 0.25])
-def test_a_person_who_cannot_pass_another_gives_up(world, aside):
-    """In a closed corridor of 1.2 m, where the other one leaves less than a body's width."""
+def corridor(world, aside: float):
+    """Ann in a closed corridor of 1.2 m, and Bob beside its middle."""
     walls = ''.join(box(f'side{y}', f'0 {0.65 * y} 1.2 0 0 0', '12.4 0.1 2.4', True)
                     + box(f'end{y}', f'{6.05 * y} 0 1.2 0 0 0', '0.1 1.4 2.4', True)
                     for y in (-1, 1))
@@ -34,5 +33,20 @@ def test_a_person_who_cannot_pass_another_gives_up(world, aside):
     w.run(0.3)
     w.command('person', 'ann', 'GoTo 5 0')
     w.run(120.0)
-    state = w.device('person', 'ann')
+    return w
+
+
+@pytest.mark.parametrize('aside', [0.1, 0.13])
+def test_a_person_who_cannot_pass_another_gives_up(world, aside):
+    """He leaves less than the width of a body, 0.5 m."""
+    state = corridor(world, aside).device('person', 'ann')
     assert state['mode'] == 'STANDING' and state['unreachable']
+
+
+@pytest.mark.parametrize('aside', [0.2, 0.25])
+def test_a_person_squeezes_past_another(world, aside):
+    """He leaves 0.05 and 0.1 m more than a body is wide."""
+    w = corridor(world, aside)
+    ann, bob = (w.device('person', name) for name in ('ann', 'bob'))
+    assert ann['x'] > 4.8 and not ann['unreachable']
+    assert np.hypot(bob['x'], bob['y'] - aside) < 0.01

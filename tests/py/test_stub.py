@@ -61,7 +61,7 @@ def test_mypy_finds_an_error(right: str, wrong: str, error: str, tmp_path: Path)
 
 def test_inspect_shows_the_parameters() -> None:
     signature = inspect.signature(angen.World.run)
-    assert list(signature.parameters) == ['self', 'seconds', 'long_steps']
+    assert list(signature.parameters) == ['self', 'seconds', 'long_steps', 'until_event']
     assert signature.parameters['long_steps'].default is False
     assert list(inspect.signature(angen.World).parameters) == [
         'path', 'seed', 'record', 'allow_paths', 'memory_limit']

@@ -65,8 +65,10 @@ void Drive::configure(Params& params, Wiring& wiring) {
 Verdict Drive::command(const Command& command, const View& view) {
   std::vector<double> values = command.values;
   if (command.verb == "Stop") values = {0.0, 0.0};
-  if (!powered(view)) values = {0.0, 0.0};
-  return Verdict::accept([this, v = values[0], w = values[1], now = view.time()] {
+  const bool has_power = powered(view);
+  if (!has_power) values = {0.0, 0.0};
+  return Verdict::accept([this, has_power, v = values[0], w = values[1], now = view.time()] {
+    powered_ = has_power;
     v_ = std::clamp(v, -max_linear_, max_linear_);
     w_ = std::clamp(w, -max_angular_, max_angular_);
     commanded_at_ = now;

@@ -83,7 +83,9 @@ void Person::run_errand(const Step& step) {
   const bool nearer = errand.come(left);
   if (errand.is_free(left)) progress_.free();
   note({nearer, nearer, walker_.goes_round()}, step);
+  walker_.slide(progress_.is_held());
   walker_.walk(step.body, *navigator_.target(), speed_, step.outputs);
+  walker_.slide(false);
   show(progress_.is_held() ? Mode::kBlocked : Mode::kWalking, step);
 }
 

@@ -24,7 +24,7 @@ class Ride {
 
   struct Advice {
     enum class Step { kWalk, kStand, kLeft, kFailed } step = Step::kStand;
-    Vec2 to = Vec2::Zero();  // of kWalk and kLeft: where it walks next
+    Vec2 to = Vec2::Zero();  // where it walks next: of kWalk and kLeft
   };
   /// The next step; `errand` is how far the walk of the last one is.
   Advice update(const View& view, Errand::Phase errand, Outputs& outputs);

@@ -274,6 +274,15 @@ bool Surroundings::is_occupied(const Vec2& place) const {
   });
 }
 
+std::optional<Vec2> Surroundings::to_nearest(const Vec2& from) const {
+  const auto nearer = [&](const Vec2& a, const Vec2& b) {
+    return (a - from).squaredNorm() < (b - from).squaredNorm();
+  };
+  const auto nearest = std::min_element(points_.begin(), points_.end(), nearer);
+  if (nearest == points_.end()) return std::nullopt;
+  return (*nearest - from).normalized();
+}
+
 bool Surroundings::reaches(const Vec2& from, const Vec2& to) const {
   if (is_free(from, to)) return true;
   Grid grid(from, points_, kBody);

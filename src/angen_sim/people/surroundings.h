@@ -31,6 +31,8 @@ class Surroundings {
   /// Whether it would meet nothing on the straight way.
   bool is_free(const Vec2& from, const Vec2& to, double body = kBody) const;
   bool is_occupied(const Vec2& place) const;
+  /// The unit direction to the nearest point that it sees; none if it sees none.
+  std::optional<Vec2> to_nearest(const Vec2& from) const;
   /// Whether it sees a free way, straight or round obstacles, all the way.
   bool reaches(const Vec2& from, const Vec2& to) const;
   /// Hits of the last two scans, m.

@@ -17,6 +17,8 @@ constexpr double kMaxTurn = 3.0;     // rad/s
 constexpr double kStill = 0.05;      // m/s: slower than this it keeps its heading
 constexpr double kPushSpeed = 0.3;   // m/s, against a thing that it shall push
 constexpr double kComes = 0.1;       // m/s: who is slower stands
+constexpr double kBarely = 0.05;     // m/s: slower than this it is stuck
+constexpr double kAlong = 0.2;       // share of a direction that leads along an obstacle
 constexpr double kTowards = 0.7;     // cosine, of a person who walks towards it
 constexpr int kScansPerPlan = 3;
 
@@ -97,13 +99,25 @@ Walker::Vec2 Walker::velocity(const Vec2& at, const Vec2& to, double fastest) {
   const Vec2 way = aim_.value_or(to) - at;
   const double length = way.norm();
   if (length < 1e-9) return Vec2::Zero();
-  const Vec2 direction = way / length;
+  Vec2 direction = way / length;
   double speed = aim_ ? fastest : std::min(fastest, length / (kAhead + late_));
   if (manner_.looks) {
-    const double allowed = braking_.limit(surroundings_, at, direction, speed);
+    double allowed = braking_.limit(surroundings_, at, direction, speed);
+    if (slides_ && allowed < kBarely) {
+      direction = slid(at, direction);
+      allowed = braking_.limit(surroundings_, at, direction, speed);
+    }
     speed = std::min(speed, manner_.pushes ? std::max(allowed, kPushSpeed) : allowed);
   }
   return speed * direction;
+}
+
+// Without the part of a direction that leads to the nearest obstacle.
+Walker::Vec2 Walker::slid(const Vec2& at, const Vec2& direction) const {
+  const std::optional<Vec2> nearest = surroundings_.to_nearest(at);
+  if (!nearest || direction.dot(*nearest) <= 0.0) return direction;
+  const Vec2 along = direction - direction.dot(*nearest) * *nearest;
+  return along.norm() > kAlong ? Vec2(along.normalized()) : direction;
 }
 
 void Walker::drive(const Vec2& velocity, double turn, Outputs& outputs) {

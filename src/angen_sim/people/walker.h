@@ -48,6 +48,8 @@ class Walker {
   /// Makes for a way round something on the way; returns whether it sees one.
   bool aim_past(const View& view, const Vec3& feet, const Vec2& to);
   bool goes_round() const { return aim_.has_value(); }
+  /// Where it can go no farther, it walks along what is nearest to it.
+  void slide(bool slides) { slides_ = slides; }
 
   /// Walks towards a place, or to the first one of the way round, at most that fast (m/s), and
   /// turns by `turn` (rad); by default it faces the way.
@@ -61,6 +63,7 @@ class Walker {
  private:
   std::optional<Vec2> way_past(const View& view, const Vec3& feet, const Vec2& to) const;
   Vec2 velocity(const Vec2& at, const Vec2& to, double fastest);
+  Vec2 slid(const Vec2& at, const Vec2& direction) const;
   void drive(const Vec2& velocity, double turn, Outputs& outputs);
 
   LinkRef link_;
@@ -71,6 +74,7 @@ class Walker {
   std::optional<Vec2> aim_;     // the first place of a way round
   Nanoseconds looked_at_ = -1;  // the last look, as a multiple of kScanPeriod
   double late_ = 0.0;           // s: the mean age of its velocity in longer steps
+  bool slides_ = false;
   bool rests_ = false;
 };
 

@@ -31,7 +31,7 @@ class JointStates {
   std::map<std::string, LazyPublisher> publishers_;  // by topic
   std::vector<Source> sources_;
   Nanoseconds slot_ = -1;
-  Nanoseconds time_ = 0;  // of the last message
+  Nanoseconds time_ = 0;  // time of the last message
 };
 
 }  // namespace angen::node

@@ -89,7 +89,7 @@ def test_residents_live_in_an_imported_home(tmp_path: Path) -> None:
 
     def events(residents: tuple[str, ...]) -> list[Event]:
         watched = Watched(rules, tmp_path / 'studio.world', 1, residents)
-        watched.run(240, [])
+        watched.run(1500, [])
         return watched.events
 
     assert not any(event.event == 'motion' for event in events(()))

@@ -24,6 +24,7 @@ from angen_apps.mqtt.styles import Plain
 from angen_apps.mqtt.things import Thing
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure, WrongWords
+from angen_tools.common.files import write_text
 
 if TYPE_CHECKING:
     from angen_apps.automation.bench import Bench, Change
@@ -89,8 +90,8 @@ class MqttProgram:
             probe.bind(('127.0.0.1', 0))
             port = int(probe.getsockname()[1])
         config = Path(self._folder.name) / 'mosquitto.conf'
-        config.write_text(f'listener {port} 127.0.0.1\nallow_anonymous true\n'
-                          'set_tcp_nodelay true\n', encoding='utf-8')
+        write_text(config, f'listener {port} 127.0.0.1\nallow_anonymous true\n'
+                   'set_tcp_nodelay true\n')
         self._processes.append(subprocess.Popen([found, '-c', str(config)],
                                                 stdin=subprocess.DEVNULL,
                                                 stdout=subprocess.DEVNULL,
