@@ -47,6 +47,13 @@ def first(page: Page) -> dict[str, Any]:
     return seen
 
 
+def resize(page: Page, kind: str) -> None:
+    """The window of a kind of pointer, once the page is laid out for it."""
+    page.driver.set_window_size(*SIZES[kind])
+    page.driver.execute_async_script(
+        'requestAnimationFrame(() => requestAnimationFrame(arguments[0]))')
+
+
 def tap(page: Page, kind: str, places: list[list[float]]) -> None:
     """Presses and releases at places of the window, by mouse or touch."""
     pointer = PointerInput(kind, kind)
@@ -135,7 +142,7 @@ def test_a_click_leaves_the_rest_of_the_plan_as_it_was(home: Angen, page: Page) 
 
 @pytest.mark.parametrize('kind', SIZES)
 def test_taps_on_doors_hit_doors(home: Angen, page: Page, kind: str) -> None:
-    page.driver.set_window_size(*SIZES[kind])
+    resize(page, kind)
     rng = random.Random(kind)
     hits: Counter[str] = Counter()
     for state in ('Close', 'Open'):
@@ -168,7 +175,7 @@ def test_what_is_near_a_tap_is_found_and_a_room_in_the_open(home: Angen, page: P
                                                             ) -> None:
     home.call('/gazebo/pause_physics', Empty)  # the person would walk to where nobody was
     page.until('return angen.home.stats.paused')
-    page.driver.set_window_size(*SIZES[kind])
+    resize(page, kind)
     page.run('angen.setStorey(0); angen.card.close()')
     x, y = page.run(f'''{AT} const e = angen.home.entities.find((e) => e.kind === "lamp"
         && e.name === "bedroom0"); return at(...angen.home.place(e).slice(0, 2))''')
@@ -193,7 +200,7 @@ def test_what_is_near_a_tap_is_found_and_a_room_in_the_open(home: Angen, page: P
 
 @pytest.mark.parametrize('kind', SIZES)
 def test_a_robot_is_dragged_to_its_goal_on_the_plan(page: Page, kind: str) -> None:
-    page.driver.set_window_size(*SIZES[kind])
+    resize(page, kind)
     page.run('angen.setStorey(0); angen.card.close()')
     begin, end = page.run(f'''{AT} const e = angen.home.entities.find((e) => e.kind === "drive");
         const [x, y] = angen.home.place(e); return [at(x, y), at(x + 1, y)]''')
