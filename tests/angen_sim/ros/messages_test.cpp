@@ -176,6 +176,7 @@ TEST(Messages, PersonAndOdometryStandWhereTheyAre) {
   state.set("speed", 0.0);
   state.set("v", 0.5);
   state.set("w", -1.0);
+  state.set("covariance", Numbers{0.1, 0.2, 0.3, 0.2, 0.4, 0.5, 0.3, 0.5, 0.6});
   angen_msgs::PersonState person;
   fill("person", state, {"person", "world"}, person);
   EXPECT_EQ(person.mode, angen_msgs::PersonState::BLOCKED);
@@ -188,6 +189,9 @@ TEST(Messages, PersonAndOdometryStandWhereTheyAre) {
   EXPECT_EQ(odometry.pose.pose.position.z, 0.0);
   EXPECT_EQ(odometry.twist.twist.linear.x, 0.5);
   EXPECT_EQ(odometry.twist.twist.angular.z, -1.0);
+  EXPECT_EQ(odometry.pose.covariance[1], 0.2);   // x with y
+  EXPECT_EQ(odometry.pose.covariance[30], 0.3);  // yaw with x
+  EXPECT_NEAR(odometry.pose.covariance[35] - odometry.twist.covariance[35], 0.6, 1e-12);
 }
 
 TEST(Messages, ContactsAreSplitByPairAndSummed) {
