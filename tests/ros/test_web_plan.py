@@ -210,8 +210,9 @@ def test_a_robot_is_dragged_to_its_goal_on_the_plan(page: Page, kind: str) -> No
         drag(page, kind, begin, end)
         goal = goals.wait(lambda goal: True, 'a goal', LIMIT).pose
     assert (goal.position.x, goal.position.y) == pytest.approx(to[:2], abs=0.1)
-    assert page.text('#card h2') == 'turtlebot'
-    assert page.text('.trip [role=status]').startswith('To ')
+    page.until('return document.querySelector("#card h2")?.textContent === "turtlebot"')
+    page.until('return document.querySelector(".trip [role=status]")'
+               '?.textContent.startsWith("To ")')
     page.run('angen.card.close()')
 
 

@@ -25,7 +25,7 @@ export class Goal {
     this.last = null;
     /** @type {{robot: any, id: number, at: number[], from: number[], before: number[] | null, carries: boolean, moved: boolean} | null} */
     this.held = null;
-    this.ended = 0;
+    this.ended = false;
     /** @type {(() => void)[]} */
     this.listeners = [];
     addEventListener('keydown', (e) => this.key(e), true);
@@ -57,6 +57,7 @@ export class Goal {
       e.preventDefault();
     }, true);
     at('pointerdown', (e) => {
+      this.ended = false;
       if (e.button !== 0 || !e.isPrimary || this.home.status.replay || !element.contains(e.target)) return false;
       const found = hit(e.clientX, e.clientY), pressed = this.home.entities.find((r) => this.home.isRobot(r) && r.model === found?.model);
       const robot = this.robot ?? pressed;
@@ -83,7 +84,7 @@ export class Goal {
       const held = this.held;
       if (held?.id !== e.pointerId) return false;
       this.held = null;
-      this.ended = performance.now();
+      this.ended = true; // the click that may follow is a part of this press
       if (held.carries && !held.moved) this.page.show(held.robot);
       else this.send(held.robot);
       return true;
@@ -94,7 +95,7 @@ export class Goal {
       this.held = null;
       return true;
     });
-    element.addEventListener('click', (/** @type {MouseEvent} */ e) => { if (performance.now() - this.ended < 50) e.stopPropagation(); }, true);
+    element.addEventListener('click', (/** @type {MouseEvent} */ e) => { if (this.ended) e.stopPropagation(); this.ended = false; }, true);
   }
 
   /** @param {number[]} point @returns {number} the height of the floor below it */
