@@ -52,8 +52,7 @@ check_ctest() { # [WORDS]
 check_pytest() { # [WORDS]
   local code=0
   # Many tests wait for wall time: more workers than processors. tests/conftest.py lists the tests that share a worker.
-  timeout $((3600 * slowness)) env ${preloaded:+"LD_PRELOAD=$preloaded"} python3 -m pytest -q -n $(($(nproc) + extra_workers)) --dist loadfile --durations=10 ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
-  ((code != 1)) || fails_alone || code=0
+  timeout $((2400 * slowness)) env ${preloaded:+"LD_PRELOAD=$preloaded"} python3 -m pytest -q -n $(($(nproc) + extra_workers)) --dist loadfile --durations=10 ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
   if ((code != 5)); then
     matched=1
   elif [[ ${1:-} ]]; then
@@ -61,18 +60,6 @@ check_pytest() { # [WORDS]
   fi
   return $code
 }
-# Runs the tests that failed beside others once more, one after the other: on a busy machine some wait too long. More
-# than a few have another cause. Those that pass alone are named, since they need a look.
-fails_alone() {
-  local failed=.pytest_cache/v/cache/lastfailed unsteady
-  [[ -s $failed ]] && unsteady=$(sed -n 's/^ *"\(.*\)": true,*$/\1/p' "$failed") || return 0
-  (($(wc -l <<<"$unsteady") <= most_unsteady)) || return 0
-  say "these tests failed beside others, and run alone now:" && printf '%s\n' "$unsteady"
-  timeout $((600 * slowness)) env ${preloaded:+"LD_PRELOAD=$preloaded"} python3 -m pytest -q --last-failed "${pytest_arguments[@]}" || return 0
-  say "they pass alone"
-  return 1
-}
-most_unsteady=5
 pytest_arguments=(tests)
 extra_workers=2
 preloaded= # libraries, before Python's own
