@@ -23,6 +23,8 @@ LONG = ('[docs/tutorial.md]', '[docs/robot.md]', '[docs/build_apartment.md]',
         'angen_models/test_world_geometry.py')
 PAGES = re.compile(r'docs/test_commands\.py::.*\[docs/(build_apartment|robot|tutorial|plugins)')
 
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
 # A shell ignores SIGINT in a process that it starts by &, and children inherit that.
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -57,6 +59,17 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
             return unit(nodeid)
 
     return Units(config, log)
+
+
+@pytest.fixture(autouse=True)
+def same_signals() -> Iterator[None]:
+    """A test that leaves another handler of a signal fails, not one that needs it later."""
+    before = {number: signal.getsignal(number) for number in SIGNALS}
+    yield
+    after = {number: signal.getsignal(number) for number in SIGNALS}
+    for number, handler in before.items():
+        signal.signal(number, handler)
+    assert after == before
 
 
 @pytest.fixture(scope='session')

@@ -43,8 +43,7 @@ def serve(access: Access, prefix: str, style_name: str, discovery: str, profile:
     def end(number: int, _: Any) -> None:
         ends.append(number)
 
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, end)
+    before = {number: signal.signal(number, end) for number in (signal.SIGINT, signal.SIGTERM)}
     broker.start(bridge.will)
     print(f'angen mqtt: bridges to {access.address}, topics {prefix}/…', flush=True)
     try:
@@ -61,6 +60,8 @@ def serve(access: Access, prefix: str, style_name: str, discovery: str, profile:
     finally:
         bridge.stop()
         broker.stop()
+        for number, handler in before.items():
+            signal.signal(number, handler)
     if not ends:
         time.sleep(PAUSE)
         os.execv(sys.executable, sys.orig_argv)  # a new node, of the next master

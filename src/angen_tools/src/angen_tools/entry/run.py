@@ -76,7 +76,9 @@ class Session:
     def __exit__(self, *_: object) -> None:
         for process in (self._launch, self._master):
             if process is not None and process.poll() is None:
-                process.terminate()  # by SIGINT Python prints a traceback while it still starts
+                # The group has the commands by which roslaunch finds parameters, but no node. By
+                # SIGINT Python prints a traceback while it still starts.
+                os.killpg(process.pid, signal.SIGTERM)
                 try:
                     process.wait(END_LIMIT)
                 except subprocess.TimeoutExpired:
