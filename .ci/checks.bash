@@ -265,6 +265,14 @@ run_tidy() { # [FILE...]
   report
 }
 
+# Each version has its folder, so that a server keeps those of releases side by side.
+build_site() { # VERSION
+  ANGEN_VERSION=$1 sphinx-build -q -W --keep-going -E -c docs/site . "build/site/$1" 2>build/site.log ||
+    die "sphinx failed: $(<build/site.log)"
+  printf '<meta http-equiv="refresh" content="0; url=%s/README.html">\n' "$1" >build/site/index.html
+  say "build/site/index.html"
+}
+
 run_docs() {
   cd "$root" || exit
   if [[ ${1:-} == --pictures ]]; then
@@ -275,4 +283,5 @@ run_docs() {
   mkdir -p build
   (cat Doxyfile && printf 'PROJECT_NUMBER = %s\n' "$(version)") | doxygen - >build/doxygen.log || die "doxygen failed; see build/doxygen.log"
   say "build/doxygen/html/index.html"
+  build_site "$(version)"
 }

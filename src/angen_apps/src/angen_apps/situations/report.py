@@ -83,11 +83,11 @@ def as_markdown(results: Results, sources: Mapping[str, str]) -> str:
     for row in results:
         if row[0].row.group != group:
             group = row[0].row.group
-            lines.append(f'\n### {group.capitalize()}\n\n'
+            lines.append(f'\n## {group.capitalize()}\n\n'
                          '| scene | expected | pyroelectric | range difference | because |\n'
                          '| --- | --- | --- | --- | --- |\n')
         lines.append(_line(row, numbers))
-    lines.append('\n### Sources of the expectations\n\n')
+    lines.append('\n## Sources of the expectations\n\n')
     lines += [f'{numbers[key]}. {text}.\n' for key, text in sources.items()]
     return ''.join(lines)
 
