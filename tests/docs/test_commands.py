@@ -31,10 +31,12 @@ LEFT_OUT = re.compile('|'.join((
     r'mosquitto_',  # ros/test_mqtt.py runs them
     r'(\./)?angen (drive|watch$|care$|web|mqtt|replay .*--until)',  # hands, no end
     r'(\./)?angen (bench|task|situations$|generate|validate out|realism out)',  # minutes
-    r'.*(ROS_NAMESPACE=|--ns )',  # ros/test_namespaces.py runs them
+    r'.*(ROS_NAMESPACE=|ROS_IP=|--ns )',  # ros/test_namespaces.py runs them
     r'rostopic pub -r', r'roslaunch', r'rosrun (image_view|angen_apps|angen_tools)',  # no end
     r'sudo', r'apt-get', r'docker', r'rosdep', r'cd ~/catkin_ws',  # root, network
     r'angen run$', r'python3 -m venv', r'~/angen/bin',  # of a package or a wheel
+    r'/usr/bin/python3 -m venv', r'~/mcap/bin', r'mkdir -p ~/bridge', r'git clone', r'cd ~/bridge',
+    r'source ~/bridge', r'colcon', r'export ROS_MASTER_URI',  # network, another machine
     r'cmake --build build', r'python3 (bench/physics|worlds/make_|-m pytest|docs/tables)',
     r'\./angen shell -c "python3 (-m pytest|examples)',  # minutes, or they write into the checkout
     r'.*(\bNAME\b|\bKIND\b)',  # usage

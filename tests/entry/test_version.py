@@ -21,8 +21,9 @@ def test_it_is_a_semantic_version():
     assert re.fullmatch(r'\d+\.\d+\.\d+', VERSION)
 
 
-@pytest.mark.parametrize('package', sorted((ROOT / 'src').glob('*/package.xml')),
-                         ids=lambda path: path.parent.name)
+@pytest.mark.parametrize('package', sorted([*(ROOT / 'src').glob('*/package.xml'),
+                                            *(ROOT / 'ros2').glob('*/package.xml')]),
+                         ids=lambda path: '/'.join(path.parts[-3:-1]))
 def test_every_package_has_it(package):
     assert version_of(package) == VERSION
 
