@@ -7,12 +7,16 @@
 from __future__ import annotations
 
 import argparse
+import re
 from collections import Counter
 from math import pi
 from pathlib import Path
 from typing import Any, Callable, Sequence
 
 import matplotlib
+import numpy as np
+from scipy.spatial.transform import Rotation
+from shapely.geometry import MultiPoint, Polygon
 
 import angen
 
@@ -93,6 +97,89 @@ def robot_livingroom() -> plt.Figure:
     world.command('drive', 'turtlebot', values=[0.2, 0.0])
     world.run(1)
     return picture(world, (9.2, 3.0, 1.5, 0, 0.3, -2.95), 1.1)
+
+
+def lamp_kitchen() -> plt.Figure:
+    """A lit lamp, and the sensor that measures its light, on the wall behind."""
+    return picture(lit_world('kitchen0'), (1.1, 3.3, 2.0, 0, -0.15, -1.0), 0.9)
+
+
+def plan_view(world: Any, z: float, middle: tuple[float, float], half: float) -> plt.Axes:
+    """A square of the plan: outlines of the shapes at a height."""
+    figure, axes = plt.subplots(figsize=(6, 6), layout='constrained')
+    axes.set(xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half),
+             xlabel='x (m)', ylabel='y (m)', aspect='equal')
+    for _, _, _, _, points in world.shapes:
+        if len(points) and points[:, 2].min() < z < points[:, 2].max():
+            outline = MultiPoint(points[:, :2]).convex_hull
+            if isinstance(outline, Polygon):
+                axes.fill(*outline.exterior.xy, facecolor='0.85', edgecolor='0.4', linewidth=0.8)
+    return axes
+
+
+def draw_rays(axes: plt.Axes, world: Any, kind: str, name: str, color: str) -> None:
+    """Rays in a sensor's field of view, to what they meet now."""
+    pose = next(pose for _, known, _, pose in world.entities(kind) if known == name)
+    left, right, reach = world.field_of_view(kind, name)
+    turns = np.linspace(left, right, 49)
+    ahead = np.column_stack([np.cos(turns), np.sin(turns), np.zeros_like(turns)])
+    ways = np.ascontiguousarray(Rotation.from_quat(pose[3:]).apply(ahead))
+    ranges = np.ravel(world.cast(np.tile(pose[:3], (len(ways), 1)), ways, min(reach, 10.0)))
+    for end in pose[:3] + ways * ranges[:, None]:
+        axes.plot([pose[0], end[0]], [pose[1], end[1]], color=color, linewidth=0.7)
+    axes.plot(*pose[:2], 'o', color=color, markersize=5)
+
+
+def pir_entrance() -> plt.Figure:
+    world = lit_world()
+    axes = plan_view(world, 1.2, (4.5, 5.0), 3.5)
+    draw_rays(axes, world, 'pir', 'entrance_pir0_a', 'tab:blue')
+    return axes.figure
+
+
+def pir_livingroom() -> plt.Figure:
+    """A PIR that moves up and down: the ranges of its rays at the present tilt over 12 s."""
+    world = lit_world()
+    scans = []
+    for _ in range(120):
+        world.run(0.1)
+        ranges = world.sensor('pir', 'livingroom_pir0_a')['ranges']
+        scans.append(ranges[:len(ranges) // 2])
+    figure, axes = plt.subplots(figsize=(8, 3.6), layout='constrained')
+    axes.set(xlabel='time (s)', ylabel='ray, from right to left')
+    image = axes.imshow(np.array(scans).T, aspect='auto', origin='lower', extent=(0, 12, 0, 24))
+    figure.colorbar(image, label='range (m)')
+    return figure
+
+
+def luminosity_entrance() -> plt.Figure:
+    world = lit_world('entrance0')
+    world.run(2)
+    axes = plan_view(world, 1.2, (4.5, 5.0), 3.5)
+    draw_rays(axes, world, 'luminosity', 'entrance_lux0', 'tab:orange')
+    lux = world.sensor('luminosity', 'entrance_lux0')['illuminance']
+    axes.set_title(f'{lux:.1f} lx')
+    return axes.figure
+
+
+def switch(name: str, middle: tuple[float, float]) -> plt.Figure:
+    """The beam of an optical switch, above a door: cut off by the shut leaf, else whole."""
+    world = lit_world()
+    world.run(1)
+    axes = plan_view(world, 2.125, middle, 0.8)
+    draw_rays(axes, world, 'switch', name, 'tab:blue')
+    axes.set_title('shut' if world.sensor('switch', name)['closed'] else 'open')
+    return axes.figure
+
+
+def switch_shut() -> plt.Figure:
+    return switch('workroom_switch0', (6.865, 4.8))
+
+
+def switch_open() -> plt.Figure:
+    pose = next(pose for _, name, _, pose in angen.World(str(WORLD)).entities('switch')
+                if name == 'kitchen_switch0')
+    return switch('kitchen_switch0', (pose[0], pose[1]))
 
 
 def kitchen_open() -> plt.Figure:
@@ -202,9 +289,68 @@ def communication() -> plt.Figure:
     return d.figure
 
 
+def joints() -> plt.Figure:
+    """The joints of the robot, between its links."""
+    world = angen.World(str(WORLD))
+    found = [world.joint(name) for name in world.joints if name.startswith('turtlebot::')]
+    d = Diagram(10.0 + 14 * len(found))
+    middle = d.box(16, 5 + 7 * len(found), 'base', 22)
+    for k, joint in enumerate(found):
+        y = 12.0 + 14 * k
+        child = d.box(84, y, joint['child'].split('::')[-1], 26)
+        axis = ', '.join(f'{value:.0f}' for value in joint['axis'])
+        d.arrow((middle[0] + 11, middle[1]), (child[0] - 13, y), f"{joint['type']}, axis {axis}")
+    return d.figure
+
+
+def pid_loop() -> plt.Figure:
+    d = Diagram(40)
+    d.box(8, 26, 'command', 14, color='#fff')
+    d.box(26, 26, 'error', 12)
+    for text, y in (('P: error', 36), ('I: its sum over time', 26), ('D: its change', 16)):
+        d.box(48, y, text, 20, 7)
+        d.arrow((32, 26), (38, y))
+        d.arrow((58, y), (65, 26))
+    d.box(72, 26, 'sum, limited:\nforce or torque', 14)
+    d.box(92, 26, 'door or\nelevator', 14)
+    d.arrow((15, 26), (20, 26))
+    d.arrow((79, 26), (85, 26))
+    d.axes.plot([92, 92, 26], [21.5, 5, 5], color='0.2', linewidth=1)
+    d.arrow((26, 5), (26, 21.5))
+    d.axes.text(60, 5, 'measured position', ha='center', va='center', fontsize=7,
+                backgroundcolor='white')
+    return d.figure
+
+
+def packages() -> plt.Figure:
+    """The packages of the repository, and which needs which to run; messages of others left out.
+
+    angen_sim names the two that need it, so that rosdep installs them too.
+    """
+    needs = {file.parent.name: set(re.findall(r'<(?:build_|exec_)?depend>(\w+)<', file.read_text()))
+             for file in sorted((ROOT / 'src').glob('*/package.xml'))}
+    needs['angen_sim'] -= {'angen_apps', 'angen_tools'}
+    found = {name for name in needs if name == 'angen_msgs' or not name.endswith('_msgs')}
+    level: dict[str, int] = {}
+    while len(level) < len(found):
+        level |= {name: max((level[need] + 1 for need in needs[name] & found), default=0)
+                  for name in found if needs[name] & found <= set(level)}
+    rows = [sorted(name for name in found if level[name] == k) for k in sorted({*level.values()})]
+    d = Diagram(14.0 * len(rows))
+    at = {name: (100 * (k + 0.5) / len(row), 14.0 * y + 7) for y, row in enumerate(rows)
+          for k, name in enumerate(row)}
+    for name, (x, y) in at.items():
+        for need in needs[name] & found:
+            d.arrow((x, y - 3), (at[need][0], at[need][1] + 3))
+    for name, (x, y) in at.items():
+        d.box(x, y, name, 19, 6)
+    return d.figure
+
+
 FIGURES: dict[str, Draw] = {draw.__name__: draw for draw in (
     architecture, models_and_plugins, communication, door_open, door_closed, elevator_open,
-    elevator_closed, robot_livingroom, kitchen_open)}
+    elevator_closed, robot_livingroom, kitchen_open, joints, pid_loop, packages, lamp_kitchen,
+    luminosity_entrance, pir_entrance, pir_livingroom, switch_shut, switch_open)}
 
 
 def main() -> None:
