@@ -82,8 +82,8 @@ def add_commands(commands: Any) -> None:
     sensors.add_argument('--counts', metavar='N,N,…', type=checked(counts),
                          help='of sensors (0,1,10,50,100,200,500), with desired of floors '
                          '(1,2,3,10)')
-    sensors.add_argument('--repeats', metavar='N', type=checked(at_least(1, 1000)), default=3,
-                         help='of each count; figures are medians (3)')
+    sensors.add_argument('--repeats', metavar='N', type=checked(at_least(1, 1000)), default=5,
+                         help='of each count; figures are medians (5)')
     sensors.add_argument('--window', metavar='S', type=checked(window), default=5.0,
                          help='how long to measure, in s (5)')
     sensors.add_argument('--vs', choices=['gazebo'], help='measures Gazebo 11 beside it, in a '

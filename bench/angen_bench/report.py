@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from statistics import median
 from typing import Any, Sequence
@@ -41,6 +41,7 @@ class Row(Session):
     sensors: int = 0
     floors: int = 0
     repeats: int = 0
+    extremes: dict[str, tuple[float, float]] = field(default_factory=dict)  # of each figure
 
     @property
     def real_time(self) -> bool:
@@ -51,9 +52,11 @@ class Row(Session):
 
 @dataclass(frozen=True)
 class Line:
-    """CPU % = base + slope * count."""
+    """CPU % = base + slope * count; `error` is the standard error of the slope, NaN with two
+    points."""
     base: float
     slope: float
+    error: float = math.nan
 
 
 def combine(sessions: Sequence[Any], made: type[Any] = Row, **what: Any) -> Any:
@@ -62,10 +65,20 @@ def combine(sessions: Sequence[Any], made: type[Any] = Row, **what: Any) -> Any:
     `made` is the dataclass of the row, which adds to that of the sessions.
     """
     row = made(repeats=len(sessions), **what)
-    for field in fields(sessions[0]):
-        values = [v for s in sessions if (v := getattr(s, field.name)) is not None]
-        setattr(row, field.name, median(values) if values else None)
+    for figure in fields(sessions[0]):
+        values = measured(sessions, figure.name)
+        setattr(row, figure.name, median(values) if values else None)
     return row
+
+
+def measured(sessions: Sequence[Any], figure: str) -> list[float]:
+    return [value for session in sessions if (value := getattr(session, figure)) is not None]
+
+
+def extremes(sessions: Sequence[Session]) -> dict[str, tuple[float, float]]:
+    """The least and the largest value of each figure over the repeats."""
+    return {figure.name: (min(values), max(values)) for figure in fields(Session)
+            if (values := measured(sessions, figure.name))}
 
 
 def fit(counts: Sequence[float], values: Sequence[float | None]) -> Line | None:
@@ -76,7 +89,11 @@ def fit(counts: Sequence[float], values: Sequence[float | None]) -> Line | None:
     mean_c, mean_v = (sum(p[i] for p in points) / len(points) for i in (0, 1))
     slope = (sum((c - mean_c) * (v - mean_v) for c, v in points)
              / sum((c - mean_c) ** 2 for c, _ in points))
-    return Line(mean_v - slope * mean_c, slope)
+    base = mean_v - slope * mean_c
+    rest = sum((v - base - slope * c) ** 2 for c, v in points)
+    spread = sum((c - mean_c) ** 2 for c, _ in points)
+    error = math.sqrt(rest / (len(points) - 2) / spread) if len(points) > 2 else math.nan
+    return Line(base, slope, error)
 
 
 def fit_of(rows: Sequence[Row], panel: str) -> Line | None:
@@ -86,7 +103,7 @@ def fit_of(rows: Sequence[Row], panel: str) -> Line | None:
 
 
 COLUMNS = ('mode', 'kind', 'count', 'sensors', 'floors', 'repeats',
-           *(field.name for field in fields(Session)), 'real_time')
+           *(figure.name for figure in fields(Session)), 'real_time')
 
 
 def write_csv(path: Path, rows: Sequence[Row]) -> None:
@@ -138,7 +155,8 @@ def describe_fit(rows: Sequence[Row]) -> list[str]:
     for who in ('server', 'client'):
         line = fit_of(rows, f'{who}_cpu')
         if line:
-            lines.append(f'{who}: one more {thing} costs {line.slope:.3g} % of a core '
+            error = '' if math.isnan(line.error) else f' ± {line.error:.2g}'
+            lines.append(f'{who}: one more {thing} costs {line.slope:.3g}{error} % of a core '
                          f'({line.base:.1f} % without)')
     return lines
 
@@ -183,16 +201,19 @@ def draw_together(path: Path, tables: Sequence[Sequence[Row]]) -> None:
 
 
 def _panel(axis: Any, panel: str, rows: Sequence[Row], thing: str) -> None:
-    """One axis: the medians as points, hollow where not in real time, and, of a load that lasts,
-    their line and its slope."""
+    """One axis: the medians as points with bars to the least and the largest, hollow where not in
+    real time, and, of a load that lasts, their line and its slope."""
     points = [(r.count, v) for r in rows if (v := getattr(r, panel)) is not None]
     counts, values = zip(*points)
     for real_time, fill in ((True, 'full'), (False, 'none')):
-        some = [(r.count, v) for r in rows
+        some = [(r.count, v, *r.extremes.get(panel, (v, v))) for r in rows
                 if r.real_time is real_time and (v := getattr(r, panel)) is not None]
         if some:
-            axis.plot(*zip(*some), 'o', color=f'C{list(PANELS).index(panel)}', fillstyle=fill,
-                      label=PANELS[panel] + ('' if real_time else ', not in real time'))
+            at, middle, low, high = zip(*some)
+            bars = [[m - e for m, e in zip(middle, low)], [e - m for m, e in zip(middle, high)]]
+            axis.errorbar(at, middle, bars, fmt='o', color=f'C{list(PANELS).index(panel)}',
+                          fillstyle=fill, capsize=3,
+                          label=PANELS[panel] + ('' if real_time else ', not in real time'))
     line = None if panel.startswith('deploy') else fit_of(rows, panel)
     if line:
         ends = [min(counts), max(counts)]

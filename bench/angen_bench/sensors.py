@@ -13,7 +13,7 @@ from typing import Any, Iterator, Sequence
 from angen_bench.measure import (SUBSCRIBED, Meter, Sample, client_load, deploy, due, handled,
                                  load, share, spread, topic_of)
 from angen_bench.report import (Row, Session, as_cells, combine, describe, describe_fit, draw,
-                                draw_together, write_csv)
+                                draw_together, extremes, write_csv)
 from angen_models import plan
 from angen_tools.common.failure import Failure
 from angen_tools.common.output import as_json
@@ -222,8 +222,9 @@ def rows_of(bench: Bench, group: Sequence[Case], repeats: int, steps: Steps, kep
                 sessions.append(bench.session(case))
         finally:
             if sessions:
-                kept.append(combine(sessions, mode=case.mode, kind=case.kind, count=case.count,
-                                    floors=case.floors, sensors=sum(case.counts.values())))
+                kept.append(combine(sessions, extremes=extremes(sessions), mode=case.mode,
+                                    kind=case.kind, count=case.count, floors=case.floors,
+                                    sensors=sum(case.counts.values())))
         yield kept[-1]
 
 

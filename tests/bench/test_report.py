@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import csv
+import math
 from pathlib import Path
 
 import pytest
@@ -23,6 +24,8 @@ def test_a_line_is_fitted_exactly() -> None:
 def test_a_line_has_least_squares() -> None:
     line = bench_report.fit([0, 1, 2], [0.0, 3.0, 3.0])
     assert line and line.base == pytest.approx(0.5) and line.slope == pytest.approx(1.5)
+    # residuals -0.5, 1, -0.5 about a mean count of 1: sqrt(1.5 / (3 - 2) / 2)
+    assert line.error == pytest.approx(math.sqrt(0.75))
 
 
 @pytest.mark.parametrize('values', [[1.0, None], [None, None]])
@@ -36,6 +39,12 @@ def test_a_row_has_the_median_of_the_measurements() -> None:
                                  Session(server_cpu=2.0)], mode='added', kind='pir', count=3)
     assert (made.server_cpu, made.client_cpu, made.rtf) == (2.0, 9.0, None)
     assert (made.count, made.repeats) == (3, 3)
+
+
+def test_extremes_are_of_the_repeats_that_measured() -> None:
+    found = bench_report.extremes([Session(server_cpu=1.0, client_cpu=9.0),
+                                   Session(server_cpu=7.0), Session(server_cpu=2.0)])
+    assert found == {'server_cpu': (1.0, 7.0), 'client_cpu': (9.0, 9.0)}
 
 
 @pytest.mark.parametrize('rtf,delivered,verdict',
