@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <map>
-#include <mutex>
 #include <optional>
 
 #include "assets/cache_file.h"
 #include "assets/converter.h"
+#include "core/kept.h"
 #include "core/random.h"
 #include "core/text.h"
 #include "document/xml.h"
@@ -138,34 +137,6 @@ std::string changed_at(const std::string& path) {
   return std::to_string(fs::last_write_time(path, failed).time_since_epoch().count());
 }
 
-/// Objects in use, by file and request.
-template <class T>
-class Kept {
- public:
-  template <class Make>
-  std::shared_ptr<const T> get(const std::string& key, const Make& make) {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      for (auto it = all_.begin(); it != all_.end();) {
-        it = it->second.expired() ? all_.erase(it) : std::next(it);
-      }
-      const auto found = all_.find(key);
-      if (found != all_.end()) {
-        if (auto kept = found->second.lock()) return kept;
-      }
-    }
-    auto made = std::make_shared<const T>(make());
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (auto meanwhile = all_[key].lock()) return meanwhile;
-    all_[key] = made;
-    return made;
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<std::string, std::weak_ptr<const T>> all_;
-};
-
 }  // namespace
 
 std::string materials_of(const std::string& path) {
@@ -177,17 +148,19 @@ std::string materials_of(const std::string& path) {
 }
 
 ReadMesh read_mesh(const MeshSource& source, const Source& at) {
-  static Kept<Mesh> kept;
+  static Kept<std::string, const Mesh> kept;
   const std::string key = source.path + "|" + changed_at(source.path) + "|" + source.materials +
                           "|" + changed_at(source.materials) + "|" + scale_text(source.scale) +
                           (source.center ? "|centered|" : "|") + source.submesh;
-  const std::shared_ptr<const Mesh> mesh = kept.get(key, [&] { return import(source, at); });
+  const std::shared_ptr<const Mesh> mesh = kept.get(
+      key, [&] { return std::make_shared<Mesh>(import(source, at)); });
   return {{mesh, &mesh->triangles}, {mesh, &mesh->look}};
 }
 
 std::shared_ptr<const Texture> read_texture(const std::string& path) {
-  static Kept<Texture> kept;
-  return kept.get(path + "|" + changed_at(path), [&] { return import_texture(path); });
+  static Kept<std::string, const Texture> kept;
+  return kept.get(path + "|" + changed_at(path),
+                  [&] { return std::make_shared<Texture>(import_texture(path)); });
 }
 
 }  // namespace angen::load

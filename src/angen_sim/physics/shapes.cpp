@@ -93,21 +93,16 @@ std::shared_ptr<const MeshData> ShapeFactory::mesh_data(const desc::Collision& c
       }
     }
   }
-  for (auto it = meshes_.begin(); it != meshes_.end();) {
-    it = it->second.expired() ? meshes_.erase(it) : std::next(it);
-  }
-  std::weak_ptr<MeshData>& known = meshes_[mesh];
-  std::shared_ptr<MeshData> data = known.lock();
-  if (!data) {
-    data = std::make_shared<MeshData>();
-    data->mesh = mesh;
-    data->data.reset(dGeomTriMeshDataCreate());
-    dGeomTriMeshDataBuildSingle(data->data.get(), mesh->vertices.data(), sizeof(Eigen::Vector3f),
+  const std::shared_ptr<MeshData> data = meshes_.get(mesh.get(), [&] {
+    auto made = std::make_shared<MeshData>();
+    made->mesh = mesh;
+    made->data.reset(dGeomTriMeshDataCreate());
+    dGeomTriMeshDataBuildSingle(made->data.get(), mesh->vertices.data(), sizeof(Eigen::Vector3f),
                                 static_cast<int>(mesh->vertices.size()), mesh->triangles.data(),
                                 static_cast<int>(3 * mesh->triangles.size()),
                                 sizeof(mesh->triangles[0]));
-    known = data;
-  }
+    return made;
+  });
   if (dynamic && data->corners.cols() == 0) data->corners = corners_of(*mesh);
   return data;
 }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <map>
 #include <memory>
 
+#include "core/kept.h"
 #include "physics/model.h"
 
 namespace angen::physics {
@@ -19,9 +19,7 @@ class ShapeFactory {
   std::shared_ptr<const MeshData> mesh_data(const desc::Collision& collision,
                                             const std::string& name, bool dynamic);
 
-  std::map<std::shared_ptr<const TriangleMesh>, std::weak_ptr<MeshData>,
-           std::owner_less<std::shared_ptr<const TriangleMesh>>>
-      meshes_;
+  Kept<const TriangleMesh*, MeshData> meshes_;
 };
 
 /// Moves a geom to its body's pose, and computes its box.
