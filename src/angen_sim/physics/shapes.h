@@ -11,13 +11,13 @@ namespace angen::physics {
 class ShapeFactory {
  public:
   /// A geom of the collision's shape, not yet placed; null for an empty shape. Throws Error for a
-  /// size that is no size, a mesh without triangles, or a plane that could move.
+  /// plane that could move.
   std::unique_ptr<Geom> make(const desc::Collision& collision, const std::string& name,
                              bool dynamic);
 
  private:
-  std::shared_ptr<const MeshData> mesh_data(const desc::Collision& collision,
-                                            const std::string& name, bool dynamic);
+  std::shared_ptr<const MeshData> mesh_data(const std::shared_ptr<const TriangleMesh>& mesh,
+                                            bool dynamic);
 
   Kept<const TriangleMesh*, MeshData> meshes_;
 };
