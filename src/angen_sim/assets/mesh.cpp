@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <optional>
 
-#include "assets/cache_file.h"
 #include "assets/converter.h"
 #include "core/kept.h"
-#include "core/random.h"
 #include "core/text.h"
 #include "document/xml.h"
 
@@ -53,41 +50,6 @@ std::string read_small(const std::string& path, const std::string& what, const S
   return bytes;
 }
 
-// An earlier answer of angen_mesh to the same request.
-struct CachedAnswer {
-  std::string head;  // the first bytes of the file
-  std::string file;  // empty if there is no cache
-};
-
-CachedAnswer cached_answer(const std::string& key) {
-  const std::string library = library_state(reinterpret_cast<const void*>(&read_mesh));
-  const std::string program = file_state(mesh_program());
-  if (library.empty() || program.empty()) return {};
-  const std::string head = library + "\n" + program + "\n" + key + "\n";
-  return {head, cache_file(head, ".mesh")};
-}
-
-std::optional<std::string> load_answer(const std::string& key) {
-  try {
-    const CachedAnswer kept = cached_answer(key);
-    if (kept.file.empty()) return std::nullopt;
-    const std::optional<std::string> bytes = read_cache_file(kept.file);
-    if (!bytes || bytes->compare(0, kept.head.size(), kept.head) != 0) return std::nullopt;
-    return bytes->substr(kept.head.size());
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
-}
-
-void store_answer(const std::string& key, const std::string& answer) {
-  try {
-    const CachedAnswer kept = cached_answer(key);
-    if (!kept.file.empty()) write_cache_file(kept.file, kept.head + answer);
-  } catch (const std::exception&) {
-    return;  // it will be converted again
-  }
-}
-
 Mesh import(const MeshSource& source, const Source& at) {
   MeshRequest request{extension_of(source.path), source.scale, source.submesh, source.center};
   if (request.extension != "dae" && request.extension != "stl" && request.extension != "obj") {
@@ -99,19 +61,8 @@ Mesh import(const MeshSource& source, const Source& at) {
     request.materials_name = fs::path(source.materials).filename().string();
     request.materials = read_small(source.materials, "materials", at);
   }
-  const auto mark = [](const std::string& bytes) {
-    return std::to_string(bytes.size()) + "|" + std::to_string(hash_bytes(bytes));
-  };
   try {
-    const std::string program = mesh_program();
-    const std::string key = request.extension + "|" + scale_text(source.scale) + "|" +
-                            mark(request.bytes) + "|" + mark(request.materials) + "|" +
-                            (request.center ? "centered " : "") + request.submesh;
-    if (const std::optional<std::string> kept = load_answer(key)) return decode_mesh(*kept);
-    const std::string answer = convert_mesh(program, request);
-    Mesh mesh = decode_mesh(answer);
-    store_answer(key, answer);
-    return mesh;
+    return decode_mesh(convert_mesh(mesh_program(), request));
   } catch (const Error& problem) {
     throw Error(at, "mesh " + source.path + " " + problem.what());
   }
@@ -119,14 +70,8 @@ Mesh import(const MeshSource& source, const Source& at) {
 
 Texture import_texture(const std::string& path) {
   const std::string bytes = read_small(path, "texture", {});
-  const std::string key =
-      "texture|" + std::to_string(bytes.size()) + "|" + std::to_string(hash_bytes(bytes));
   try {
-    if (const std::optional<std::string> kept = load_answer(key)) return decode_texture(*kept);
-    const std::string answer = convert_texture(mesh_program(), bytes);
-    Texture texture = decode_texture(answer);
-    store_answer(key, answer);
-    return texture;
+    return decode_texture(convert_texture(mesh_program(), bytes));
   } catch (const Error& problem) {
     throw Error("texture " + path + " " + problem.what());
   }
@@ -152,8 +97,8 @@ ReadMesh read_mesh(const MeshSource& source, const Source& at) {
   const std::string key = source.path + "|" + changed_at(source.path) + "|" + source.materials +
                           "|" + changed_at(source.materials) + "|" + scale_text(source.scale) +
                           (source.center ? "|centered|" : "|") + source.submesh;
-  const std::shared_ptr<const Mesh> mesh = kept.get(
-      key, [&] { return std::make_shared<Mesh>(import(source, at)); });
+  const std::shared_ptr<const Mesh> mesh =
+      kept.get(key, [&] { return std::make_shared<Mesh>(import(source, at)); });
   return {{mesh, &mesh->triangles}, {mesh, &mesh->look}};
 }
 
