@@ -185,7 +185,7 @@ TEST(Shapes, PlaneIsPlacedAndTilted) {
   world.run(1.5);
   ASSERT_FALSE(world.awake(box));
   // 10 degrees hold by friction 1, and the box lies as the plane does.
-  world.place(plane, {{0, 0, -0.2}, from_rpy(0.1745, 0, 0)});
+  world.move(plane, {{0, 0, -0.2}, from_rpy(0.1745, 0, 0)});
   world.run(3.0);
   const Pose pose = world.link(box).pose;
   EXPECT_NEAR((pose.rotation * Vec3::UnitZ()).dot(Vec3::UnitZ()), std::cos(0.1745), 1e-3);
