@@ -19,21 +19,6 @@ std::shared_ptr<const HeightGrid> rough(std::uint32_t columns, std::uint32_t row
   return grid;
 }
 
-std::shared_ptr<const TriangleMesh> mesh_of(const HeightGrid& grid) {
-  auto mesh = std::make_shared<TriangleMesh>();
-  for (std::uint32_t row = 0; row < grid.rows; ++row) {
-    for (std::uint32_t c = 0; c < grid.columns; ++c) mesh->vertices.push_back(grid.vertex(c, row));
-  }
-  for (std::uint32_t row = 0; row + 1 < grid.rows; ++row) {
-    for (std::uint32_t column = 0; column + 1 < grid.columns; ++column) {
-      const std::uint32_t a = row * grid.columns + column;
-      mesh->triangles.push_back({a, a + grid.columns, a + 1});
-      mesh->triangles.push_back({a + 1, a + grid.columns, a + grid.columns + 1});
-    }
-  }
-  return mesh;
-}
-
 void expect_same(const TriangleTree& one, const TriangleTree& other, const Vec3& origin,
                  const Vec3& direction, int& hits) {
   double range[2] = {0, 0};
