@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <map>
-#include <mutex>
-#include <optional>
 
-#include "assets/cache_file.h"
 #include "assets/converter.h"
-#include "core/random.h"
+#include "core/kept.h"
 #include "core/text.h"
 #include "document/xml.h"
 
@@ -54,41 +50,6 @@ std::string read_small(const std::string& path, const std::string& what, const S
   return bytes;
 }
 
-// An earlier answer of angen_mesh to the same request.
-struct CachedAnswer {
-  std::string head;  // the first bytes of the file
-  std::string file;  // empty if there is no cache
-};
-
-CachedAnswer cached_answer(const std::string& key) {
-  const std::string library = library_state(reinterpret_cast<const void*>(&read_mesh));
-  const std::string program = file_state(mesh_program());
-  if (library.empty() || program.empty()) return {};
-  const std::string head = library + "\n" + program + "\n" + key + "\n";
-  return {head, cache_file(head, ".mesh")};
-}
-
-std::optional<std::string> load_answer(const std::string& key) {
-  try {
-    const CachedAnswer kept = cached_answer(key);
-    if (kept.file.empty()) return std::nullopt;
-    const std::optional<std::string> bytes = read_cache_file(kept.file);
-    if (!bytes || bytes->compare(0, kept.head.size(), kept.head) != 0) return std::nullopt;
-    return bytes->substr(kept.head.size());
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
-}
-
-void store_answer(const std::string& key, const std::string& answer) {
-  try {
-    const CachedAnswer kept = cached_answer(key);
-    if (!kept.file.empty()) write_cache_file(kept.file, kept.head + answer);
-  } catch (const std::exception&) {
-    return;  // it will be converted again
-  }
-}
-
 Mesh import(const MeshSource& source, const Source& at) {
   MeshRequest request{extension_of(source.path), source.scale, source.submesh, source.center};
   if (request.extension != "dae" && request.extension != "stl" && request.extension != "obj") {
@@ -100,19 +61,8 @@ Mesh import(const MeshSource& source, const Source& at) {
     request.materials_name = fs::path(source.materials).filename().string();
     request.materials = read_small(source.materials, "materials", at);
   }
-  const auto mark = [](const std::string& bytes) {
-    return std::to_string(bytes.size()) + "|" + std::to_string(hash_bytes(bytes));
-  };
   try {
-    const std::string program = mesh_program();
-    const std::string key = request.extension + "|" + scale_text(source.scale) + "|" +
-                            mark(request.bytes) + "|" + mark(request.materials) + "|" +
-                            (request.center ? "centered " : "") + request.submesh;
-    if (const std::optional<std::string> kept = load_answer(key)) return decode_mesh(*kept);
-    const std::string answer = convert_mesh(program, request);
-    Mesh mesh = decode_mesh(answer);
-    store_answer(key, answer);
-    return mesh;
+    return decode_mesh(convert_mesh(mesh_program(), request));
   } catch (const Error& problem) {
     throw Error(at, "mesh " + source.path + " " + problem.what());
   }
@@ -120,14 +70,8 @@ Mesh import(const MeshSource& source, const Source& at) {
 
 Texture import_texture(const std::string& path) {
   const std::string bytes = read_small(path, "texture", {});
-  const std::string key =
-      "texture|" + std::to_string(bytes.size()) + "|" + std::to_string(hash_bytes(bytes));
   try {
-    if (const std::optional<std::string> kept = load_answer(key)) return decode_texture(*kept);
-    const std::string answer = convert_texture(mesh_program(), bytes);
-    Texture texture = decode_texture(answer);
-    store_answer(key, answer);
-    return texture;
+    return decode_texture(convert_texture(mesh_program(), bytes));
   } catch (const Error& problem) {
     throw Error("texture " + path + " " + problem.what());
   }
@@ -137,34 +81,6 @@ std::string changed_at(const std::string& path) {
   std::error_code failed;
   return std::to_string(fs::last_write_time(path, failed).time_since_epoch().count());
 }
-
-/// Objects in use, by file and request.
-template <class T>
-class Kept {
- public:
-  template <class Make>
-  std::shared_ptr<const T> get(const std::string& key, const Make& make) {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      for (auto it = all_.begin(); it != all_.end();) {
-        it = it->second.expired() ? all_.erase(it) : std::next(it);
-      }
-      const auto found = all_.find(key);
-      if (found != all_.end()) {
-        if (auto kept = found->second.lock()) return kept;
-      }
-    }
-    auto made = std::make_shared<const T>(make());
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (auto meanwhile = all_[key].lock()) return meanwhile;
-    all_[key] = made;
-    return made;
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<std::string, std::weak_ptr<const T>> all_;
-};
 
 }  // namespace
 
@@ -177,17 +93,19 @@ std::string materials_of(const std::string& path) {
 }
 
 ReadMesh read_mesh(const MeshSource& source, const Source& at) {
-  static Kept<Mesh> kept;
+  static Kept<std::string, const Mesh> kept;
   const std::string key = source.path + "|" + changed_at(source.path) + "|" + source.materials +
                           "|" + changed_at(source.materials) + "|" + scale_text(source.scale) +
                           (source.center ? "|centered|" : "|") + source.submesh;
-  const std::shared_ptr<const Mesh> mesh = kept.get(key, [&] { return import(source, at); });
+  const std::shared_ptr<const Mesh> mesh =
+      kept.get(key, [&] { return std::make_shared<Mesh>(import(source, at)); });
   return {{mesh, &mesh->triangles}, {mesh, &mesh->look}};
 }
 
 std::shared_ptr<const Texture> read_texture(const std::string& path) {
-  static Kept<Texture> kept;
-  return kept.get(path + "|" + changed_at(path), [&] { return import_texture(path); });
+  static Kept<std::string, const Texture> kept;
+  return kept.get(path + "|" + changed_at(path),
+                  [&] { return std::make_shared<Texture>(import_texture(path)); });
 }
 
 }  // namespace angen::load

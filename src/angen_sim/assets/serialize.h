@@ -10,8 +10,8 @@
 #include "core/shape.h"
 #include "core/texture.h"
 
-// cereal writes and reads converted files with these, for the cache and between angen_mesh and the
-// simulator. The bindings name every member of a struct: one that is added does not compile
+// cereal writes and reads converted files with these, between angen_mesh and the simulator. The
+// bindings name every member of a struct: one that is added does not compile
 // before it is serialized, too.
 namespace cereal {
 

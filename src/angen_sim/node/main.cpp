@@ -131,25 +131,19 @@ Value param_or(const std::string& name, Value fallback) {
   return fallback;
 }
 
-// The ~memory_limit of the command line, without ROS.
-void limit_memory_by(const std::vector<std::string>& words) {
-  constexpr char kLimit[] = "_memory_limit:=";
+/// The value of a private parameter on the command line, as _seed:=2; none without it. ROS is not
+/// needed.
+std::optional<std::string> given(const std::vector<std::string>& words, const std::string& name) {
+  const std::string begin = "_" + name + ":=";
   for (const std::string& word : words) {
-    if (word.rfind(kLimit, 0) != 0) continue;
-    const std::optional<double> given = angen::parse_finite(word.substr(sizeof kLimit - 1));
-    if (given) angen::load::set_memory_limit(*given);
+    if (word.rfind(begin, 0) == 0) return word.substr(begin.size());
   }
+  return std::nullopt;
 }
 
-// The ~seed of the command line, without ROS.
-std::uint64_t seed_in(const std::vector<std::string>& words) {
-  constexpr char kSeed[] = "_seed:=";
-  for (const std::string& word : words) {
-    if (word.rfind(kSeed, 0) != 0) continue;
-    const std::optional<double> given = angen::parse_finite(word.substr(sizeof kSeed - 1));
-    if (given && *given >= 0.0) return static_cast<std::uint64_t>(*given);
-  }
-  return kDefaultSeed;
+std::optional<double> given_number(const std::vector<std::string>& words, const std::string& name) {
+  const std::optional<std::string> text = given(words, name);
+  return text ? angen::parse_finite(*text) : std::nullopt;
 }
 
 /// ~until, a time in s; a launch file gives an empty text for none.
@@ -211,13 +205,6 @@ void set_strict(const std::string& word) {
     throw angen::Error("~strict is '" + word + "', must be true or false");
   }
   setenv("ANGEN_STRICT", word.c_str(), 1);
-}
-
-void set_strict_by(const std::vector<std::string>& words) {
-  constexpr char kStrict[] = "_strict:=";
-  for (const std::string& word : words) {
-    if (word.rfind(kStrict, 0) == 0) set_strict(word.substr(sizeof kStrict - 1));
-  }
 }
 
 // A launch file gives true or false, or an empty text for neither.
@@ -333,14 +320,14 @@ int main(int argc, char** argv) {
     const std::string path = paths.empty() ? "" : paths[0];
     // Before ROS, which waits for a master: errors in the world need none.
     std::unique_ptr<Simulation> simulation;
-    if (std::count(raw.begin(), raw.end(), "_allow_paths:=true") != 0) allow_all_paths();
-    limit_memory_by(raw);
-    set_strict_by(raw);
-    if (!paths.empty()) simulation = make(path, seed_in(raw));
+    if (given(raw, "allow_paths") == "true") allow_all_paths();
+    if (const auto limit = given_number(raw, "memory_limit")) angen::load::set_memory_limit(*limit);
+    set_strict(given(raw, "strict").value_or(""));
+    const double seed = std::max(0.0, given_number(raw, "seed").value_or(kDefaultSeed));
+    if (!paths.empty()) simulation = make(path, static_cast<std::uint64_t>(seed));
     ros::init(argc, argv, "angen", ros::init_options::NoSigintHandler);
     end_on_signals();
-    const bool replaces = std::count(raw.begin(), raw.end(), "_replace:=true") != 0;
-    angen::node::require_no_other_node(replaces);
+    angen::node::require_no_other_node(given(raw, "replace") == "true");
     return run(path, std::move(simulation));
   } catch (const angen::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -13,27 +13,6 @@ namespace {
 
 using ShapeType = Shape::Type;
 
-void require_positive(double value, const char* what, const desc::Collision& collision,
-                      const std::string& name) {
-  if (std::isfinite(value) && value > 0.0) return;
-  throw Error(collision.source, "collision \"" + name + "\" has a " + what + " of " +
-                                    std::to_string(value) + " m, it must be above 0");
-}
-
-void require_size(const desc::Collision& collision, const std::string& name) {
-  const Shape& shape = collision.shape;
-  if (shape.type == ShapeType::kBox) {
-    for (int i = 0; i < 3; ++i) require_positive(shape.size[i], "side", collision, name);
-  }
-  if (shape.type == ShapeType::kSphere || shape.type == ShapeType::kCylinder ||
-      shape.type == ShapeType::kCapsule) {
-    require_positive(shape.radius, "radius", collision, name);
-  }
-  if (shape.type == ShapeType::kCylinder || shape.type == ShapeType::kCapsule) {
-    require_positive(shape.length, "length", collision, name);
-  }
-}
-
 dGeomID make_mesh(dTriMeshDataID data) {
   return dCreateTriMesh(nullptr, data, nullptr, nullptr, nullptr);
 }
@@ -73,41 +52,18 @@ Eigen::Matrix3Xd corners_of(const TriangleMesh& mesh) {
 
 }  // namespace
 
-std::shared_ptr<const MeshData> ShapeFactory::mesh_data(const desc::Collision& collision,
-                                                        const std::string& name, bool dynamic) {
-  const std::shared_ptr<const TriangleMesh>& mesh = collision.shape.mesh;
-  if (!mesh || mesh->triangles.empty()) {
-    throw Error(collision.source, "collision \"" + name + "\" has a mesh without triangles");
-  }
-  for (const Eigen::Vector3f& v : mesh->vertices) {
-    if (!v.allFinite()) {
-      throw Error(collision.source, "collision \"" + name + "\" has a vertex that is not finite");
-    }
-  }
-  for (const auto& triangle : mesh->triangles) {
-    for (const std::uint32_t corner : triangle) {
-      if (corner >= mesh->vertices.size()) {
-        throw Error(collision.source, "collision \"" + name + "\" has a triangle with a corner " +
-                                          std::to_string(corner) + " of only " +
-                                          std::to_string(mesh->vertices.size()) + " vertices");
-      }
-    }
-  }
-  for (auto it = meshes_.begin(); it != meshes_.end();) {
-    it = it->second.expired() ? meshes_.erase(it) : std::next(it);
-  }
-  std::weak_ptr<MeshData>& known = meshes_[mesh];
-  std::shared_ptr<MeshData> data = known.lock();
-  if (!data) {
-    data = std::make_shared<MeshData>();
-    data->mesh = mesh;
-    data->data.reset(dGeomTriMeshDataCreate());
-    dGeomTriMeshDataBuildSingle(data->data.get(), mesh->vertices.data(), sizeof(Eigen::Vector3f),
+std::shared_ptr<const MeshData> ShapeFactory::mesh_data(
+    const std::shared_ptr<const TriangleMesh>& mesh, bool dynamic) {
+  const std::shared_ptr<MeshData> data = meshes_.get(mesh.get(), [&] {
+    auto made = std::make_shared<MeshData>();
+    made->mesh = mesh;
+    made->data.reset(dGeomTriMeshDataCreate());
+    dGeomTriMeshDataBuildSingle(made->data.get(), mesh->vertices.data(), sizeof(Eigen::Vector3f),
                                 static_cast<int>(mesh->vertices.size()), mesh->triangles.data(),
                                 static_cast<int>(3 * mesh->triangles.size()),
                                 sizeof(mesh->triangles[0]));
-    known = data;
-  }
+    return made;
+  });
   if (dynamic && data->corners.cols() == 0) data->corners = corners_of(*mesh);
   return data;
 }
@@ -116,7 +72,6 @@ std::unique_ptr<Geom> ShapeFactory::make(const desc::Collision& collision, const
                                          bool dynamic) {
   const Shape& shape = collision.shape;
   if (shape.type == ShapeType::kEmpty) return nullptr;
-  require_size(collision, name);
   if (shape.type == ShapeType::kPlane && dynamic) {
     throw Error(collision.source,
                 "collision \"" + name + "\" is a plane on a link that moves, use a box");
@@ -130,11 +85,8 @@ std::unique_ptr<Geom> ShapeFactory::make(const desc::Collision& collision, const
   geom->min_depth = collision.min_depth;
   if (shape.type == ShapeType::kBox) geom->thickness = shape.size.minCoeff();
   geom->is_plane = shape.type == ShapeType::kPlane;
-  if (shape.type == ShapeType::kMesh) geom->mesh = mesh_data(collision, name, dynamic);
+  if (shape.type == ShapeType::kMesh) geom->mesh = mesh_data(shape.mesh, dynamic);
   if (shape.type == ShapeType::kHeightmap) {
-    if (!shape.heights || shape.heights->heights.empty()) {
-      throw Error(collision.source, "collision \"" + name + "\" has a heightmap without heights");
-    }
     geom->tiles = std::make_shared<HeightTiles>(shape.heights);
     geom->tile.reset(make_mesh(geom->tiles->bounds()));
   }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <map>
 #include <memory>
 
+#include "core/kept.h"
 #include "physics/model.h"
 
 namespace angen::physics {
@@ -11,17 +11,15 @@ namespace angen::physics {
 class ShapeFactory {
  public:
   /// A geom of the collision's shape, not yet placed; null for an empty shape. Throws Error for a
-  /// size that is no size, a mesh without triangles, or a plane that could move.
+  /// plane that could move.
   std::unique_ptr<Geom> make(const desc::Collision& collision, const std::string& name,
                              bool dynamic);
 
  private:
-  std::shared_ptr<const MeshData> mesh_data(const desc::Collision& collision,
-                                            const std::string& name, bool dynamic);
+  std::shared_ptr<const MeshData> mesh_data(const std::shared_ptr<const TriangleMesh>& mesh,
+                                            bool dynamic);
 
-  std::map<std::shared_ptr<const TriangleMesh>, std::weak_ptr<MeshData>,
-           std::owner_less<std::shared_ptr<const TriangleMesh>>>
-      meshes_;
+  Kept<const TriangleMesh*, MeshData> meshes_;
 };
 
 /// Moves a geom to its body's pose, and computes its box.

@@ -266,18 +266,6 @@ void World::push(LinkId id, const Vec3& force, const Vec3& torque, const Vec3& p
   dBodyAddTorque(body.ode.get(), t.x(), t.y(), t.z());
 }
 
-void World::place(ModelId id, const Pose& pose) {
-  Impl& w = *impl_;
-  ModelRecord& model = *w.models.at(id);
-  if (const std::string problem = pose_problem(pose); !problem.empty()) {
-    throw Error("model \"" + model.name + "\" cannot be put there: " + problem);
-  }
-  w.leave(model);
-  for (const auto& geom : model.geoms) geom->recent.clear();
-  w.settle(model, pose);
-  w.note_placed(model);
-}
-
 void World::step(std::int64_t tick, std::int64_t count) { impl_->take_step(tick, count); }
 
 bool World::allows_long_steps() const {

@@ -97,10 +97,6 @@ class World {
   /// sleeping body unless both are 0; an awake one may fall asleep under the same push.
   void push(LinkId link, const Vec3& force, const Vec3& torque, const Vec3& point);
 
-  /// Puts a whole model as it was described, joints at their initial positions and velocities zero,
-  /// so that its frame is at `pose`. Motors stay as they are. Throws Error for a pose not finite.
-  void place(ModelId model, const Pose& pose);
-
   /// Moves a whole model, also a static one, by a displacement in the world; joints keep their
   /// positions; it is at rest then. Throws Error for a place beyond the limits.
   void move(ModelId model, const Pose& by);
@@ -132,14 +128,14 @@ class World {
   bool allows_long_steps() const;
 
   /// Links that the last step stopped: they stay at their poses before the step, like static
-  /// bodies, until their model is placed again.
+  /// bodies, until their model is moved.
   const std::vector<Stopped>& stopped() const;
 
   /// True if there were too many contacts in the last step (20,000 points), and some of two moving
   /// bodies were left out.
   bool crowded() const;
 
-  /// Links whose pose changed in the last step (or place), in id order.
+  /// Links whose pose changed in the last step, or since, in id order.
   const std::vector<LinkId>& moved() const;
 
   /// All contacts, sorted by names' ids; sleeping bodies keep their last contacts and forces.

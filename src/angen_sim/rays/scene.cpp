@@ -7,10 +7,9 @@
 #include <utility>
 
 #include "core/slots.h"
-#include "rays/height_tree.h"
 #include "rays/layer.h"
-#include "rays/mesh_tree.h"
 #include "rays/shaft.h"
+#include "rays/triangle_tree.h"
 
 namespace angen::rays {
 namespace {
@@ -56,7 +55,6 @@ struct Scene::Impl {
   std::map<std::uint32_t, std::pair<Shape::Type, Solid>> hidden;  // by index
   Layer fixed{true};
   Layer moving{false};
-  std::map<const TriangleMesh*, std::weak_ptr<const MeshTree>> meshes;
   std::uint64_t placements = 0;
   std::uint64_t revision = 0;
   std::uint64_t static_revision = 0;
@@ -112,20 +110,6 @@ struct Scene::Impl {
 
   Layer& layer(Mobility mobility) { return mobility == Mobility::kStatic ? fixed : moving; }
 
-  std::shared_ptr<const MeshTree> mesh_tree(const std::shared_ptr<const TriangleMesh>& mesh) {
-    if (!mesh) return nullptr;
-    std::weak_ptr<const MeshTree>& known = meshes[mesh.get()];
-    std::shared_ptr<const MeshTree> tree = known.lock();
-    if (!tree) known = tree = std::make_shared<const MeshTree>(mesh);
-    return tree;
-  }
-
-  void forget_unused_meshes() {
-    for (auto it = meshes.begin(); it != meshes.end();) {
-      it = it->second.expired() ? meshes.erase(it) : std::next(it);
-    }
-  }
-
   void bound_warm_shapes() {
     warm.clear();
     for (const auto& [id, shape] : warmed) {
@@ -159,8 +143,8 @@ Scene::~Scene() = default;
 ShapeId Scene::add(const Shape& shape, const Pose& pose, Mobility mobility,
                    const Eigen::Vector3f& reflectance) {
   std::shared_ptr<const TriangleTree> mesh;
-  if (shape.type == Shape::Type::kMesh) mesh = impl_->mesh_tree(shape.mesh);
-  if (shape.type == Shape::Type::kHeightmap) mesh = HeightTree::of(shape.heights);
+  if (shape.type == Shape::Type::kMesh) mesh = TriangleTree::of(shape.mesh);
+  if (shape.type == Shape::Type::kHeightmap) mesh = TriangleTree::of(shape.heights);
   Solid solid = make_solid(shape, std::move(mesh), pose);
   const ShapeId id = impl_->entries.add({mobility, solid.type, pose});
   impl_->reflectances.resize(std::max<std::size_t>(impl_->reflectances.size(), id.index + 1));
@@ -243,7 +227,6 @@ void Scene::remove(ShapeId shape) {
   warmed.erase(std::remove_if(warmed.begin(), warmed.end(),
                               [&](const auto& each) { return each.first == shape; }),
                warmed.end());
-  if (entry.type == Shape::Type::kMesh) impl_->forget_unused_meshes();
 }
 
 void Scene::commit() {

@@ -1,15 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
-#include "core/pose.h"
+#include "core/shape.h"
 
 namespace angen::rays {
 
-/// Triangles in their own frame, with a hierarchy over them; shared by all their placements.
+/// Triangles in their own frame, with a hierarchy of Embree over them; shared by all their
+/// placements.
 class TriangleTree {
  public:
   virtual ~TriangleTree() = default;
+
+  /// The tree of a mesh or a heightmap, kept while it is used; null if there is none.
+  static std::shared_ptr<const TriangleTree> of(const std::shared_ptr<const TriangleMesh>& mesh);
+  static std::shared_ptr<const TriangleTree> of(const std::shared_ptr<const HeightGrid>& grid);
 
   /// Nearest triangle in [min, max], from both sides; the lowest number on a tie. False without a
   /// hit.
@@ -17,7 +23,7 @@ class TriangleTree {
                         double& range, std::uint32_t& triangle) const = 0;
   virtual Vec3 normal(std::uint32_t triangle) const = 0;
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
-  /// Triangles whose boxes a ray through `bounds` crosses, on average.
+  /// Triangles whose boxes a ray through `bounds` crosses, on average; 0 for a heightmap.
   double crossed() const { return crossed_; }
 
  protected:

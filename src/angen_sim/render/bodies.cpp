@@ -159,7 +159,7 @@ Facet Patch::facet(std::uint32_t geometry, std::uint32_t triangle) const {
 }
 
 void Patch::append_heightmap(const Surface& surface, const Pose& at) {
-  auto tree = rays::HeightTree::of(surface.shape.heights);
+  auto tree = rays::TriangleTree::of(surface.shape.heights);
   if (!tree) return;
   heightmaps_.push_back({std::move(tree), at.rotation.normalized().toRotationMatrix(), at.position,
                          static_cast<std::uint32_t>(finishes_.size())});

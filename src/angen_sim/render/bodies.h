@@ -6,7 +6,7 @@
 #include "core/mesh_look.h"
 #include "core/texture.h"
 #include "rays/device.h"
-#include "rays/height_tree.h"
+#include "rays/triangle_tree.h"
 #include "render/box_tree.h"
 #include "render/hull.h"
 #include "render/scene.h"
@@ -28,7 +28,7 @@ struct Finish {
 
 /// A heightmap in the frame of its patch.
 struct PlacedHeightmap {
-  std::shared_ptr<const rays::HeightTree> tree;
+  std::shared_ptr<const rays::TriangleTree> tree;
   Eigen::Matrix3d rotation;
   Vec3 position;
   std::uint32_t finish = 0;

@@ -92,7 +92,7 @@ TriangleMesh tessellate(const Shape& shape) {
       return capsule(shape.radius, shape.length);
     case Shape::Type::kMesh:
       return shape.mesh ? *shape.mesh : TriangleMesh{};
-    case Shape::Type::kHeightmap:  // rays hit its HeightTree
+    case Shape::Type::kHeightmap:  // rays hit its TriangleTree
     case Shape::Type::kEmpty:
       break;
   }

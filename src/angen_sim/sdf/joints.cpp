@@ -14,8 +14,9 @@ namespace angen::load {
 
 namespace {
 
-constexpr double kFree = 1e16;        // SDF's "no limit"
-constexpr double kLeastPitch = 1e-3;  // rad/m; a thread with less does not turn
+constexpr double kFree = 1e16;           // SDF's "no limit"
+constexpr double kMostParallel = 0.999;  // cosine between two axes
+constexpr double kLeastPitch = 1e-3;     // rad/m; a thread with less does not turn
 
 desc::Joint::Type type_of(const std::string& type) {
   if (type == "revolute" || type == "continuous") return desc::Joint::Type::kRevolute;
@@ -118,6 +119,12 @@ double lead_of(const Reader& reader, const Element& joint) {
                   number_text(kLeastPitch));
 }
 
+void check_universal(const desc::Joint& joint, const Element& element) {
+  if (std::abs(joint.axes[0].xyz.dot(joint.axes[1].xyz)) <= kMostParallel) return;
+  throw Error(element.source, "the <axis> and <axis2> of " + tag_of(element) +
+                                  " are parallel; give them different directions");
+}
+
 bool is_hinge(const desc::Joint& joint) { return joint.type == desc::Joint::Type::kRevolute; }
 
 // Hinges about one line, as a door has an upper and a lower one.
@@ -172,6 +179,7 @@ desc::Joint joint_of(const Element& element, const std::string& scope, Frames& f
   if (joint.type == desc::Joint::Type::kScrew) joint.lead = lead_of(reader, element);
   if (joint.type == desc::Joint::Type::kUniversal) {
     joint.axes.push_back(axis_of(reader.block("axis2"), element, scope, frames, session));
+    check_universal(joint, element);
   }
   return joint;
 }

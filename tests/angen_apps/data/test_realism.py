@@ -25,7 +25,6 @@ def test_files_of_casas_are_read_with_tabs_or_blanks(tmp_path, fraction, separat
     found = realism.measures(stream)
     assert found['events a day'] == 2 and found['ON time p50, s'] == 1.5
     assert realism.durations(stream)['Sleeping'] == [86403.0]
-    assert realism.transitions(stream) == {('M003', 'M004'): 1}
     file.write_text('hello\n')
     with pytest.raises(Failure, match=r'aruba\.txt:1: is not an event'):
         realism.read(file)
@@ -34,7 +33,7 @@ def test_files_of_casas_are_read_with_tabs_or_blanks(tmp_path, fraction, separat
 def test_what_is_outside_comes_first():
     time = np.arange(0, 86400, 1000.0)
     values = ['ON' if i % 2 == 0 else 'OFF' for i in range(len(time))]
-    stream = realism.Stream(time, ['M001'] * len(time), values, ['kitchen'] * len(time), [])
+    stream = realism.Stream(time, ['M001'] * len(time), values, [])
     verdicts = [row[3] for row in realism.compare(stream, None)]
     assert verdicts[0] != 'within' and verdicts == sorted(verdicts, key=lambda v: v == 'within')
 

@@ -10,22 +10,9 @@ from angen import Grid
 
 from angen_apps.maps.gridmap import FREE, OCCUPIED, UNKNOWN, load_world, make_map
 from angen_tools.cli import main as cli
+from tests.angen_apps.maps.test_gridmap import sdf, solid
 
 ROOT = Path(__file__).resolve().parents[3]
-PLUGINS = '''<plugin name="doors" filename="libdoor_world_plugin.so"/>
-<plugin name="robots" filename="librobot_controller.so"/>'''
-
-
-def solid(name: str, pose: str, size: str) -> str:
-    return f'''<model name="{name}"><static>true</static><pose>{pose}</pose><link name="link">
-  <collision name="c"><geometry><box><size>{size}</size></box></geometry></collision>
-  </link></model>'''
-
-
-def sdf(*models: str) -> str:
-    """A slab of 4 x 4 m at z = 0, with models on it."""
-    return (f'<sdf version="1.6"><world name="w">{PLUGINS}'
-            f'{solid("slab", "0 0 -0.1 0 0 0", "4 4 0.2")}{"".join(models)}</world></sdf>')
 
 
 def read_as_map_server(path: Path) -> Grid:

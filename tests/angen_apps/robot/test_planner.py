@@ -9,18 +9,7 @@ from angen import Grid
 
 from angen_apps.maps.gridmap import FREE, OCCUPIED
 from angen_apps.robot.planner import Door, Planner, distances, passages
-
-
-def two_rooms(floor: int = 0) -> Grid:
-    """4 m x 2 m, with walls all round and one at x = 2 that has a doorway from y = 0.5 to 1.5."""
-    cells = np.full((40, 80), FREE, np.int8)
-    cells[[0, -1]] = cells[:, [0, -1]] = OCCUPIED
-    cells[:10, 40] = cells[30:, 40] = OCCUPIED
-    return Grid(cells, (0.0, 0.0), 0.05, floor)
-
-
-# shut across the doorway; opens into the right room
-DOOR = Door('d', (2.0, 0.5), math.pi / 2, 0.0, 1.0)
+from tests.angen_apps.robot.rooms import DOOR, two_rooms
 
 
 def test_a_way_keeps_its_distance() -> None:

@@ -1,33 +1,18 @@
 """Waypoints become actions."""
 from __future__ import annotations
 
-import math
 from pathlib import Path
 
-import numpy as np
 import pytest
-from angen import Grid
 
-from angen_apps.maps.gridmap import FREE, OCCUPIED
-from angen_apps.robot.planner import Door, Planner
+from angen_apps.robot.planner import Planner
 from angen_apps.robot.route import Drive, Ride, Router, Turn
 from angen_apps.robot.route_file import read_route
 from angen_tools.common.failure import Failure
+from tests.angen_apps.robot.rooms import DOOR, two_rooms
 
 POINTS = ('waypoints:\n- {name: a, floor: 0, at: [0.5, 0.5]}\n'
           '- {name: b, floor: 0, at: [3.5, 0.5]}\n')
-
-
-def two_rooms(floor: int = 0) -> Grid:
-    """4 m x 2 m, with walls all round and one at x = 2 that has a doorway from y = 0.5 to 1.5."""
-    cells = np.full((40, 80), FREE, np.int8)
-    cells[[0, -1]] = cells[:, [0, -1]] = OCCUPIED
-    cells[:10, 40] = cells[30:, 40] = OCCUPIED
-    return Grid(cells, (0.0, 0.0), 0.05, floor)
-
-
-# shut across the doorway; opens into the right room
-DOOR = Door('d', (2.0, 0.5), math.pi / 2, 0.0, 1.0)
 
 
 def route_of(folder: Path, text: str):

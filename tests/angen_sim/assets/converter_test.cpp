@@ -5,8 +5,6 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-#include <cstdlib>
-
 #include "angen_sim/assets/pngs.h"
 #include "assets/mesh.h"
 #include "document/xml.h"
@@ -23,9 +21,6 @@ constexpr bool kSanitized = false;
 
 class HostileMesh : public testing::Test {
  protected:
-  HostileMesh() { setenv("ANGEN_NO_CACHE", "1", 1); }
-  ~HostileMesh() override { unsetenv("ANGEN_NO_CACHE"); }
-
   /// The error of a world with this mesh.
   std::string complaint(const std::string& name, const std::string& text) {
     folder_.write("part/" + name, text);

@@ -141,21 +141,5 @@ TEST(Latch, ThatCanBreakHoldsBelowItsTorqueOnly) {
   }
 }
 
-TEST(Latch, StaysWhereAModelIsPut) {
-  TestWorld world;
-  const ModelId id = world.add(door_model("door"));
-  const JointId hinge = world.joints(id)[1];
-  for (int i = 0; i < 300; ++i) {
-    world.add_force(hinge, -40.0);
-    world.run(kStep);
-  }
-  ASSERT_LT(world.joint(hinge).position, -0.1);
-  world.latch(hinge, dInfinity);
-  world.run(0.5);
-  world.place(id, {{1, 0, 0}, Quat::Identity()});
-  world.run(1.0);
-  EXPECT_NEAR(world.joint(hinge).position, 0.0, 1e-6);
-}
-
 }  // namespace
 }  // namespace angen::physics::testing

@@ -130,7 +130,7 @@ TEST_F(Rearrange, AnotherMassFollowsNewton) {
 TEST_F(Rearrange, WhatCannotBeDescribedChangesNothing) {
   desc::Model model = box_model("box", 1.0, {0.2, 0.2, 0.2}, {0, 0, 5});
   const ModelId id = world_.add(model);
-  model.links[0].inertial.mass = 0.0;
+  model.links[0].inertial.moment.setZero();
   EXPECT_THROW(world_.redescribe(id, model), Error);
   EXPECT_EQ(world_.mass(world_.links(id)[0]), 1.0);
 }

@@ -46,7 +46,7 @@ TEST(Sleep, WakeWhenWhatTheyRestOnIsMoved) {
   const LinkId link =
       world.only_link(world.add(box_model("box", 7.0, {0.4, 0.3, 0.2}, {0, 0, 0.1})));
   world.run(2.0);
-  world.place(floor, {{0, 0, -1.1}, Quat::Identity()});
+  world.move(floor, {{0, 0, -1}, Quat::Identity()});
   world.run(2.0);
   EXPECT_NEAR(world.link(link).pose.position.z(), -0.9, 1.01e-3);  // by the layer of contacts
   EXPECT_FALSE(world.awake(link));

@@ -41,7 +41,7 @@ TEST(Stopped, AtTheGreatestSpeedWhileTheRestGoesOn) {
   world.step(tick++);
   EXPECT_EQ(world.link(link).pose, there) << "a stopped body does not move";
   EXPECT_TRUE(world.stopped().empty()) << "it is reported once";
-  world.place(fast, {});
+  world.move(fast, Pose{});
   EXPECT_TRUE(world.awake(link));
   world.step(tick++);
   EXPECT_GT(world.link(link).linear_velocity.x(), 100.0);

@@ -42,6 +42,22 @@ inline Shape octahedron(float radius) {
   return shape;
 }
 
+/// The triangles of a heightmap.
+inline std::shared_ptr<const TriangleMesh> mesh_of(const HeightGrid& grid) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  for (std::uint32_t row = 0; row < grid.rows; ++row) {
+    for (std::uint32_t c = 0; c < grid.columns; ++c) mesh->vertices.push_back(grid.vertex(c, row));
+  }
+  for (std::uint32_t row = 0; row + 1 < grid.rows; ++row) {
+    for (std::uint32_t column = 0; column + 1 < grid.columns; ++column) {
+      const std::uint32_t a = row * grid.columns + column;
+      mesh->triangles.push_back({a, a + grid.columns, a + 1});
+      mesh->triangles.push_back({a + 1, a + grid.columns, a + grid.columns + 1});
+    }
+  }
+  return mesh;
+}
+
 inline Pose at(double x, double y, double z) { return {Vec3(x, y, z), Quat::Identity()}; }
 inline Pose at(double x, double y, double z, const Quat& rotation) {
   return {Vec3(x, y, z), rotation};

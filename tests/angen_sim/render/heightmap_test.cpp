@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "angen_sim/rays/shapes.h"
 #include "render/scene.h"
 
 namespace angen::render {
@@ -28,20 +29,9 @@ Shape as_heightmap(const std::shared_ptr<const HeightGrid>& grid) {
 }
 
 Shape as_mesh(const HeightGrid& grid) {
-  auto mesh = std::make_shared<TriangleMesh>();
-  for (std::uint32_t row = 0; row < grid.rows; ++row) {
-    for (std::uint32_t c = 0; c < grid.columns; ++c) mesh->vertices.push_back(grid.vertex(c, row));
-  }
-  for (std::uint32_t row = 0; row + 1 < grid.rows; ++row) {
-    for (std::uint32_t column = 0; column + 1 < grid.columns; ++column) {
-      const std::uint32_t a = row * grid.columns + column;
-      mesh->triangles.push_back({a, a + grid.columns, a + 1});
-      mesh->triangles.push_back({a + 1, a + grid.columns, a + grid.columns + 1});
-    }
-  }
   Shape shape;
   shape.type = Shape::Type::kMesh;
-  shape.mesh = mesh;
+  shape.mesh = rays::testing::mesh_of(grid);
   return shape;
 }
 

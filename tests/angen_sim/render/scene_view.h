@@ -3,25 +3,14 @@
 #include <cmath>
 #include <vector>
 
+#include "angen_sim/rays/shapes.h"
 #include "render/scene.h"
 
 /// A scene with one camera, and the bodies and lamps of tests.
 namespace angen::render {
 
-inline Shape box(double x, double y, double z) {
-  Shape shape;
-  shape.type = Shape::Type::kBox;
-  shape.size = {x, y, z};
-  return shape;
-}
-
-inline Shape round(Shape::Type type, double radius, double length = 0.0) {
-  Shape shape;
-  shape.type = type;
-  shape.radius = radius;
-  shape.length = length;
-  return shape;
-}
+using rays::testing::box;
+using rays::testing::round;
 
 inline Pose at(double x, double y = 0.0, double z = 0.0) { return {{x, y, z}, Quat::Identity()}; }
 

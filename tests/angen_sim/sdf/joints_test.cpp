@@ -176,6 +176,7 @@ TEST(Joint, EveryType) {
   EXPECT_EQ(universal.type, Joint::kUniversal);
   ASSERT_EQ(universal.axes.size(), 2U);
   expect_near(universal.axes[1].xyz, {0.0, 1.0, 0.0});
+  EXPECT_THROW(read_model(joint("universal", axis + "<axis2><xyz>-2 0 0</xyz></axis2>")), Error);
 }
 
 // As in Gazebo Classic: z = -angle / thread_pitch.

@@ -1,6 +1,6 @@
 #include "angen_sim/sdf/texts.h"
 
-// SDF and URDF that were copied from a PDF.
+// SDF that was copied from a PDF.
 namespace angen::load {
 namespace {
 
@@ -14,18 +14,6 @@ TEST(Typography, NumbersAndTagsAreReadAsMeant) {
   EXPECT_TRUE(w.warnings.empty());
 }
 
-TEST(Typography, NumbersOfAUrdfAreReadAsMeant) {
-  const std::string inertial =
-      "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
-      "</inertial></link>";
-  const desc::Model m =
-      model("<robot name='r'><link name='a'>" + inertial + "<link name='b'>" + inertial +
-                "<joint name='j' type='continuous'><parent link='a'/><child link='b'/>"
-                "<origin xyz='1 \u22122 3' rpy='0 0 0'/><axis xyz='0 0 1'/></joint></robot>",
-            "", {}, {});
-  expect_near(m.links.at(1).pose.position, {1.0, -2.0, 3.0});
-}
-
 TEST(Typography, NamesAndTextsStay) {
   const desc::World w = read(
       in_world("<!-- name=\u201Cx\u201D \u2212 --><model name='\u20131'><link name='a \u2013 b'/>"
@@ -33,12 +21,6 @@ TEST(Typography, NamesAndTextsStay) {
   EXPECT_EQ(w.models.at(0).name, "\u20131");
   EXPECT_EQ(w.models[0].links.at(0).name, "a \u2013 b");
   EXPECT_EQ(w.models[0].plugins.at(0).element.child_text("note"), "\u201Cx\u201D");
-}
-
-TEST(Typography, ErrorsKeepTheirLine) {
-  const std::string error = error_of(
-      "<sdf version='1.6'>\n<!-- \u201Cx\u201D -->\n<world name='w'>\n<model></world></sdf>");
-  EXPECT_EQ(error.find("w.world:4: the element opened here is not closed"), 0U) << error;
 }
 
 }  // namespace

@@ -34,12 +34,11 @@ PUBLISHED = {
 
 @dataclass
 class Stream:
-    """Events of a home: time in s since the first midnight, sensor, value, room."""
+    """Events of a home: time in s since the first midnight, sensor, value."""
 
     time: np.ndarray
     sensor: list[str]
     value: list[str]
-    room: list[str]
     labels: list[tuple[float, str, str]]  # time, activity, begin or end
 
     @property
@@ -76,14 +75,14 @@ def read(path: Path) -> Stream:
             labels.append((times[-1], label[0], label[1]))
     if not times:
         raise Failure(f'{path}: has no events')
-    return Stream(np.array(times), sensors, values, sensors, labels)
+    return Stream(np.array(times), sensors, values, labels)
 
 
 def _own(folder: Path) -> Stream:
-    times, sensors, values, places = [], [], [], []
+    times, sensors, values = [], [], []
     first = None
     for row in rows(folder / 'events.csv.gz',
-                    {key: EVENTS[key] for key in ('time', 'sensor', 'value', 'room')}):
+                    {key: EVENTS[key] for key in ('time', 'sensor', 'value')}):
         if row['sensor'] == MAINS:
             continue
         at = datetime.datetime.fromisoformat(row['time'])
@@ -91,8 +90,7 @@ def _own(folder: Path) -> Stream:
         times.append((at - first).total_seconds())
         sensors.append(row['sensor'])
         values.append(row['value'])
-        places.append(row['room'])
-    return Stream(np.array(times), sensors, values, places, _labels(folder / 'truth.csv.gz'))
+    return Stream(np.array(times), sensors, values, _labels(folder / 'truth.csv.gz'))
 
 
 def _labels(path: Path) -> list[tuple[float, str, str]]:
@@ -149,18 +147,6 @@ def measures(stream: Stream) -> dict[str, float]:
 def by_hour(stream: Stream) -> np.ndarray:
     """Events of a day in each hour (24,)."""
     return np.bincount((stream.time // 3600 % 24).astype(int), minlength=24) / stream.days
-
-
-def transitions(stream: Stream) -> Counter[tuple[str, str]]:
-    """Transitions from room to room, by motion sensors that turn on."""
-    found: Counter[tuple[str, str]] = Counter()
-    last = ''
-    for sensor, value, room in zip(stream.sensor, stream.value, stream.room):
-        if value == 'ON' and sensor.startswith('M'):
-            if last and last != room:
-                found[last, room] += 1
-            last = room
-    return found
 
 
 def ks(a: np.ndarray, b: np.ndarray) -> float:

@@ -6,7 +6,6 @@ wide: Approved Document M (2015) requires 0.75 m clear for a straight approach.
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import pi
 from random import Random
 
@@ -28,15 +27,6 @@ OTHERS = ('bedroom', 'living', 'bedroom_small', 'work', 'bedroom_small')
 LANDING = 2.4  # m
 LANDING_SIDE = 1.3  # m from its middle to the middle of a wall beside it
 SHAFT = (1.7, 1.7)  # m, inner depth and width
-
-
-@dataclass(frozen=True)
-class _Cell:
-    """A room of a row: its use, west and east face of the space between walls' middles."""
-
-    kind: str
-    west: float
-    east: float
 
 
 def apartment(rooms: int, storeys: int, seed: int) -> Plan:

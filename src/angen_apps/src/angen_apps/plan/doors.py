@@ -2,11 +2,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, sin
 
 from lxml import etree
 
-from angen_apps.plan.model import Leaf, Opening, local, turned
+from angen_apps.plan.model import Leaf, Opening, turned
 from angen_apps.plan.polygons import rectangle
 from angen_models.catalog import REED_GAP, add_reed
 from angen_models.sdf import (Part, add_fixed, add_joint, add_link, add_plugin, add_pose, new_model,
@@ -146,10 +145,3 @@ def swing(hung: Hung, count: int = 12) -> list[tuple[float, float]]:
     x, y = hung.hinge
     return [(x, y), *(turned((x, y), hung.yaw + hung.turn * i / count, hung.width, 0.0)
                       for i in range(count + 1))]
-
-
-def is_in_swing(hung: Hung, point: tuple[float, float], keep: float = 0.0) -> bool:
-    """Whether a point is where the leaf turns, or nearer than `keep` to it."""
-    u, v = local(hung.hinge, hung.yaw, point)
-    return (u * u + v * v) ** 0.5 < hung.width + keep and u * cos(hung.turn / 2) + v * sin(
-        hung.turn / 2) > -keep

@@ -1,9 +1,8 @@
 // A heightmap's hits equal those of a mesh of its triangles.
-#include "rays/height_tree.h"
+#include "rays/triangle_tree.h"
 
 #include <gtest/gtest.h>
 
-#include "rays/mesh_tree.h"
 #include "shapes.h"
 
 namespace angen::rays::testing {
@@ -20,21 +19,6 @@ std::shared_ptr<const HeightGrid> rough(std::uint32_t columns, std::uint32_t row
   return grid;
 }
 
-std::shared_ptr<const TriangleMesh> mesh_of(const HeightGrid& grid) {
-  auto mesh = std::make_shared<TriangleMesh>();
-  for (std::uint32_t row = 0; row < grid.rows; ++row) {
-    for (std::uint32_t c = 0; c < grid.columns; ++c) mesh->vertices.push_back(grid.vertex(c, row));
-  }
-  for (std::uint32_t row = 0; row + 1 < grid.rows; ++row) {
-    for (std::uint32_t column = 0; column + 1 < grid.columns; ++column) {
-      const std::uint32_t a = row * grid.columns + column;
-      mesh->triangles.push_back({a, a + grid.columns, a + 1});
-      mesh->triangles.push_back({a + 1, a + grid.columns, a + grid.columns + 1});
-    }
-  }
-  return mesh;
-}
-
 void expect_same(const TriangleTree& one, const TriangleTree& other, const Vec3& origin,
                  const Vec3& direction, int& hits) {
   double range[2] = {0, 0};
@@ -48,14 +32,14 @@ void expect_same(const TriangleTree& one, const TriangleTree& other, const Vec3&
   ASSERT_EQ(one.normal(triangle[0]), other.normal(triangle[1]));
 }
 
-TEST(HeightTree, MeetsWhatAMeshMeetsBitForBit) {
+TEST(TriangleTree, HeightmapMeetsWhatAMeshMeetsBitForBit) {
   for (const bool steps : {false, true}) {
     for (const auto& [columns, rows] : {std::pair{2U, 2U}, {37U, 23U}, {5U, 64U}, {33U, 2U}}) {
       const auto grid = rough(columns, rows, steps);
-      const HeightTree heights(grid);
-      const MeshTree mesh(mesh_of(*grid));
-      EXPECT_EQ(heights.bounds().min(), mesh.bounds().min());
-      EXPECT_EQ(heights.bounds().max(), mesh.bounds().max());
+      const auto heights = TriangleTree::of(grid);
+      const auto mesh = TriangleTree::of(mesh_of(*grid));
+      EXPECT_EQ(heights->bounds().min(), mesh->bounds().min());
+      EXPECT_EQ(heights->bounds().max(), mesh->bounds().max());
       Rng rng(7, 0, 0);
       int hits = 0;
       for (int i = 0; i < 20'000; ++i) {
@@ -63,7 +47,7 @@ TEST(HeightTree, MeetsWhatAMeshMeetsBitForBit) {
         Vec3 direction = random_point(rng, 1.0);
         if (i % 3 == 0) direction.z() *= 0.02;  // nearly along the ground
         if (i % 5 == 0) direction = Vec3::Unit(i % 3) * (i % 2 == 0 ? 1.0 : -1.0);
-        expect_same(heights, mesh, origin, direction, hits);
+        expect_same(*heights, *mesh, origin, direction, hits);
       }
       EXPECT_GT(hits, 1000);
     }
@@ -71,26 +55,26 @@ TEST(HeightTree, MeetsWhatAMeshMeetsBitForBit) {
 }
 
 // Straight down on vertices, edges and diagonals, where several triangles are equally near.
-TEST(HeightTree, TiesGoToTheSameTriangle) {
+TEST(TriangleTree, TiesGoToTheSameTriangle) {
   const auto grid = rough(17, 9, true);
-  const HeightTree heights(grid);
-  const MeshTree mesh(mesh_of(*grid));
+  const auto heights = TriangleTree::of(grid);
+  const auto mesh = TriangleTree::of(mesh_of(*grid));
   int hits = 0;
   for (std::uint32_t row = 0; row < 9; ++row) {
     for (std::uint32_t column = 0; column < 17; ++column) {
       Vec3 from = grid->vertex(column, row).cast<double>();
       from.z() = 5.0;
-      expect_same(heights, mesh, from, {0, 0, -1}, hits);
+      expect_same(*heights, *mesh, from, {0, 0, -1}, hits);
       from.x() += 7.0 / 16 / 2;
-      expect_same(heights, mesh, from, {0, 0, -1}, hits);
+      expect_same(*heights, *mesh, from, {0, 0, -1}, hits);
       from.y() -= 5.0 / 8 / 2;
-      expect_same(heights, mesh, from, {0, 0, -1}, hits);
+      expect_same(*heights, *mesh, from, {0, 0, -1}, hits);
     }
   }
   EXPECT_GT(hits, 300);
 }
 
-TEST(HeightTree, StandsInASceneAsAMesh) {
+TEST(TriangleTree, HeightmapIsInASceneAsAMesh) {
   const auto grid = rough(37, 23, false);
   Scene scenes[2];
   Shape shapes[2];
