@@ -85,7 +85,9 @@ class Person : public Device {
   bool plan(const Step& step, bool with_seen);
   bool finds_new_way(const Step& step);
   void begin_new_way(const Vec2& at);
+  void arrive(Outputs& outputs);
   void give_up(Outputs& outputs);
+  bool is_going() const;
   void explore(const Step& step);
   void take_other_way(const Step& step);
 
