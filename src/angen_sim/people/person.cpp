@@ -74,7 +74,7 @@ void Person::configure(Params& params, Wiring& wiring) {
       "opens_doors", true, "opens shut doors on its way by hand; otherwise waits before them");
   const bool closes = params.flag("closes_doors", false, "shuts the doors that it walks through");
   doors_ = DoorUse(opens, closes);
-  navigator_ = Navigator(opens);
+  navigator_ = Navigator(maps_, opens);
   speed_ = params.number("speed", 1.0, "m/s", "of its walk to where it is sent", kPositive);
   errand_ = read_errand(params);
   const int floor =
