@@ -13,24 +13,26 @@ namespace angen::people {
 
 namespace {
 
-constexpr double kNeeded = 0.62;                  // m, free width for a person
-constexpr double kAlone = 0.8;                    // m, a leaf this wide suffices
-constexpr double kStoreyWithin = 1.0;             // m, from a person's feet to the foot of a door
-constexpr double kReach = 1.1;                    // m from a person's middle to a handle
-constexpr double kAtSpot = 0.07;                  // m
-constexpr double kBeforeHandle = 0.5;             // m, to push or slide
-constexpr double kHandleInside = 0.07;            // m, of a leaf's edge
-constexpr double kOutOfSwing = 0.37;              // m beyond the leaf's edge
-constexpr double kLeafSkin = 0.1;                 // m, from the line of a shut leaf to its sides
-constexpr double kBothStand = 0.5;                // m, between two people
-constexpr double kBehind = 0.4;                   // m past a door, to close it
-constexpr double kForgets = 4.0;                  // m
-constexpr double kSeesDoor = 2.0;                 // m, before the leaf
-constexpr Nanoseconds kNearEnough = 3 * kSecond;  // then it opens from where it can reach
-constexpr Nanoseconds kLongest = 8 * kSecond;     // longest time of each phase
-constexpr Nanoseconds kRefresh = kSecond / 50;    // period of a door's state
-constexpr Nanoseconds kStarts = kSecond / 5;      // until the door's state shows the hand
-constexpr Nanoseconds kRests = 30 * kSecond;      // after a door that did not open, then twice that
+constexpr double kNeeded = 0.62;                    // m, free width for a person
+constexpr double kAlone = 0.8;                      // m, a leaf this wide suffices
+constexpr double kStoreyWithin = 1.0;               // m, from a person's feet to the foot of a door
+constexpr double kReach = 1.1;                      // m from a person's middle to a handle
+constexpr double kAtSpot = 0.07;                    // m
+constexpr double kBeforeHandle = 0.5;               // m, to push or slide
+constexpr double kHandleInside = 0.07;              // m, of a leaf's edge
+constexpr double kOutOfSwing = 0.37;                // m beyond the leaf's edge
+constexpr double kLeafSkin = 0.1;                   // m, from the line of a shut leaf to its sides
+constexpr double kBothStand = 0.5;                  // m, between two people
+constexpr double kBehind = 0.4;                     // m past a door, to close it
+constexpr double kForgets = 4.0;                    // m
+constexpr double kSeesDoor = 2.0;                   // m, before the leaf
+constexpr double kPassesBeside = 0.35;              // m, from a leaf to a person's middle
+constexpr Nanoseconds kNearEnough = 3 * kSecond;    // then it opens from where it can reach
+constexpr Nanoseconds kLongest = 8 * kSecond;       // longest time of each phase
+constexpr Nanoseconds kRobotLeaves = 20 * kSecond;  // the swing of a door
+constexpr Nanoseconds kRefresh = kSecond / 50;      // period of a door's state
+constexpr Nanoseconds kStarts = kSecond / 5;        // until the door's state shows the hand
+constexpr Nanoseconds kRests = 30 * kSecond;  // after a door that did not open, then twice that
 constexpr int kRestDoublings = 7;
 
 // deg from the shut leaf to the person's place to pull it, the best first
@@ -86,6 +88,29 @@ bool is_taken(const View& view, const Vec3& feet, const Surroundings::Vec2& plac
   });
 }
 
+enum class Whose { kRobots, kAll };
+
+/// Whether a robot, or anybody but the person at `feet`, is where a door's leaves swing.
+bool is_swing_taken(const View& view, const Vec3& feet, const DoorSeen& door, Whose whose) {
+  const Surroundings::Vec2 other = door.hinge + 2.0 * door.width * door.along;
+  const auto is_there = [&](const Vec3& place) {
+    const Surroundings::Vec2 at = place.head<2>();
+    const double away = door.partner.empty()
+                            ? (at - door.hinge).norm()
+                            : std::min((at - door.hinge).norm(), (at - other).norm());
+    return std::abs(place.z() - feet.z()) < kStoreyWithin && away < door.width + kOutOfSwing;
+  };
+  for (const DeviceView& device : view.devices("work")) {
+    if (device.kind == "drive" && is_there(device.pose.position)) return true;
+  }
+  if (whose == Whose::kRobots) return false;
+  const std::vector<DeviceView> others = Surroundings::other_people(view, feet);
+  return std::any_of(others.begin(), others.end(), [&](const DeviceView& person) {
+    return is_there({person.state.get<double>("x"), person.state.get<double>("y"),
+                     person.state.get<double>("z")});
+  });
+}
+
 /// Where its leaf turns or slides; false where that is not known.
 bool place(const Reading& state, const HomeDoor* home, DoorSeen& door) {
   door.slides = state.find("opens") == nullptr;
@@ -96,6 +121,8 @@ bool place(const Reading& state, const HomeDoor* home, DoorSeen& door) {
     door.hinge << hinge[0], hinge[1];
     door.along << std::cos(shut), std::sin(shut);
     door.into << std::cos(shut + turned), std::sin(shut + turned);
+    const double open = shut + state.get<double>("opens");
+    door.open << std::cos(open), std::sin(open);
     return true;
   }
   if (home == nullptr) return false;
@@ -141,11 +168,12 @@ std::vector<DoorSeen> doors_seen(const View& view, double z) {
 }
 
 std::optional<DoorSeen> door_on_way(const std::vector<DoorSeen>& doors,
-                                    const Surroundings::Vec2& at, const Surroundings::Vec2& to) {
+                                    const Surroundings::Vec2& at, const Surroundings::Vec2& to,
+                                    Passable passable) {
   std::optional<DoorSeen> found;
   double nearest = 2.0;
   for (const DoorSeen& door : doors) {
-    if (door.is_passable()) continue;
+    if (door.is_passable() != (passable == Passable::kYes)) continue;
     const std::optional<double> share = meeting(at, to, door.hinge, door.edge());
     if (!share || *share >= nearest) continue;
     nearest = *share;
@@ -157,19 +185,27 @@ std::optional<DoorSeen> door_on_way(const std::vector<DoorSeen>& doors,
 void DoorUse::enter(Phase phase, Nanoseconds now) {
   phase_ = phase;
   since_ = now;
+  closes_off_.reset();
 }
 
 void DoorUse::look(const View& view, const Vec3& feet, const Vec2& to) {
   const Vec2 at = feet.head<2>();
   const std::vector<DoorSeen> doors = doors_seen(view, feet.z());
   std::optional<DoorSeen> next = door_on_way(doors, at, to);
-  const bool near = next && std::abs(next->into.dot(at - next->hinge)) < kSeesDoor;
-  if (!near) return;
+  const auto is_near = [&] {
+    return next && std::abs(next->into.dot(at - next->hinge)) < kSeesDoor;
+  };
+  Phase then = Phase::kApproach;
+  if (!is_near() && closes_ && phase_ == Phase::kNone) {  // behind it, it may be shut
+    next = door_on_way(doors, at, to, Passable::kYes);
+    then = Phase::kPassing;
+  }
+  if (!is_near()) return;
   find_partner(view.home(), doors, *next);
   door_ = *next;
   side_ = door_.into.dot(at - door_.hinge) > 0.0 ? 1.0 : -1.0;
-  spot_ = free_spot(view, feet);
-  enter(Phase::kApproach, view.time());
+  if (then == Phase::kApproach) spot_ = free_spot(view, feet);
+  enter(then, view.time());
 }
 
 bool DoorUse::refresh(const View& view, double z) {
@@ -193,6 +229,10 @@ DoorUse::Vec2 DoorUse::handle() const {
 // wall leaves it room.
 DoorUse::Vec2 DoorUse::free_spot(const View& view, const Vec3& feet) const {
   if (door_.slides || side_ < 0.0) return handle() + side_ * kBeforeHandle * door_.into;
+  return pull_spot(view, feet);
+}
+
+DoorUse::Vec2 DoorUse::pull_spot(const View& view, const Vec3& feet) const {
   const std::vector<Vec2> places = spots();
   for (const Vec2& place : places) {
     if (is_taken(view, feet, place)) continue;
@@ -235,7 +275,7 @@ DoorUse::Advice DoorUse::update(const View& view, const Vec3& feet, const Vec2& 
   switch (phase_) {
     case Phase::kApproach:
       if (looks && is_in_swing(at) && is_taken(view, feet, spot_)) spot_ = free_spot(view, feet);
-      return approach(at, view.time(), outputs);
+      return approach(view, feet, outputs);
     case Phase::kOpening:
       return wait_until_open(view.time());
     case Phase::kWaiting:
@@ -246,7 +286,7 @@ DoorUse::Advice DoorUse::update(const View& view, const Vec3& feet, const Vec2& 
       if (opens_ && view.time() >= tries_at_) enter(Phase::kApproach, view.time());
       return {Advice::Step::kWait, handle()};
     case Phase::kPassing:
-      return pass(at, view.time(), outputs);
+      return pass(view, feet, outputs);
     case Phase::kClosing: {
       const bool starts = view.time() - since_ < kStarts;
       const bool late = view.time() - since_ > kLongest;
@@ -258,7 +298,9 @@ DoorUse::Advice DoorUse::update(const View& view, const Vec3& feet, const Vec2& 
   }
 }
 
-DoorUse::Advice DoorUse::approach(const Vec2& at, Nanoseconds now, Outputs& outputs) {
+DoorUse::Advice DoorUse::approach(const View& view, const Vec3& feet, Outputs& outputs) {
+  const Vec2 at = feet.head<2>();
+  const Nanoseconds now = view.time();
   if (door_.is_passable()) {
     enter(Phase::kPassing, now);
     return {};
@@ -270,19 +312,27 @@ DoorUse::Advice DoorUse::approach(const Vec2& at, Nanoseconds now, Outputs& outp
   }
   const Nanoseconds time = now - since_;
   const bool reaches = time > kNearEnough && (at - handle()).norm() < kReach;
-  if (!opens && ((at - spot_).norm() < kAtSpot || reaches)) {
-    if (!opens_) {
-      enter(Phase::kWaiting, now);
-      return {Advice::Step::kWait, handle()};
-    }
-    outputs.event("opens", door_.name);
-    outputs.command("door", door_.name, "OpenByHand");
-    if (!door_.partner.empty()) outputs.command("door", door_.partner, "OpenByHand");
-    enter(Phase::kOpening, now);
-    return {Advice::Step::kStand, handle()};
-  }
+  if (!opens && ((at - spot_).norm() < kAtSpot || reaches)) return open(view, feet, outputs);
   if (time > kLongest) return fail(now);
   return {Advice::Step::kGo, spot_};
+}
+
+// It stands where it can open the door.
+DoorUse::Advice DoorUse::open(const View& view, const Vec3& feet, Outputs& outputs) {
+  const Nanoseconds now = view.time();
+  if (!opens_) {
+    enter(Phase::kWaiting, now);
+    return {Advice::Step::kWait, handle()};
+  }
+  if (!door_.slides && is_swing_taken(view, feet, door_, Whose::kRobots)) {
+    if (now - since_ > kRobotLeaves) return fail(now);
+    return {Advice::Step::kStand, handle()};
+  }
+  outputs.event("opens", door_.name);
+  outputs.command("door", door_.name, "OpenByHand");
+  if (!door_.partner.empty()) outputs.command("door", door_.partner, "OpenByHand");
+  enter(Phase::kOpening, now);
+  return {Advice::Step::kStand, handle()};
 }
 
 // Where a leaf that opens would hit it.
@@ -311,8 +361,8 @@ DoorUse::Advice DoorUse::fail(Nanoseconds now) {
   return {Advice::Step::kFailed, handle()};
 }
 
-DoorUse::Advice DoorUse::pass(const Vec2& at, Nanoseconds now, Outputs& outputs) {
-  const Vec2 from_hinge = at - door_.hinge;
+DoorUse::Advice DoorUse::pass(const View& view, const Vec3& feet, Outputs& outputs) {
+  const Vec2 from_hinge = feet.head<2>() - door_.hinge;
   if (from_hinge.norm() > door_.width + kForgets) {
     reset();
     return {};
@@ -320,16 +370,32 @@ DoorUse::Advice DoorUse::pass(const Vec2& at, Nanoseconds now, Outputs& outputs)
   const double past = -side_ * door_.into.dot(from_hinge);
   const bool swings_here = side_ < 0.0 && !door_.slides;
   const double clear = swings_here ? from_hinge.norm() - door_.width - kOutOfSwing : 0.0;
-  if (past < kBehind || clear < 0.0) return {};
-  if (!closes_) {
+  if (!closes_off_) {
+    closes_off_ = closes_off(view, feet);
+    if (*closes_off_ && swings_here) spot_ = pull_spot(view, feet);
+  }
+  if (clear < -kAtSpot && *closes_off_ && view.time() - since_ < kLongest) {
+    return {Advice::Step::kGo, spot_};  // out of the swing
+  }
+  if (past < kBehind || clear < -kAtSpot) return {};
+  if (!(closes_ || *closes_off_) || is_swing_taken(view, feet, door_, Whose::kAll)) {
     reset();
     return {};
   }
   outputs.event("closes", door_.name);
   outputs.command("door", door_.name, "CloseByHand");
   if (!door_.partner.empty()) outputs.command("door", door_.partner, "CloseByHand");
-  enter(Phase::kClosing, now);
+  enter(Phase::kClosing, view.time());
   return {Advice::Step::kStand, handle()};
+}
+
+// Whether nobody gets past its open leaf to a place behind it.
+bool DoorUse::closes_off(const View& view, const Vec3& feet) const {
+  if (!opens_ || door_.slides) return false;
+  const Vec2 beyond = door_.hinge + (door_.width + kPassesBeside) * door_.open;
+  const Vec2 behind = door_.hinge + 0.5 * door_.width * door_.open - kPassesBeside * door_.along;
+  FloorMap map(view, feet, beyond, FloorMap::Extent::kStraight);
+  return !map.is_free(beyond) && map.is_free(behind);
 }
 
 }  // namespace angen::people

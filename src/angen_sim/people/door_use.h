@@ -21,6 +21,7 @@ struct DoorSeen {
   double width = 0.0;          // m
   double gap = 0.0;            // m, free width
   bool slides = false;         // to neither side
+  Vec2 open = Vec2::UnitY();   // unit, from the hinge along the open leaf; unless it slides
   std::string partner;         // the other leaf of a double door, where one alone is narrow
   std::string partner_mode;
 
@@ -33,13 +34,17 @@ struct DoorSeen {
 
 /// The doors of a storey whose floor is at `z`.
 std::vector<DoorSeen> doors_seen(const View& view, double z);
-/// The shut door nearest to `at` that is on the straight way.
+enum class Passable { kNo, kYes };
+/// The door nearest to `at` that is on the straight way: a shut one, or one that a person fits
+/// through.
 std::optional<DoorSeen> door_on_way(const std::vector<DoorSeen>& doors,
-                                    const Surroundings::Vec2& at, const Surroundings::Vec2& to);
+                                    const Surroundings::Vec2& at, const Surroundings::Vec2& to,
+                                    Passable passable = Passable::kNo);
 
 /// Takes a person through shut doors: it walks to the handle, opens the door by hand, out of the
-/// leaf's way, walks through, and may close it. Of a double door it opens both leaves where one
-/// leaves too little room.
+/// leaf's way, walks through, and may close it, as it may close one that was open. It always closes
+/// one whose leaf closes off a corridor. Of a double door it opens both leaves where one leaves too
+/// little room. It turns no leaf against a robot.
 class DoorUse {
  public:
   using Vec2 = Surroundings::Vec2;
@@ -57,6 +62,9 @@ class DoorUse {
   /// `looks`. Commands doors.
   Advice update(const View& view, const Vec3& feet, const Vec2& to, bool looks, Outputs& outputs);
   void reset() { phase_ = Phase::kNone; }
+  /// Whether it shuts the doors that it walks through.
+  void close(bool closes) { closes_ = closes; }
+  bool closes() const { return closes_; }
   /// It is about to open or to shut a door.
   bool is_busy() const { return phase_ != Phase::kNone && phase_ != Phase::kPassing; }
   /// The door that it is at.
@@ -66,15 +74,19 @@ class DoorUse {
   enum class Phase { kNone, kApproach, kOpening, kWaiting, kPassing, kClosing };
 
   void look(const View& view, const Vec3& feet, const Vec2& to);
-  Advice approach(const Vec2& at, Nanoseconds now, Outputs& outputs);
+  Advice approach(const View& view, const Vec3& feet, Outputs& outputs);
+  Advice open(const View& view, const Vec3& feet, Outputs& outputs);
   Advice wait_until_open(Nanoseconds now);
   Advice fail(Nanoseconds now);
-  Advice pass(const Vec2& at, Nanoseconds now, Outputs& outputs);
+  Advice pass(const View& view, const Vec3& feet, Outputs& outputs);
+  bool closes_off(const View& view, const Vec3& feet) const;
   bool is_in_swing(const Vec2& at) const;
   bool moves() const { return door_.mode == "OPENING" || door_.partner_mode == "OPENING"; }
   Vec2 handle() const;
   /// The person's place to open the door.
   Vec2 free_spot(const View& view, const Vec3& feet) const;
+  /// The free one of spots().
+  Vec2 pull_spot(const View& view, const Vec3& feet) const;
   /// The places from which it can pull, the best first.
   std::vector<Vec2> spots() const;
   bool refresh(const View& view, double z);
@@ -86,10 +98,11 @@ class DoorUse {
   DoorSeen door_;
   Nanoseconds refreshed_ = 0;
   Vec2 spot_ = Vec2::Zero();
-  double side_ = 1.0;         // where it came from: 1 = the side that the leaf opens to
-  Nanoseconds since_ = 0;     // start of this phase
-  int failures_ = 0;          // one after the other
-  Nanoseconds tries_at_ = 0;  // again, after those
+  double side_ = 1.0;               // where it came from: 1 = the side that the leaf opens to
+  Nanoseconds since_ = 0;           // start of this phase
+  std::optional<bool> closes_off_;  // while passing: whether nobody gets past the open leaf
+  int failures_ = 0;                // one after the other
+  Nanoseconds tries_at_ = 0;        // again, after those
 };
 
 }  // namespace angen::people

@@ -9,11 +9,10 @@ namespace angen::people {
 
 namespace {
 
-constexpr double kNearGoal = 0.06;              // m: a place that fits instead of the goal
-constexpr double kOpenToll = 3.0;               // m that a door which it can open counts
-constexpr double kWaitToll = 30.0;              // m that another shut door counts
-constexpr double kSeenCell = 0.02;              // m
-constexpr std::size_t kMaxKeptCells = 500'000;  // 6.5 MB
+constexpr double kNearGoal = 0.06;  // m: a place that fits instead of the goal
+constexpr double kOpenToll = 3.0;   // m that a door which it can open counts
+constexpr double kWaitToll = 30.0;  // m that another shut door counts
+constexpr double kSeenCell = 0.02;  // m
 
 std::vector<Navigator::Vec2> straight(const Navigator::Vec2& from, const Navigator::Vec2& to) {
   const int steps = static_cast<int>((to - from).norm() / FloorMap::kCell) + 1;
@@ -45,7 +44,8 @@ bool Navigator::plan(const View& view, const Vec3& feet, const Vec2& to, bool wi
       return true;
     }
   }
-  FloorMap map = map_of_storey(view, feet, to);
+  const std::shared_ptr<const FloorMap> storey = maps_->find(view, feet, to);
+  FloorMap map = *storey;
   if (with_seen) map.add_points(seen_);
   for (const DoorSeen& door : doors) {
     if (door.is_passable()) continue;
@@ -54,17 +54,9 @@ bool Navigator::plan(const View& view, const Vec3& feet, const Vec2& to, bool wi
   std::optional<std::vector<Vec2>> way = map.way(view, at, to, kNearGoal);
   passages_.clear();
   if (!way) return !with_seen && Surroundings::is_walkable(view, feet, to);
-  if (storey_) passages_ = passages_of(*storey_, *way);
+  passages_ = passages_of(*storey, *way);
   route_.emplace(std::move(map), std::move(*way));
   return true;
-}
-
-// Most goals are places on the same storey of a home, whose static shapes stay.
-FloorMap Navigator::map_of_storey(const View& view, const Vec3& feet, const Vec2& to) {
-  if (storey_ && storey_->serves(view, feet, to)) return *storey_;
-  FloorMap map(view, feet, to);
-  if (map.cells() <= kMaxKeptCells) storey_ = map;
-  return map;
 }
 
 const Navigator::Vec2& Navigator::advance(const Vec2& at, const Vec2& to) {

@@ -1,13 +1,15 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "people/door_use.h"
-#include "people/floor_map.h"
 #include "people/right_of_way.h"
 #include "people/route.h"
+#include "people/storey_maps.h"
 #include "people/surroundings.h"
 
 namespace angen::people {
@@ -20,7 +22,8 @@ class Navigator {
 
   Navigator() = default;
   /// Whether the person opens doors.
-  explicit Navigator(bool opens_doors) : opens_doors_(opens_doors) {}
+  Navigator(std::shared_ptr<StoreyMaps> maps, bool opens_doors)
+      : maps_(std::move(maps)), opens_doors_(opens_doors) {}
 
   /// Another goal: what it has seen on the way to the last one counts no more.
   void forget();
@@ -47,11 +50,9 @@ class Navigator {
   bool knows_obstacles() const { return !seen_.empty(); }
 
  private:
-  FloorMap map_of_storey(const View& view, const Vec3& feet, const Vec2& to);
-
+  std::shared_ptr<StoreyMaps> maps_;
   bool opens_doors_ = true;
-  std::optional<Route> route_;      // none: straight
-  std::optional<FloorMap> storey_;  // the last one, for other goals
+  std::optional<Route> route_;  // none: straight
   std::vector<Vec2> seen_;
   std::vector<std::string> failed_;
   std::vector<Passage> passages_;

@@ -72,9 +72,9 @@ void Person::configure(Params& params, Wiring& wiring) {
       "avoid", true, "walks round obstacles that it sees, or stops before them; otherwise pushes");
   const bool opens = params.flag(
       "opens_doors", true, "opens shut doors on its way by hand; otherwise waits before them");
-  const bool closes = params.flag("closes_doors", false, "shuts the doors that it has opened");
+  const bool closes = params.flag("closes_doors", false, "shuts the doors that it walks through");
   doors_ = DoorUse(opens, closes);
-  navigator_ = Navigator(opens);
+  navigator_ = Navigator(maps_, opens);
   speed_ = params.number("speed", 1.0, "m/s", "of its walk to where it is sent", kPositive);
   errand_ = read_errand(params);
   const int floor =
@@ -89,6 +89,9 @@ void Person::configure(Params& params, Wiring& wiring) {
 Verdict Person::command(const Command& command, const View& view) {
   if (command.verb == "Speak" || command.verb == "Quiet") {
     return Verdict::accept([this, speaks = command.verb == "Speak"] { gives_.speak(speaks); });
+  }
+  if (command.verb == "CloseDoors" || command.verb == "LeaveDoors") {
+    return Verdict::accept([this, closes = command.verb == "CloseDoors"] { doors_.close(closes); });
   }
   if (command.verb == "GoTo" || command.verb == "PushTo") {
     Found found = find_goal(command, view, view.link(link_).pose.position);
@@ -202,6 +205,7 @@ Nanoseconds Person::rests_until(const View& view) const {
 void Person::save(SavedParams& params) const {
   params.number("path_time", to_seconds(stroll_.clock()));
   params.flag("stopped", paused_);
+  params.flag("closes_doors", doors_.closes());
   gives_.save(params);
   params.unset("go_to");
   params.unset("push_to");
@@ -225,6 +229,7 @@ void Person::report(const View& view, Reading& state) const {
   state.set("z", body.pose.position.z());
   state.set("yaw", yaw_of(body.pose.rotation));
   state.set("speed", body.linear_velocity.head<2>().norm());
+  state.set("going", is_going());
   state.set("unreachable", !ride_ && errand_ && errand_->phase() == Errand::Phase::kGaveUp);
   const double speed = shown_.linear_velocity.head<2>().norm();
   gives_.report(view, mode_ == Mode::kWalking ? std::optional(speed) : std::nullopt, state);

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -26,6 +27,8 @@ namespace angen::people {
 /// cannot reach it gives up. It pushes only when commanded to.
 class Person : public Device {
  public:
+  explicit Person(std::shared_ptr<StoreyMaps> maps = std::make_shared<StoreyMaps>())
+      : maps_(std::move(maps)) {}
   void configure(Params& params, Wiring& wiring) override;
   Verdict command(const Command& command, const View& view) override;
   void update(const View& view, Outputs& outputs) override;
@@ -85,7 +88,9 @@ class Person : public Device {
   bool plan(const Step& step, bool with_seen);
   bool finds_new_way(const Step& step);
   void begin_new_way(const Vec2& at);
+  void arrive(Outputs& outputs);
   void give_up(Outputs& outputs);
+  bool is_going() const;
   void explore(const Step& step);
   void take_other_way(const Step& step);
 
@@ -102,6 +107,7 @@ class Person : public Device {
   void stand(Outputs& outputs);
   void show(Mode mode, const Step& step);
 
+  std::shared_ptr<StoreyMaps> maps_;
   LinkRef link_;
   devices::StateRefresh refresh_;
   Body gives_;
@@ -126,7 +132,10 @@ class PersonPlugin : public Plugin {
  public:
   const Kind& kind() const override;
   bool serves(const ModelInfo& model) const override;
-  std::unique_ptr<Device> make_device() const override { return std::make_unique<Person>(); }
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Person>(maps_); }
+
+ private:
+  std::shared_ptr<StoreyMaps> maps_ = std::make_shared<StoreyMaps>();
 };
 
 }  // namespace angen::people

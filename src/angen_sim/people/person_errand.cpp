@@ -1,6 +1,7 @@
 // A person's way to where it was sent.
 #include <algorithm>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include "people/person.h"
@@ -13,6 +14,12 @@ namespace angen::people {
 namespace {
 
 constexpr double kUnseen = 0.3;  // m to an obstacle that it does not see
+
+std::string place_text(const Surroundings::Vec2& place) {
+  std::ostringstream text;
+  text << place.x() << " " << place.y();
+  return text.str();
+}
 
 }  // namespace
 
@@ -67,7 +74,7 @@ void Person::run_errand(const Step& step) {
   if (lingers && !gave_up()) give_up(step.outputs);
   if (there || gave_up()) {
     if (!rests) errand.stop_at(at);
-    if (!gave_up()) errand.arrive();
+    if (!gave_up()) arrive(step.outputs);
     progress_.free();
     if (!rests) stand(step.outputs);
     return show(Mode::kStanding, step);
@@ -97,14 +104,19 @@ bool Person::plan(const Step& step, bool with_seen) {
   return navigator_.plan(step.view, step.feet(), errand_->to(), with_seen);
 }
 
+void Person::arrive(Outputs& outputs) {
+  const bool is_over = errand_->is_over();
+  errand_->arrive();
+  if (!ride_ && !is_over) outputs.event("arrived", place_text(errand_->to()));
+}
+
 void Person::give_up(Outputs& outputs) {
   errand_->give_up();
   if (is<Progress::Wait>()) state_ = Walks{};
-  if (ride_) return;  // the ride tries again, or says so
-  std::ostringstream goal;
-  goal << errand_->to().x() << " " << errand_->to().y();
-  outputs.event("unreachable", goal.str());
+  if (!ride_) outputs.event("unreachable", place_text(errand_->to()));  // else it tries again
 }
+
+bool Person::is_going() const { return ride_ || floor_ || (errand_ && !errand_->is_over()); }
 
 // Once an obstacle has held it on its way, it plans again with all that it sees.
 void Person::explore(const Step& step) {

@@ -17,6 +17,8 @@ const Kind& PersonPlugin::kind() const {
                       "walks there, through doors and round obstacles; to another floor by "
                       "an elevator")
           .pair_verb("PushTo", "x y", "m", {}, "walks there straight, and pushes obstacles")
+          .verb("CloseDoors", "from now on shuts the doors that it walks through")
+          .verb("LeaveDoors", "from now on leaves them open")
           .verb("Speak", "speaks until Quiet")
           .verb("Quiet", "speaks no more")
           .choice("mode", {std::begin(kModes), std::end(kModes)},
@@ -30,6 +32,7 @@ const Kind& PersonPlugin::kind() const {
           .number("yaw", "rad", "in the world")
           .number("speed", "m/s", "horizontal")
           .shown(2)
+          .flag("going", "whether it is on its way to where it was sent")
           .flag("unreachable", "whether it has given up where it was sent: no way leads there")
           .flag("speaking", "whether the person speaks")
           .number("sound_power_level", "dB",

@@ -99,7 +99,7 @@ class View {
   }
   /// Box (m, world) around all static shapes except planes.
   virtual Eigen::AlignedBox3d static_bounds() const = 0;
-  /// Grows when static shapes come, go or are placed elsewhere.
+  /// Grows when static shapes come, go or are placed elsewhere; that of two worlds differs.
   virtual std::uint64_t static_revision() const = 0;
   /// The image of a camera at `pose` (world, x ahead, z up): height x width x 3 bytes, sRGB.
   virtual std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,

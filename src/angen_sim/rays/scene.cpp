@@ -1,6 +1,7 @@
 #include "rays/scene.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -13,6 +14,12 @@
 
 namespace angen::rays {
 namespace {
+
+/// Another one than those of all scenes of this process.
+std::uint64_t new_revision() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
 
 constexpr std::size_t kMaxChanges = 4096;
 constexpr double kRim = 2e-3;  // m: a shape that reaches less into a target's box does not block
@@ -237,7 +244,7 @@ void Scene::commit() {
     impl_->bound_warm_shapes();
     return;
   }
-  if (impl_->fixed.changed()) ++impl_->static_revision;
+  if (impl_->fixed.changed()) impl_->static_revision = new_revision();
   impl_->fixed.commit();
   impl_->moving.commit();
   impl_->bound_warm_shapes();

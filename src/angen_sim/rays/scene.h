@@ -149,7 +149,7 @@ class Scene {
 
   /// Counts commits that changed something: equal revisions mean equal answers.
   std::uint64_t revision() const;
-  /// The same of static shapes alone.
+  /// The same of static shapes alone; that of two scenes differs, unless both have none.
   std::uint64_t static_revision() const;
 
  private:

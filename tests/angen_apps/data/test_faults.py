@@ -26,7 +26,7 @@ def home_site(tmp_path):
 
 def recorded(site, seconds):
     """A recording while no one is at home and the doors of two rooms move."""
-    household = Household(site.simulator, site.ground, 7, 'home', datetime.date(2026, 3, 23))
+    household = Household(site.simulator, site.floors, 7, 'home', datetime.date(2026, 3, 23))
     recorder = Recorder(site, household)
     recorder.start()
     for door in ('Open', 'Close'):

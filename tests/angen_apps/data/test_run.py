@@ -40,7 +40,7 @@ def morning(home: Path) -> Data:
     """A carer, who comes in the morning."""
     site = Site(home, 7)
     day = datetime.date(2026, 3, 23)
-    household = Household(site.simulator, site.ground, 5, 'home', day, MORNING)
+    household = Household(site.simulator, site.floors, 5, 'home', day, MORNING)
     who = residents_of(['carer'])
     make(household, who)
     recorder = Recorder(site, household)
@@ -146,7 +146,7 @@ def test_residents_sleep_on_the_floor_of_a_home_without_a_bed(home, tmp_path, ca
     path = tmp_path / 'bare.world'
     path.write_text(text)
     site = Site(path, 7, placed=False)
-    household = Household(site.simulator, site.ground, 3, 'home', datetime.date(2026, 3, 23))
+    household = Household(site.simulator, site.floors, 3, 'home', datetime.date(2026, 3, 23))
     anna, bert = make(household, [(name, read('retired')) for name in ('anna', 'bert')])
     household.run(60.0)  # at midnight
     for sleeper in (anna, bert):

@@ -1,4 +1,4 @@
-"""Residents on their way: past leaves that stand open, and by elevator."""
+"""Residents on their way, and where they can be in a home."""
 from __future__ import annotations
 
 import datetime
@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from random import Random
 
-import pytest
+import numpy as np
 
 from angen_apps.data.site import Site, apartment as furnished
 from angen_apps.imports.sweethome import read_sweethome
@@ -15,9 +15,8 @@ from angen_apps.plan.apartment import apartment
 from angen_apps.plan.writer import write_world
 from angen_apps.residents import places
 from angen_apps.residents.activities import Step
-from angen_apps.residents.ground import BODY
+from angen_apps.residents.floors import BODY
 from angen_apps.residents.household import Household
-from angen_apps.residents.mover import away_from
 from angen_apps.residents.places import Places, Spot
 from angen_apps.residents.profiles import read
 from angen_apps.residents.resident import Resident
@@ -28,7 +27,7 @@ LEAF = 0.9  # m
 
 def home_of(path: Path) -> tuple[Site, Household, Resident]:
     site = Site(path, 3, placed=False)
-    household = Household(site.simulator, site.ground, 3, 'home', datetime.date(2026, 3, 23))
+    household = Household(site.simulator, site.floors, 3, 'home', datetime.date(2026, 3, 23))
     anna = Resident(household, 'anna', 0, read('worker'))
     household.residents.append(anna)
     return site, household, anna
@@ -39,11 +38,11 @@ def test_no_place_is_inside_of_an_open_leaf(tmp_path):
     site, _, _ = home_of(tmp_path / 'home.world')
     door = next(d for d in site.home.doors if (d.kind, d.name) == ('door', 'kitchen0'))
     x, y = door.pose[0] - door.width / 2, door.pose[1]  # its hinge; it opens into the kitchen
-    ground = site.ground
+    floors = site.floors
     for along in (0.3, 0.5, 0.7):
         for away in (-BODY + 0.1, 0.0, BODY - 0.1):
-            assert not ground.planners[0].is_free((x + away, y - along))
-    rooms = {ground.room_name(*site.ground.spots(r.name, 1, Random(1))[0], 0)
+            assert not floors.is_free((x + away, y - along), 0)
+    rooms = {floors.room_name(*site.floors.spots(r.name, 1, Random(1))[0], 0)
              for r in site.home.rooms if r.storey == 0 and r.use != 'outdoor'}
     assert {'kitchen0', 'livingroom0', 'bedroom0', 'bathroom0', 'workroom0'} <= rooms
 
@@ -57,7 +56,7 @@ def test_a_resident_rides_the_elevator_up_and_down(tmp_path):
         anna.enter(household.places.anywhere())
         for storey in (1, 0):
             room = next(r for r in site.home.rooms if (r.storey, r.use) == (storey, 'bathroom'))
-            goal = site.ground.spots(room.name, 1, Random(2))[0]
+            goal = site.floors.spots(room.name, 1, Random(2))[0]
             yield from anna.go(goal, storey)
             seen.append((anna.arrived, storey, math.dist(anna.at, goal), anna.room == room.name,
                          site.simulator.body('anna').z))
@@ -69,26 +68,6 @@ def test_a_resident_rides_the_elevator_up_and_down(tmp_path):
     for arrived, storey, away, inside, z in seen:
         assert arrived and inside and away < 0.2 and abs(z - floors[storey]) < 0.02
     assert not household.held
-
-
-def test_a_blocked_resident_shuts_unused_leaves(tmp_path):
-    furnished(tmp_path / 'home.world')
-    site, household, anna = home_of(tmp_path / 'home.world')
-    doors = ('kitchen0', 'bathroom0', 'bedroom0')
-    for door in doors:
-        site.world.command('door', door, 'Open')
-    household.run(6.0)
-    place = {d.name: d.pose for d in site.home.doors if d.kind == 'door'}
-    x, y = ((place['kitchen0'][i] + place['bathroom0'][i]) / 2 for i in (0, 1))
-    at = site.ground.near(x, y, 0.0)
-    anna.enter(Spot(at, 0, 0.0, 'entrance0'))
-    held = [door for door in doors if math.dist(at, place[door][:2]) < 2.5][0]
-    household.take(('door', held), 'bert')
-    household.add(anna._shut_around())
-    household.run(household.now + 12.0)
-    for door in doors:
-        near = door != held and math.dist(at, place[door][:2]) < 2.5
-        assert site.simulator.state('door', door)['mode'] == ('CLOSED' if near else 'OPEN'), door
 
 
 def test_no_one_sits_where_a_table_covers_the_seat(tmp_path):
@@ -109,9 +88,9 @@ def test_no_one_sits_where_a_table_covers_the_seat(tmp_path):
 def test_a_thing_that_cannot_be_reached_is_no_place_but_its_room_may_be(tmp_path, monkeypatch):
     furnished(tmp_path / 'home.world')
     site, _, _ = home_of(tmp_path / 'home.world')
-    monkeypatch.setattr(site.ground, 'near', lambda *_: None)
-    assert Places(site.ground).spots(Step(at=('fridge',))) == []
-    spots = Places(site.ground).spots(Step(at=('fridge',), room='kitchen'))
+    monkeypatch.setattr(site.floors, 'near', lambda *_: None)
+    assert Places(site.floors).spots(Step(at=('fridge',))) == []
+    spots = Places(site.floors).spots(Step(at=('fridge',), room='kitchen'))
     assert spots and all(spot.room == 'kitchen0' and not spot.thing for spot in spots)
 
 
@@ -141,7 +120,7 @@ def narrow(folder: Path) -> Path:
 
 def test_a_door_whose_leaf_closes_off_a_hall_is_always_shut(tmp_path):
     site, household, anna = home_of(narrow(tmp_path))
-    assert site.ground.in_way == {'kitchen0'}
+    assert site.floors.reached == {'hall0', 'kitchen0', 'living0'}
     anna.profile = replace(anna.profile, closes_doors=0.0)
     kitchen = household.places.free('kitchen', Random(1), 1)[0]
     found = []
@@ -195,7 +174,6 @@ def test_a_resident_waits_for_another_one_who_is_in_the_way(tmp_path):
 
     def goes():
         anna.enter(Spot((0.6, -3.25), 0, 0.0, 'hall0'))
-        assert anna.blocker(far) is bert
         yield from anna._reach(far, 'relax')
 
     household.add(stays())
@@ -223,12 +201,6 @@ def test_no_place_on_the_floor_is_chosen_where_somebody_is(tmp_path):
     assert anna._choose([here, there]) == there and bert._choose([here, there]) == here
 
 
-def test_distance_from_a_line():
-    line = [(0.0, 0.0), (2.0, 0.0), (2.0, 0.0), (2.0, 3.0)]
-    assert away_from(line, (1.0, 0.5)) == 0.5 and away_from(line, (2.4, 2.0)) == pytest.approx(0.4)
-    assert away_from(line[:1], (3.0, 4.0)) == 5.0
-
-
 def test_unreachable_rooms_are_no_places(tmp_path):
     path = narrow(tmp_path)
     xml = (tmp_path / 'home.xml').read_text()
@@ -237,7 +209,7 @@ def test_unreachable_rooms_are_no_places(tmp_path):
     (tmp_path / 'home.xml').write_text(xml.replace(kitchen, ''))
     write_world(read_sweethome(tmp_path / 'home.xml'), path, 'none')
     site, household, anna = home_of(path)
-    assert site.ground.reached == {'', 'hall0', 'living0'}
+    assert site.floors.reached == {'hall0', 'living0'}
     assert not household.places.rooms_of('kitchen') and household.places.rooms_of('hall')
     assert not household.places.free('kitchen', Random(1), 1)
     assert anna.leaves_out['dress'] == 'no wardrobe and no bed in reach'
@@ -253,21 +225,22 @@ def test_a_door_that_opens_too_little_is_a_wall(tmp_path):
     write_world(plan, path, 'none')
     assert any('degrees only' in remark for remark in plan.remarks), plan.remarks
     site, _, _ = home_of(path)
-    assert 'kitchen0' not in site.ground.reached and 'kitchen0' not in site.ground.in_way
+    assert 'kitchen0' not in site.floors.reached
 
 
 def test_who_sleeps_on_the_floor_leaves_others_a_way(tmp_path, monkeypatch):
     _, household, _ = home_of(narrow(tmp_path))
     hall = next(room for room in household.home.rooms if room.name == 'hall0')
     beds = list(household.places._beds(hall))
-    for (x, y), _, divides in beds:
-        if 1.5 < x < 3.5:
-            assert divides == (abs(y + 3.25) < 0.2), beds
+    grid = household.floors.grids[0]
+    x, y = np.meshgrid(grid.x, grid.y)
+    for across, divides in ((-3.25, True), (-3.6, False)):
+        assert places._divides(household.floors.free[0], x - 2.5, y - across, 0.0) == divides
     spots = household.places.on_floor
     assert {spot.room for spot in spots[:2]} == {'kitchen0'}  # the largest
     assert any(not divides for _, _, divides in beds) and len(spots) > 4
     monkeypatch.setattr(places, 'MOST', 3)  # residents
-    assert Places(household.ground).on_floor == spots[:3]
+    assert Places(household.floors).on_floor == spots[:3]
 
 
 def test_a_room_drawn_over_another_one_takes_its_floor(tmp_path):
@@ -279,17 +252,24 @@ def test_a_room_drawn_over_another_one_takes_its_floor(tmp_path):
     path.write_text(text.replace(room, room + room.replace('living0', 'whole0')))
     site, _, _ = home_of(path)
     rooms = {room.name: room for room in site.home.rooms}
-    floors = [site.ground.floor_of(rooms[name]).any() for name in ('living0', 'whole0')]
+    floors = [site.floors.floor_of(rooms[name]).any() for name in ('living0', 'whole0')]
     assert sorted(floors) == [False, True]
-    x, y = site.ground.spots(next(n for n in ('living0', 'whole0')
-                                  if site.ground.floor_of(rooms[n]).any()), 1, Random(1))[0]
-    assert site.ground.floor_of(site.home.room_at(x, y, 0.1)).any()
+    x, y = site.floors.spots(next(n for n in ('living0', 'whole0')
+                                  if site.floors.floor_of(rooms[n]).any()), 1, Random(1))[0]
+    assert site.floors.floor_of(site.home.room_at(x, y, 0.1)).any()
 
 
 def test_a_second_door_to_the_outside_is_a_wall(tmp_path):
     """In this home its leaf is in the way, too."""
     (tmp_path / 'home.xml').write_bytes(examples()['1BedroomApartmentWithRoundWall'])
     write_world(read_sweethome(tmp_path / 'home.xml'), tmp_path / 'home.world', 'none')
-    site = Site(tmp_path / 'home.world', 3, placed=False)
-    porch, storey = site.ground.porch()
-    assert site.ground.way((1.0, -5.0), porch, storey) and not site.ground.in_way
+    site, household, anna = home_of(tmp_path / 'home.world')
+    porch, storey = site.floors.porch()
+
+    def script():
+        anna.enter(Spot((0.45, -5.0), storey, 0.0, ''))
+        yield from anna.go(porch, storey)
+
+    household.add(script())
+    household.run(120.0)
+    assert anna.arrived

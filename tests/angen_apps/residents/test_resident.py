@@ -87,7 +87,7 @@ def test_residents_are_at_home_when_a_run_begins_in_the_day(tmp_path):
     """A cat would otherwise come in by the entrance, whose door it cannot open."""
     apartment(tmp_path / 'home.world')
     site = Site(tmp_path / 'home.world', 3, placed=False)
-    household = Household(site.simulator, site.ground, 3, 'home', datetime.date(2026, 3, 23),
+    household = Household(site.simulator, site.floors, 3, 'home', datetime.date(2026, 3, 23),
                           12 * 3600.0)
     cat, = make(household, [('tom', read('cat'))])
     household.run(1.0)

@@ -174,6 +174,8 @@ TEST(Messages, PersonAndOdometryStandWhereTheyAre) {
   state.set("z", 4.9);
   state.set("yaw", M_PI_2);
   state.set("speed", 0.0);
+  state.set("going", true);
+  state.set("unreachable", false);
   state.set("v", 0.5);
   state.set("w", -1.0);
   state.set("covariance", Numbers{0.1, 0.2, 0.3, 0.2, 0.4, 0.5, 0.3, 0.5, 0.6});
@@ -181,6 +183,8 @@ TEST(Messages, PersonAndOdometryStandWhereTheyAre) {
   fill("person", state, {"person", "world"}, person);
   EXPECT_EQ(person.mode, angen_msgs::PersonState::BLOCKED);
   EXPECT_EQ(person.pose.position.z, 4.9);
+  EXPECT_TRUE(person.going);
+  EXPECT_FALSE(person.unreachable);
   EXPECT_NEAR(person.pose.orientation.z, M_SQRT1_2, 1e-12);
   nav_msgs::Odometry odometry;
   fill("drive", state, {"base_footprint", "odom"}, odometry);

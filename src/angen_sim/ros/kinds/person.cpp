@@ -13,6 +13,8 @@ void fill(const Reading& state, const Label& label, angen_msgs::PersonState& mes
   message.mode = constant_of(state, "mode");
   message.pose = to_ros(flat_pose(state, state.get<double>("z")));
   message.speed = state.get<double>("speed");
+  message.going = state.get<bool>("going");
+  message.unreachable = state.get<bool>("unreachable");
 }
 
 ANGEN_REGISTER_ROS_KIND(

@@ -169,7 +169,7 @@ class House:
     def settle(self) -> None:
         """Residents move in, people of the script appear."""
         scenario = self.scenario
-        self.household = Household(self.simulator, self.site.ground, scenario.seed, 'home',
+        self.household = Household(self.simulator, self.site.floors, scenario.seed, 'home',
                                    self.start.date(), self.since)
         who = residents_of(list(scenario.residents)) if scenario.residents else []
         if scenario.leaves_lamps:
@@ -238,7 +238,7 @@ class House:
                                  ) from None
         if self.site.home.room(words[0]) is None:
             raise ValueError(f"there is no room '{words[0]}'; {self._rooms(words[0])}")
-        return self.site.ground.spots(words[0], 1, Random(0))[0]
+        return self.site.floors.spots(words[0], 1, Random(0))[0]
 
     def seat(self, thing: str, posture: str) -> Place:
         things = {each.name: each for each in self.site.home.things}

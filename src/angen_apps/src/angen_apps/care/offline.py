@@ -31,7 +31,7 @@ class Watched(Follower):
         super().__init__(rules, own)
         self._world, self._live = own.world, own.run
         if site is not None:
-            household = Household(site.simulator, site.ground, seed, world.stem,
+            household = Household(site.simulator, site.floors, seed, world.stem,
                                   first_day(site.home), self.rules.starts or 0.0)
             make(household, residents_of(list(residents)))
             self._live = lambda seconds: household.run(self.time + seconds)

@@ -135,6 +135,8 @@ class Recorder:
                 self._stepped[resident.name] = resident.moved
                 self.recording.moves.append(Moved(resident.moved, resident.name))
         for time, source, kind, event, detail in self.site.world.events():
+            if kind == 'person' and event in ('opens', 'closes'):
+                self.household.acts['door', detail] = (float(time), source)
             if kind == 'fault':
                 self._note_fault(float(time), source, event, detail)
             elif kind == 'elevator':

@@ -73,7 +73,7 @@ def first_day(home: Home) -> datetime.date:
 def try_household(world: Path, who: list[str], strict: bool = False) -> None:
     """Says what residents cannot do in the home of a world's file; Failure for that if `strict`."""
     site = Site(world, 0, placed=False)
-    make(Household(site.simulator, site.ground, 0, world.stem, first_day(site.home)),
+    make(Household(site.simulator, site.floors, 0, world.stem, first_day(site.home)),
          residents_of(who), strict)
 
 
@@ -86,7 +86,7 @@ def live(world: Path, name: str, days: int, who: list[tuple[str, Profile]], seed
     site = Site(world, seed, placed, light)
     faults.give(site, list(faulty))
     first = start or first_day(site.home)
-    household = Household(site.simulator, site.ground, seed, name, first)
+    household = Household(site.simulator, site.floors, seed, name, first)
     make(household, who, strict)
     recorder = Recorder(site, household)
     recorder.start()

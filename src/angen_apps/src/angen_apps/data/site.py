@@ -7,7 +7,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from angen_apps.residents.ground import Ground
+from angen_apps.residents.floors import Floors
 from angen_apps.residents.simulated import Simulated
 from angen_apps.robot.entities import Entity, entities_of
 from angen_models import plan, world as blocks
@@ -77,7 +77,7 @@ def apartment(path: Path) -> None:
 
 
 class Site:
-    """A home to live in: world, description, ground, and its sensors by rule or of its own."""
+    """A home to live in: world, description, floors, and its sensors by rule or of its own."""
 
     def __init__(self, path: Path, seed: int, placed: bool = True, light: bool = False) -> None:
         with simulator() as angen:
@@ -89,7 +89,7 @@ class Site:
         self.home = Home.of_world(self.world)
         if not self.home.rooms:
             raise Failure(f'{path}: describes no rooms; see docs/home.md')
-        self.ground = Ground(bare, self.home)
+        self.floors = Floors(bare, self.home)
         self.simulator = Simulated(self.world, self.home)
         if placed:
             self._clear()
@@ -166,7 +166,7 @@ class _Placer:
     def __init__(self, site: Site, light: bool) -> None:
         self.site, self.light, self.world, self.home = site, light, site.world, site.home
         self.lived = [room for room in self.home.rooms
-                      if room.storey in site.ground.planners
+                      if room.storey in site.floors.grids
                       and room.use not in ('landing', 'outdoor')]
 
     def place(self) -> None:
@@ -187,7 +187,7 @@ class _Placer:
             for i, place in enumerate(thing.places):
                 if thing.type == 'bed' and place.posture == 'lie':
                     x, y, _, yaw = place.pose
-                    z = self.site.ground.support(place)
+                    z = self.site.floors.support(place)
                     self._spawn('model://pressure_mat', f'{thing.name}_mat_{i}', (x, y, z, yaw))
             self._plug(thing.name)
 

@@ -14,10 +14,12 @@ from angen_tools.common.home import Home
 
 RESOLUTION = 0.05  # m; cells are centered on its multiples, where the faces of buildings lie
 LOW, HIGH = 0.02, 0.45  # m above the floor: a robot of that height can touch things between
-LEVEL = 0.02  # m from one height of rays to the next
+LEVEL = 0.02  # m from one height of rays to the next, …
+ABOVE = 0.25  # m … and above HIGH
 FINE = 0.01  # m between rays: a thing that is thinner both ways may be missed
 STEP_DOWN = 0.05  # m: deeper ground is not a floor
 REACH = 60.0  # m: the largest distance of a building from the origin
+MARGIN = 0.1  # m around everything
 SETTLE = 60.0  # s of simulated time for doors and elevators to get where they are sent
 ROOM, HEADROOM = 0.4, 1.0  # m: free floor without a circle of that radius and height is not a room
 
@@ -40,8 +42,9 @@ def load_world(path: str, seed: int = 0, allow_paths: bool = False) -> Any:
 
 
 def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH,
-             but: Collection[str] = ()) -> Grid:
-    """The map of a floor: everything between LOW and `high` (m) above it. Changes the world.
+             but: Collection[str] = (), margin: float = MARGIN) -> Grid:
+    """The map of a floor: everything between LOW and `high` (m) above it, and `margin` (m) around
+    that. Changes the world.
 
     Robots and people are left out; elevators are at that floor with open doors, where they
     serve it. Doors are left out (`doors='away'`), `'open'` or `'shut'`, but those named in `but`
@@ -54,7 +57,7 @@ def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH,
     height = Home.of_world(world).elevation(floor)
     _prepare(world, floor, doors, but)
     surveyor = _Surveyor(world, high)
-    bounds = surveyor.bounds(height)
+    bounds = surveyor.bounds(height, margin)
     if bounds is None or floor not in all_floors:
         known = ', '.join(str(known) for known in all_floors)
         raise Failure(f'there is no floor {floor}; ' +
@@ -133,11 +136,13 @@ class _Surveyor:
 
     def __init__(self, world: Any, high: float = HIGH) -> None:
         self._world = world
-        self._high, self._levels = high, np.arange(LOW, high, LEVEL)
+        self._high = high
+        self._levels = np.append(np.arange(LOW, min(high, HIGH), LEVEL),
+                                 np.arange(HIGH, high, ABOVE))
 
-    def bounds(self, floor: float) -> tuple[int, int, int, int] | None:
+    def bounds(self, floor: float, around: float = MARGIN) -> tuple[int, int, int, int] | None:
         """West and south in cells, columns and rows of everything on a floor at that
-        height, with a margin.
+        height, and `around` (m) that.
 
         None if rays from afar hit nothing.
         """
@@ -157,7 +162,7 @@ class _Surveyor:
         if not len(points):
             return None
         (west, south), (east, north) = points.min(axis=0), points.max(axis=0)
-        margin = 2
+        margin = round(around / RESOLUTION)
         return (west - margin, south - margin, east - west + 1 + 2 * margin,
                 north - south + 1 + 2 * margin)
 

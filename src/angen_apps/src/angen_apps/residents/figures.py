@@ -55,7 +55,7 @@ LOOKS: dict[str, tuple[Look, ...]] = {
 
 
 def walker(name: str, speed: float, body: str) -> str:
-    """The actor that walks: the simulator's person."""
+    """The actor that walks: the simulator's person. Only people use doors."""
     plugin = ('<plugin name="person" filename="libperson_controller.so">'
               f'<speed>{speed:g}</speed></plugin>')
     if body == 'person':
@@ -64,7 +64,8 @@ def walker(name: str, speed: float, body: str) -> str:
     soles = ''.join(_slides(f'sole_{number}', _shape('sphere', (0.06,), (x, y, 0.06), 0.0))
                     for number, (x, y) in enumerate((x, y) for x in (-0.11, 0.11)
                                                     for y in (-0.06, 0.06)))
-    plugin = plugin.replace('</plugin>', f'<mass>{CAT_MASS:g}</mass>'
+    plugin = plugin.replace('</plugin>', '<opens_doors>false</opens_doors>'
+                            f'<mass>{CAT_MASS:g}</mass>'
                             f'<force_max>{CAT_FORCE:g}</force_max></plugin>')
     return _sdf(f'<model name="{name}"><link name="body"><inertial><pose>0 0 0.12 0 0 0</pose>'
                 f'<mass>{CAT_MASS:g}</mass><inertia><ixx>0.02</ixx><iyy>0.045</iyy><izz>0.045</izz>'

@@ -7,7 +7,7 @@ import itertools
 from typing import Any, Callable, Iterator
 
 from angen_apps.residents.agenda import Day
-from angen_apps.residents.ground import Ground
+from angen_apps.residents.floors import Floors
 from angen_apps.residents.interface import Rejected, Simulator
 from angen_apps.residents.light import daylight
 from angen_apps.residents.places import Places
@@ -22,11 +22,11 @@ CLEAR = 1.2  # m: a door with a person nearer is not shut
 class Household:
     """The home that residents share. `day`: of simulated time 0; `since`: its seconds then."""
 
-    def __init__(self, simulator: Simulator, ground: Ground, seed: int, name: str,
+    def __init__(self, simulator: Simulator, floors: Floors, seed: int, name: str,
                  day: datetime.date, since: float = 0.0) -> None:
-        self.simulator, self.ground, self.seed, self.name = simulator, ground, seed, name
+        self.simulator, self.floors, self.seed, self.name = simulator, floors, seed, name
         self.home: Home = simulator.home
-        self.places = Places(ground)
+        self.places = Places(floors)
         self.first, self.since = day, since
         self.residents: list[Any] = []  # each a resident.Resident
         self.held: dict[Any, str] = {}  # who has a door, place or room
@@ -129,7 +129,7 @@ class Household:
         robots = [self.simulator.body(model) for kind, _, model, _ in self.simulator.devices()
                   if kind == 'drive']
         return any((r.x - x) ** 2 + (r.y - y) ** 2 < reach ** 2
-                   and (storey is None or self.ground.storey_at(r.z) == storey) for r in robots)
+                   and (storey is None or self.home.storey_at(r.z) == storey) for r in robots)
 
     def lux(self, room: str) -> float:
         """The illuminance in a room: by its sensor, or else by its lamps and the sun."""

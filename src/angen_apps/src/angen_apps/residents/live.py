@@ -68,6 +68,8 @@ class Live:
         """The latest message of its topic, modes by their names; waits for the first a moment."""
         import roslib.message
         import rospy
+        if (kind, name) not in self._topics:  # a person who has appeared since
+            self.devices()
         topic, kind_of = self._topics.get((kind, name), ('', ''))
         if not topic:
             return {}

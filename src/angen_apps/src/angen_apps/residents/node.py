@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from angen_apps.maps.gridmap import load_world
-from angen_apps.residents.ground import Ground
+from angen_apps.residents.floors import Floors
 from angen_apps.residents.household import Household
 from angen_apps.residents.live import Live
 from angen_apps.residents.profiles import Profile, is_file, read
@@ -40,9 +40,9 @@ def run(path: Path, world: str, strict: bool = False) -> None:
     `strict`: Failure if residents cannot do all that they do."""
     who, seed, since = read_household(path)
     simulator = Live()
-    ground = Ground(load_world(world), simulator.home)
+    floors = Floors(load_world(world), simulator.home)
     date = datetime.date.fromisoformat((simulator.home.start or '2026-03-23')[:10])
-    household = Household(simulator, ground, seed, 'home', date, since - simulator.now)
+    household = Household(simulator, floors, seed, 'home', date, since - simulator.now)
 
     def tell(now: Interval) -> None:
         simulator.publish({key: getattr(now, key) for key in HEAD if key != 'end'})

@@ -12,9 +12,8 @@ from scipy.ndimage import binary_erosion, label
 
 from angen_apps.maps.gridmap import RESOLUTION
 from angen_apps.residents.activities import Step
-from angen_apps.residents.ground import Ground
+from angen_apps.residents.floors import Floors
 from angen_apps.residents.profiles import MOST
-from angen_apps.residents.survey import middles
 from angen_apps.robot.planner import Point
 from angen_tools.common.home import Place, Room, Thing
 
@@ -22,6 +21,7 @@ FAR = 1.9  # m from a standing person to the middle of a bed
 TOWARDS = 0.62  # m from the middle of a thing without places to its user
 COVERED = 0.12  # m above a seat: a table there, under which the chair is pushed
 LONG = 1.4  # m of free cells in a line, on which a person can lie
+LENGTH = 1.7  # m between two who lie in one line: 1.6 m are a body
 LYING, BESIDE = 0.65, 0.55  # m from the middle of a lying resident to head and feet, and past them
 PART, LEAST = 1.0, 0.05  # m2 of floor that a way has to lead to, and of a room
 OUTSIDE, ENTRANCE = 'outside', 'entrance'
@@ -49,8 +49,8 @@ class Spot:
 class Places:
     """The spots of a home, found when they are first needed."""
 
-    def __init__(self, ground: Ground) -> None:
-        self.ground, self.home = ground, ground.home
+    def __init__(self, floors: Floors) -> None:
+        self.floors, self.home = floors, floors.home
         self._rooms = {room.name: room for room in self.home.rooms}
         self._spots: dict[tuple[str, str], list[Spot]] = {}
 
@@ -64,8 +64,8 @@ class Places:
     @cached_property
     def _reached(self) -> list[Room]:
         """Rooms that people get to, with floor of their own."""
-        return [room for room in self.home.rooms if room.name in self.ground.reached
-                and self.ground.floor_of(room).sum() * RESOLUTION ** 2 > LEAST]
+        return [room for room in self.home.rooms if room.name in self.floors.reached
+                and self.floors.floor_of(room).sum() * RESOLUTION ** 2 > LEAST]
 
     def spots(self, step: Step) -> list[Spot]:
         """The spots for a step, the best first; empty if no thing and no room serves."""
@@ -81,24 +81,24 @@ class Places:
         if not rooms:
             return []
         room = rooms[numbers.randrange(len(rooms))]
-        z = self.ground.elevation(room.storey)
+        z = self.home.elevation(room.storey)
         return [Spot(point, room.storey, z, room.name)
-                for point in self.ground.spots(room.name, count, numbers)]
+                for point in self.floors.spots(room.name, count, numbers)]
 
     def beside(self, spots: list[Spot], numbers: Random) -> Spot:
         """A place on the open floor of the room of these, where others have all of them."""
         if not spots:
             return self.anywhere()
         first = spots[0]
-        points = self.ground.spots(first.room, 1, numbers) if first.room in self._rooms else []
+        points = self.floors.spots(first.room, 1, numbers) if first.room in self._rooms else []
         return Spot(points[0], first.storey, first.z, first.room) if points else self.anywhere()
 
     def anywhere(self, numbers: Random | None = None) -> Spot:
         """A place in the largest room, where nothing else serves; the same without numbers."""
         room = max((r for r in self._reached if r.use not in UNUSED),
                    key=lambda r: (r.area, r.name))
-        point = self.ground.spots(room.name, 1, numbers or Random(room.name))[0]
-        return Spot(point, room.storey, self.ground.elevation(room.storey), room.name)
+        point = self.floors.spots(room.name, 1, numbers or Random(room.name))[0]
+        return Spot(point, room.storey, self.home.elevation(room.storey), room.name)
 
     @cached_property
     def on_floor(self) -> list[Spot]:
@@ -108,14 +108,14 @@ class Places:
         last: list[Spot] = []
         rooms = [room for room in self._reached if room.use not in UNUSED]
         for room in sorted(rooms, key=lambda r: (r.use != 'bedroom', -r.area, r.name)):
-            z = self.ground.elevation(room.storey)
+            z = self.home.elevation(room.storey)
             for at, yaw, divides in self._beds(room):
                 (last if divides else found).append(
                     Spot(at, room.storey, z, room.name, '', Place('lie', (*at, z, yaw))))
                 if len(found) == MOST:
                     return found
         for spot in last:
-            if all(math.dist(spot.stand, other.stand) > LONG for other in found
+            if all(math.dist(spot.stand, other.stand) > LENGTH for other in found
                    if other.storey == spot.storey):
                 found.append(spot)
         return found
@@ -123,8 +123,9 @@ class Places:
     def _beds(self, room: Room) -> Iterator[tuple[Point, float, bool]]:
         """Places on the open floor where people can lie, the yaw of each, and whether a person
         who lies there is in the way: far from doors first."""
-        free, whole = self.ground.floor_of(room), self.ground.free[room.storey]
-        x, y = middles(self.ground.planners[room.storey].grid, *np.indices(free.shape))
+        free, whole = self.floors.floor_of(room), self.floors.free[room.storey]
+        grid = self.floors.grids[room.storey]
+        x, y = np.meshgrid(grid.x, grid.y)
         cells = round(LONG / RESOLUTION)
         lines = [(binary_erosion(free, np.ones(shape, bool)), yaw)
                  for shape, yaw in (((1, cells), 0.0), ((cells, 1), math.pi / 2))]
@@ -141,7 +142,7 @@ class Places:
             divides = _divides(whole, x - point[0], y - point[1], yaw)
             yield point, yaw, divides
             away = np.hypot(px[order] - point[0], py[order] - point[1])
-            taken = (away <= LONG / 4) & (turned[order] == yaw) if divides else away <= LONG
+            taken = (away <= LONG / 4) & (turned[order] == yaw) if divides else away <= LENGTH
             order = order[~taken]
 
     def _of(self, what: str, posture: str) -> list[Spot]:
@@ -164,21 +165,21 @@ class Places:
 
     def _at(self, thing: Thing, posture: str) -> list[Spot]:
         room = self._rooms.get(thing.room)
-        if room is None or room.storey not in self.ground.planners:
+        if room is None or room.storey not in self.floors.grids:
             return []
-        floor = self.ground.elevation(room.storey)
+        floor = self.home.elevation(room.storey)
         places = [place for place in thing.places if place.posture == posture]
         if posture == 'stand' and not places:
             places = self._fronts(thing, floor)
         found = []
         for place in places:
             x, y = place.pose[0], place.pose[1]
-            stand = self.ground.near(x, y, floor, FAR if posture == 'lie' else 1.1)
+            stand = self.floors.near(x, y, floor, FAR if posture == 'lie' else 1.1)
             if stand is None:
                 continue
             seat = None
             if posture != 'stand':
-                support = self.ground.support(place)
+                support = self.floors.support(place)
                 if posture == 'sit' and support > place.pose[2] + COVERED:
                     continue
                 seat = replace(place, pose=(x, y, support, place.pose[3]))
@@ -193,22 +194,22 @@ class Places:
                                 yaw + math.pi))]
 
     def _porch(self) -> list[Spot]:
-        porch = self.ground.porch()
+        porch = self.floors.porch()
         if porch is None:
             return []
         point, storey = porch
-        z = self.ground.elevation(storey)
+        z = self.home.elevation(storey)
         room = self.home.room_at(*point, z + 0.1)
         return [Spot(point, storey, z, room.name if room else '')]
 
     def _inside(self) -> list[Spot]:
         """Behind the entrance's door, clear of its leaf, or before that of a landing."""
-        door, porch = self.ground.entrance(), self.ground.porch()
+        door, porch = self.floors.entrance(), self.floors.porch()
         if door is None or porch is None:
             return []
-        z = self.ground.elevation(porch[1])
+        z = self.home.elevation(porch[1])
         for x, y in ((2 * door.pose[0] - porch[0][0], 2 * door.pose[1] - porch[0][1]), porch[0]):
-            point = self.ground.near(x, y, z)
+            point = self.floors.near(x, y, z)
             room = self.home.room_at(x, y, z + 0.1)
             if point and room:
                 return [Spot(point, porch[1], z, room.name)]

@@ -226,7 +226,7 @@ class Resident(User):
 
     def _elsewhere(self) -> tuple[Point, int]:
         """A place in the open, out of the way of others."""
-        points = self.ground.spots(self.room, 1, self._habits) if self.room else []
+        points = self.floors.spots(self.room, 1, self._habits) if self.room else []
         anywhere = self.household.places.anywhere(self._habits)
         return (points[0], self.storey) if points else (anywhere.stand, anywhere.storey)
 
@@ -253,12 +253,9 @@ class Resident(User):
         for _ in range(4):
             point = (spot.stand[0] + self._habits.uniform(-0.3, 0.3),
                      spot.stand[1] + self._habits.uniform(-0.3, 0.3))
-            if self.ground.planners[spot.storey].is_free(point):
-                self.household.do(self.name, 'person', self.name,
-                                  f'GoTo {point[0]:.3f} {point[1]:.3f}')
+            if self._step_to(point):
                 break
         yield self.now + 1.2
-        self.halt()
         self.look()
 
     def _roam(self, activity: Activity, step: Step, index: int, end: float) -> Process:
@@ -306,7 +303,7 @@ class Resident(User):
                 yield self.now + 0.5
                 self.vanish()
                 self._note('away', 'leave')
-                entrance = self.ground.entrance()
+                entrance = self.floors.entrance()
                 if entrance is not None:  # it closes by itself
                     self.household.do(self.name, 'door', entrance.name, 'CloseByHand')
             else:
@@ -336,10 +333,13 @@ class Resident(User):
         if len(lying) > 1 and self.number:
             order = order[self.number % len(lying):] + order[:self.number % len(lying)]
         for spot in order:
-            if (spot.thing or spot.place or not self.somebody_at(spot)) \
+            if (spot.thing or spot.place or not self._somebody_at(spot)) \
                     and self.household.take(('spot', spot.key), self.name):
                 return spot
         return None
+
+    def _somebody_at(self, spot: Spot) -> bool:
+        return any(r is not self and r.is_at(spot) for r in self.household.residents)
 
     def _release(self) -> None:
         held = self.household.held

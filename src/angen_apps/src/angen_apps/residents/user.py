@@ -33,7 +33,7 @@ class User(Mover):
         household = self.household
         thing = self._thing(spot)
         if step.opens == 'entrance':
-            entrance = self.ground.entrance()
+            entrance = self.floors.entrance()
             if entrance and household.do(self.name, 'door', entrance.name, 'OpenByHand'):
                 return [('door', entrance.name, 'CloseByHand')]
         elif step.opens and thing is not None:
@@ -49,7 +49,7 @@ class User(Mover):
         return None
 
     def _thing(self, spot: Spot) -> Thing | None:
-        return next((t for t in self.ground.home.things if t.name == spot.thing), None)
+        return next((t for t in self.household.home.things if t.name == spot.thing), None)
 
     def _make_way(self, kind: str, name: str, spot: Spot) -> Process:
         """Steps back from a leaf that has hit the resident, until it is open."""
@@ -69,11 +69,10 @@ class User(Mover):
             self._step_back(*thing.pose[:2], side)
             self.spot = replace(spot, stand=self.at)
             yield self.now + 1.0
-            self.halt()
             self.look()
 
     def _watch(self) -> list[tuple[str, str, str]] | None:
-        sets = [t for t in self.ground.home.things if t.type == 'tv']
+        sets = [t for t in self.household.home.things if t.type == 'tv']
         near = next((t for t in sets if t.room == self.room), sets[0] if sets else None)
         screen = near and self.household.of_model(near.name, 'appliance')
         if not screen:

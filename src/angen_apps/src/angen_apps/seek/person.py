@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 
 from angen_apps.data.run import first_day
-from angen_apps.residents.ground import Ground
+from angen_apps.residents.floors import Floors
 from angen_apps.residents.household import Household
 from angen_apps.residents.places import Spot
 from angen_apps.residents.profiles import Profile
@@ -26,14 +26,14 @@ class _Beside(Simulated):
         return
 
 
-def add_person(world: object, ground: Ground, home: Home, route: Route, name: str, seed: int
+def add_person(world: object, floors: Floors, home: Home, route: Route, name: str, seed: int
                ) -> Household:
     """A household of one who walks about; its run() is called before each of the robot's cycles.
     Failure if the building has no place to walk to."""
     simulator = _Beside(world, home.described)
-    household = Household(simulator, ground, seed, 'seek', first_day(home.described),
+    household = Household(simulator, floors, seed, 'seek', first_day(home.described),
                           home.described.time_of_day)
-    spots = [spot for cell in range(len(home.at)) if (spot := _spot(home, cell, ground, route))]
+    spots = [spot for cell in range(len(home.at)) if (spot := _spot(home, cell, floors, route))]
     if not spots:
         raise Failure('the building has no free place for a person')
     pose = home.start.pose
@@ -41,16 +41,16 @@ def add_person(world: object, ground: Ground, home: Home, route: Route, name: st
     return household
 
 
-def _spot(home: Home, cell: int, ground: Ground, route: Route) -> Spot | None:
+def _spot(home: Home, cell: int, floors: Floors, route: Route) -> Spot | None:
     """The place of a cell, if one can stay there: no door swings there, the robot gets there, and
     the cabin is not near."""
     point, floor = home.point(cell), int(home.floor[cell])
     if not route.elevator and floor != home.start.floor:
         return None
-    if floor not in ground.planners or not ground.planners[floor].is_free(point):
+    if floor not in floors.grids or not floors.is_free(point, floor):
         return None
     if any(door.room_for(point) < DOOR_ROOM for door in home.doors[floor]):
         return None
     if route.elevator and math.dist(point, route.elevator.cabin) < LIFT_ROOM:
         return None
-    return Spot(point, floor, ground.elevation(floor), home.rooms[home.room[cell]])
+    return Spot(point, floor, home.described.elevation(floor), home.rooms[home.room[cell]])

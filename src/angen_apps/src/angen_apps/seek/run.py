@@ -12,7 +12,7 @@ from lxml import etree
 
 from angen_apps.maps.gridmap import load_world
 from angen_apps.patrol.scene import start_offset
-from angen_apps.residents.ground import Ground
+from angen_apps.residents.floors import Floors
 from angen_apps.robot.building import find_start, move_robot, remove_actors
 from angen_apps.robot.driver import Track
 from angen_apps.robot.interface import Event, collisions
@@ -86,7 +86,7 @@ def search(world: Path, route: Route, home: Home, seed: int, ambient: bool, limi
     seeker = Search(home, route, simulation, ambient, note)
     person: list[tuple[float, ...]] = []
     beliefs: list[tuple[float, np.ndarray]] = []
-    household = (add_person(simulation.world, Ground(load_world(str(scratch)), home.described),
+    household = (add_person(simulation.world, Floors(load_world(str(scratch)), home.described),
                             home, route, name, seed) if name else None)
 
     def others() -> None:

@@ -1,0 +1,76 @@
+"""Doors that a person shuts: those that it is told to, and those whose leaves are in the way."""
+from __future__ import annotations
+
+from math import hypot
+from typing import Any, Callable
+
+import pytest
+
+import angen
+from sdf_text import box
+from test_person_other_doors import DOORS, WALL, door
+
+Make = Callable[..., angen.World]
+
+
+def person(name: str, x: float, y: float) -> str:
+    return f'<actor name="{name}"><pose>{x} {y} 0 0 0 0</pose></actor>'
+
+
+def corridor(width: float) -> str:
+    """The other walls of a closed corridor that the door opens into."""
+    return box('opposite', f'0 {-0.1 - width} 1.2 0 0 0', '12 0.1 2.4', True) + ''.join(
+        box(f'end{x}', f'{x} {-0.05 - width / 2} 1.2 0 0 0', f'0.1 {width} 2.4', True)
+        for x in (-5.5, 5.5))
+
+
+def walk(w: angen.World, x: float, y: float, seconds: float, *orders: str) -> dict[str, Any]:
+    """Sends her there; the state of the door afterwards."""
+    for order in (*orders, f'GoTo {x} {y}'):
+        w.command('person', 'ann', order)
+    w.run(seconds)
+    state = w.device('person', 'ann')
+    assert hypot(state['x'] - x, state['y'] - y) < 0.1 and not state['going']
+    return w.device('door', 'hall0')
+
+
+@pytest.mark.parametrize('order, mode', [('CloseDoors', 'CLOSED'), ('LeaveDoors', 'OPEN')])
+@pytest.mark.parametrize('start', [-2.0, 2.0])
+def test_an_open_door_behind_it_is_shut_if_it_is_told_so(world: Make, start: float, order: str,
+                                                         mode: str) -> None:
+    w = world(WALL + door() + person('ann', 0.45, start), DOORS)
+    w.run(0.3)
+    w.command('door', 'hall0', 'Open')
+    w.run(6.0)
+    assert walk(w, 0.45, -start, 15.0, order)['mode'] == mode
+    assert ('<closes_doors>true' in w.save()) == (order == 'CloseDoors')
+
+
+def test_no_leaf_is_shut_against_another_person(world: Make) -> None:
+    w = world(WALL + door() + person('ann', 0.45, -2.0) + person('bob', 1.1, -0.45), DOORS)
+    w.run(0.3)
+    w.command('door', 'hall0', 'Open')
+    w.run(6.0)
+    assert walk(w, 0.45, 2.0, 15.0, 'CloseDoors')['mode'] == 'OPEN'
+
+
+@pytest.mark.parametrize('width, mode', [(1.3, 'CLOSED'), (2.0, 'OPEN')])
+@pytest.mark.parametrize('goal', [-4.0, 4.0])
+def test_a_leaf_that_closes_off_a_corridor_is_always_shut(world: Make, goal: float, width: float,
+                                                          mode: str) -> None:
+    w = world(WALL + door() + corridor(width) + person('ann', 0.45, 2.0), DOORS)
+    w.run(0.3)
+    assert walk(w, goal, -0.1 - width / 2, 25.0)['mode'] == mode
+
+
+def test_it_says_that_it_goes_and_has_arrived(world: Make) -> None:
+    w = world(person('ann', 0.0, 0.0))
+    w.run(0.3)
+    w.events()
+    w.command('person', 'ann', 'GoTo 2 0')
+    w.run(0.1)
+    assert w.device('person', 'ann')['going']
+    w.run(5.0)
+    assert not w.device('person', 'ann')['going']
+    assert [(event, detail) for _, source, _, event, detail in w.events() if source == 'ann'] == [
+        ('walks', ''), ('arrived', '2 0'), ('stands', '')]
