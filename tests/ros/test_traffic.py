@@ -42,16 +42,19 @@ class House:
                                 text=True, stdout=subprocess.DEVNULL)
 
 
-@pytest.fixture(params=['sensor', 'kind'])
-def house(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[House]:
-    started = House(tmp_path, topics=request.param)
+@pytest.fixture(scope='module')
+def house_of_kinds(tmp_path_factory: pytest.TempPathFactory) -> Iterator[House]:
+    started = House(tmp_path_factory.mktemp('kinds'), topics='kind')
     yield started
     started.end()
 
 
-@pytest.fixture(scope='module')
-def house_of_kinds(tmp_path_factory: pytest.TempPathFactory) -> Iterator[House]:
-    started = House(tmp_path_factory.mktemp('kinds'), topics='kind')
+@pytest.fixture(params=['sensor', 'kind'])
+def house(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[House]:
+    if request.param == 'kind':
+        yield request.getfixturevalue('house_of_kinds')
+        return
+    started = House(tmp_path, topics='sensor')
     yield started
     started.end()
 
