@@ -209,11 +209,12 @@ run_fuzz() { # [TARGET...] [--seconds N | --runs N]
 
 # Finds crashes, inputs of more than 5 s, and of more than 1 GB; new inputs are kept in the tree.
 fuzz_target() { # TREE NAME LIMIT
-  local log=$1/logs/$2 code=0 seeds=tests/fuzz/corpus/$2 runs
-  mkdir -p "$1/corpus/$2"
-  { printf '"angen"\n' && words_of "$seeds"; } >"$1/corpus/$2.dict" # libFuzzer takes no empty one
+  local log=$1/logs/$2 code=0 seeds=("tests/fuzz/corpus/$2" "$1/models/$2") runs
+  mkdir -p "$1/corpus/$2" "$1/models/$2"
+  write_models "$2" "$1/models/$2"
+  { printf '"angen"\n' && words_of "${seeds[@]}"; } >"$1/corpus/$2.dict" # libFuzzer takes no empty one
   ANGEN_FUZZ_TARGET=$2 "$1/tests/angen_fuzz" "$3" -timeout=5 -rss_limit_mb=1024 -detect_leaks=0 -max_len=8192 \
-    -print_final_stats=1 -dict="$1/corpus/$2.dict" -artifact_prefix="$1/found/$2-" "$1/corpus/$2" "$seeds" \
+    -print_final_stats=1 -dict="$1/corpus/$2.dict" -artifact_prefix="$1/found/$2-" "$1/corpus/$2" "${seeds[@]}" \
     >"$log" 2>&1 || code=$?
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   printf '%s executions, %s inputs kept\n' "${runs:-unknown}" "$(find "$1/corpus/$2" -type f | wc -l)"
@@ -222,9 +223,22 @@ fuzz_target() { # TREE NAME LIMIT
   return $code
 }
 
+# The models of worlds/ as inputs of `urdf` and, in a world, of `sim`; on one line, as 8 kB of an input count.
+write_models() { # TARGET FOLDER
+  local model world=('' '')
+  case $1 in
+    urdf) ;;
+    sim) world=('<world name="w">' '</world>') ;;
+    *) return ;;
+  esac
+  for model in worlds/models/*/model.sdf; do
+    tr -s ' \n' ' ' <"$model" | sed "s|<sdf[^>]*>|&${world[0]}|; s|</sdf>|${world[1]}&|" >"$2/$(basename "${model%/*}")"
+  done
+}
+
 # The words of a target's seeds, as libFuzzer's dictionary.
-words_of() { # FOLDER
-  find "$1" -type f -exec grep -aohE '</?[A-Za-z_:]+|[A-Za-z_]{2,30}=?' {} + | sort -u | head -n 600 | sed 's/.*/"&"/'
+words_of() { # FOLDER...
+  find "$@" -type f -exec grep -aohE '</?[A-Za-z_:]+|[A-Za-z_]{2,30}=?' {} + | sort -u | sed -n '1,600s/.*/"&"/p'
 }
 
 run_coverage() { # [--floor CPP PYTHON]: fails where a smaller share of the lines (%) is run

@@ -10,7 +10,7 @@ import signal
 from typing import Any, Iterator
 
 import pytest
-from harness import Master, end
+from harness import Master
 
 # Parts of tests' names, the longest units first: a unit runs on one worker, and should not begin
 # last. Without an entry a test runs after these.
@@ -74,9 +74,8 @@ def same_signals() -> Iterator[None]:
 
 @pytest.fixture(scope='session')
 def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Master]:
-    started = Master(tmp_path_factory.mktemp('ros'))
-    yield started
-    end(started.process)
+    with Master(tmp_path_factory.mktemp('ros')) as started:
+        yield started
 
 
 @pytest.fixture(scope='session')

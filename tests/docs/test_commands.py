@@ -10,7 +10,6 @@ import os
 import re
 import shlex
 import signal
-import socket
 import subprocess
 import time
 import xmlrpc.client
@@ -18,6 +17,7 @@ from pathlib import Path
 from typing import Any, Iterator
 
 import pytest
+from harness import free_port
 
 from tests.docs.pages import PAGES, ROOT, blocks, files
 
@@ -64,16 +64,13 @@ class Terminal:
     """A folder that looks like the checkout, and a simulator of its own."""
 
     def __init__(self, folder: Path) -> None:
-        with socket.socket() as probe:
-            probe.bind(('127.0.0.1', 0))
-            port = probe.getsockname()[1]
         self.folder = folder
         self.home = home = folder / 'home'
         home.mkdir()
         for entry in ROOT.iterdir():
             if entry.name not in ('out', '.git'):
                 (folder / entry.name).symlink_to(entry)
-        uri = f'http://127.0.0.1:{port}'
+        uri = f'http://127.0.0.1:{free_port()}'
         self.master: Any = xmlrpc.client.ServerProxy(uri)
         self.environment = dict(
             os.environ, HOME=str(home), ROS_HOME=str(home / '.ros'),

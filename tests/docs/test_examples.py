@@ -11,7 +11,8 @@ import pytest
 from angen_tools.cli import main as cli
 from tests.docs.pages import PAGES, ROOT, blocks
 
-WORDS = '|'.join(cli.make_parser()._subparsers._group_actions[0].choices)
+PARSER = cli.make_parser()
+WORDS = '|'.join(PARSER._subparsers._group_actions[0].choices)
 
 
 def model(page: str, name: str) -> str:
@@ -46,7 +47,7 @@ def commands(page: Path) -> list[str]:
 @pytest.mark.parametrize('page', PAGES, ids=lambda page: page.name)
 def test_every_command_that_is_shown_is_understood(page: Path) -> None:
     for line in commands(page):
-        assert cli.make_parser().parse_args(shlex.split(line, comments=True)).run, line
+        assert PARSER.parse_args(shlex.split(line, comments=True)).run, line
 
 
 def test_the_pages_show_commands() -> None:

@@ -12,6 +12,7 @@ import time
 import uuid
 
 import pytest
+from harness import free_port
 
 from angen_tools.common.watchdog import VARIABLE, marked as with_mark, watchdog
 
@@ -23,10 +24,7 @@ NODE_RUNS = 'Ctrl-C ends it'  # in the line that is printed then
 @pytest.fixture
 def environment(tmp_path):
     """An environment with a ROS master's address of its own, and a mark that children inherit."""
-    with socket.socket() as probe:
-        probe.bind(('localhost', 0))
-        port = probe.getsockname()[1]
-    environment = dict(os.environ, ROS_MASTER_URI=f'http://localhost:{port}', DISPLAY='',
+    environment = dict(os.environ, ROS_MASTER_URI=f'http://localhost:{free_port()}', DISPLAY='',
                        ROS_HOME=str(tmp_path), ANGEN_TEST_MARK=uuid.uuid4().hex)
     with watchdog():  # also when the tests are killed
         yield dict(environment, **{VARIABLE: os.environ[VARIABLE]})

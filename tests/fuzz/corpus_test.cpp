@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 
 #include "fuzz/targets.h"
 
@@ -11,6 +12,11 @@ namespace angen::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 /// Every input that was once a finding, and some of each sort of right ones.
 class Corpus : public testing::TestWithParam<Target> {};
@@ -25,8 +31,21 @@ TEST_P(Corpus, IsAcceptedOrRejected) {
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {
     SCOPED_TRACE(file);
-    std::ifstream stream(file, std::ios::binary);
-    GetParam().run({std::istreambuf_iterator<char>(stream), {}});
+    GetParam().run(text_of(file));
+  }
+}
+
+// ./angen fuzz begins with all models of worlds/.
+TEST(Models, AreAccepted) {
+  for (const char* name : {"bathroom_door", "ceiling_lamp", "cup", "optical_switch", "pir", "plant",
+                           "stove", "weighing_table"}) {
+    SCOPED_TRACE(name);
+    const std::string model = text_of(fs::path(ANGEN_WORLDS_DIR) / "models" / name / "model.sdf");
+    ASSERT_FALSE(model.empty());
+    urdf(model);
+    const std::string begins =
+        std::regex_replace(model, std::regex("<sdf[^>]*>"), "$&<world name='w'>");
+    sim(std::regex_replace(begins, std::regex("</sdf>"), "</world></sdf>"));
   }
 }
 

@@ -2,6 +2,7 @@
 from pathlib import Path
 
 WORLDS = Path(__file__).resolve().parents[2] / 'worlds'
+DOORS = '<plugin name="doors" filename="libdoor_world_plugin.so"/>'
 
 
 def sdf_world(content: str, plugins: str = '') -> str:
@@ -33,6 +34,49 @@ def rooms(*boxes: str) -> str:
                  f'{x0} {y1}</angen:polygon><angen:floor>{z0}</angen:floor><angen:ceiling>'
                  f'{z1 - z0}</angen:ceiling></angen:room>')
     return made
+
+
+def air(*boxes: str, extra: str = '') -> str:
+    """A model `flat` of rooms with a climate."""
+    return (f'<model name="flat"><static>true</static><link name="l"/>{rooms(*boxes)}'
+            f'<plugin name="air" filename="libroom_climate.so">{extra}</plugin></model>')
+
+
+def include(model: str, name: str, pose: str = '0 0 0 0 0 0', plugin: str = '') -> str:
+    """A model of worlds/models in a world."""
+    return (f'<include><uri>model://{model}</uri><name>{name}</name><pose>{pose}</pose>{plugin}'
+            '</include>')
+
+
+def person(pose: str, params: str = '', name: str = 'ann') -> str:
+    return (f'<actor name="{name}"><pose>{pose}</pose><plugin name="person" '
+            f'filename="libperson_controller.so">{params}</plugin></actor>')
+
+
+def walker(name: str, *points: str, plugin: str = '') -> str:
+    """A person who walks once from each "t x y" to the next."""
+    way = ''.join(f'<waypoint><time>{t}</time><pose>{x} {y} 0 0 0 0</pose></waypoint>'
+                  for t, x, y in (point.split() for point in points))
+    return (f'<actor name="{name}"><script><loop>false</loop><trajectory id="0" type="walk">{way}'
+            f'</trajectory></script>{plugin}</actor>')
+
+
+def sensor(library: str, extra: str = '', rate: float = 10) -> str:
+    """A sensor's element at its link's origin; the rate in Hz."""
+    return (f'<sensor name="s" type="custom"><update_rate>{rate}</update_rate>'
+            f'<plugin name="s" filename="{library}">{extra}</plugin></sensor>')
+
+
+def device(name: str, library: str, extra: str = '', pose: str = '0 0 0 0 0 0') -> str:
+    """A static model without a body, with one device."""
+    return (f'<model name="{name}"><static>true</static><pose>{pose}</pose><link name="l"/>'
+            f'<plugin name="d" filename="{library}">{extra}</plugin></model>')
+
+
+def holder(name: str, sensor: str, pose: str = '0 0 0 0 0 0') -> str:
+    """A static model without a body, with one sensor, which has its name."""
+    return (f'<model name="{name}"><static>true</static><pose>{pose}</pose><link name="l">{sensor}'
+            '</link></model>')
 
 
 def pir(name: str, pose: str, extra: str = '') -> str:

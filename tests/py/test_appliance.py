@@ -6,11 +6,12 @@ from math import inf, log10
 import pytest
 
 import angen
-from sdf_text import rooms
+from sdf_text import air, device, holder, include, sensor
 
 
-def block(model: str, name: str, pose: str = '0 0 0 0 0 0') -> str:
-    return f'<include><uri>model://{model}</uri><name>{name}</name><pose>{pose}</pose></include>'
+def plug(extra: str, rate: float = 10) -> str:
+    """A smart plug `p` of the television."""
+    return holder('p', sensor('libsmart_plug.so', f'<load>appliance/tv</load>{extra}', rate))
 
 
 def state(world: angen.World, name: str) -> dict:
@@ -19,7 +20,7 @@ def state(world: angen.World, name: str) -> dict:
 
 
 def test_a_fan_takes_power_as_the_cube_of_its_speed(world):
-    w = world(block('fan', 'fan'))
+    w = world(include('fan', 'fan'))
     assert state(w, 'fan')['power'] == 0 and state(w, 'fan')['sound_power_level'] == -inf
     w.command('appliance', 'fan', 'On')
     for speed in (100, 50, 20):
@@ -32,7 +33,7 @@ def test_a_fan_takes_power_as_the_cube_of_its_speed(world):
 
 
 def test_a_stereos_power_and_sound_are_as_the_square_of_its_volume(world):
-    w = world(block('stereo', 'stereo'))
+    w = world(include('stereo', 'stereo'))
     assert state(w, 'stereo')['power'] == 0.5       # standby
     w.command('appliance', 'stereo', 'Volume 50')
     assert state(w, 'stereo')['power'] == 0.5       # still off
@@ -45,11 +46,7 @@ def test_a_stereos_power_and_sound_are_as_the_square_of_its_volume(world):
 
 
 def test_a_plug_measures_a_television_and_its_energy(world):
-    w = world(block('tv', 'tv')
-              + '<model name="p"><static>true</static><link name="l"><sensor name="p" '
-              'type="custom"><update_rate>1</update_rate><plugin name="p" '
-              'filename="libsmart_plug.so">'
-              '<load>appliance/tv</load></plugin></sensor></link></model>')
+    w = world(include('tv', 'tv') + plug('', 1))
     w.run(10)
     w.command('appliance', 'tv', 'Volume 100')
     w.command('appliance', 'tv', 'On')
@@ -62,9 +59,7 @@ def test_a_plug_measures_a_television_and_its_energy(world):
 @pytest.mark.parametrize('standby, reported', [
     ('', ['on']), ('<standby>5</standby>', ['on', 'off'])])
 def test_a_plug_reports_a_load_above_its_standby(world, standby, reported):
-    w = world(block('tv', 'tv') + '<model name="p"><static>true</static><link name="l">'
-              '<sensor name="p" type="custom"><plugin name="p" filename="libsmart_plug.so">'
-              f'<load>appliance/tv</load>{standby}</plugin></sensor></link></model>')
+    w = world(include('tv', 'tv') + plug(standby))
     w.run(1)
     for text in ('On', 'Off'):  # 90 W, then 0.5 W
         w.command('appliance', 'tv', text)
@@ -80,7 +75,7 @@ def test_a_television_lights_the_things_before_it(world):
               '0.3 0.3</angen:rectangle></light></link>'
               '<plugin name="tv" filename="libappliance.so">'
               '<luminous_flux>200</luminous_flux></plugin><pose>0 0 5 0 0 0</pose></model>'
-              + block('luminosity_sensor', 'lux', '2 0 5 0 0 3.141593'))
+              + include('luminosity_sensor', 'lux', '2 0 5 0 0 3.141593'))
     w.run(1.1)
     assert w.sensor('luminosity', 'lux')['illuminance'] == 0
     w.command('appliance', 'tv', 'On')
@@ -93,10 +88,8 @@ def test_a_television_lights_the_things_before_it(world):
 
 
 def test_it_heats_its_room_by_its_power(world):
-    w = world('<model name="flat"><static>true</static><link name="l"/>'
-              + rooms('-2 -2 0 2 2 2.5')
-              + '<plugin name="air" filename="libroom_climate.so"><heat_loss>0</heat_loss>'
-              '<air_change>0</air_change></plugin></model>' + block('stereo', 'stereo'))
+    w = world(air('-2 -2 0 2 2 2.5', extra='<heat_loss>0</heat_loss><air_change>0</air_change>')
+              + include('stereo', 'stereo'))
     w.command('appliance', 'stereo', 'On')
     w.run(601)
     heat = (12 + 48 * 0.04) * w.time
@@ -105,9 +98,8 @@ def test_it_heats_its_room_by_its_power(world):
 
 
 def test_commands_that_do_not_fit_are_rejected(world):
-    w = world(block('fan', 'fan') + block('tv', 'tv')
-              + '<model name="radio"><static>true</static><link name="l"/>'
-              '<plugin name="a" filename="libappliance.so"/></model>')
+    w = world(include('fan', 'fan') + include('tv', 'tv')
+              + device('radio', 'libappliance.so'))
     with pytest.raises(angen.Error, match='this appliance has no volume, but a speed'):
         w.command('appliance', 'fan', 'Volume 10')
     with pytest.raises(angen.Error, match='this appliance has no speed, but a volume'):
@@ -120,12 +112,11 @@ def test_commands_that_do_not_fit_are_rejected(world):
 
 def test_idle_power_is_a_part_of_power(world):
     with pytest.raises(angen.Error, match='idle_power is above power'):
-        world('<model name="radio"><static>true</static><link name="l"/><plugin name="a" '
-              'filename="libappliance.so"><idle_power>60</idle_power></plugin></model>')
+        world(device('radio', 'libappliance.so', '<idle_power>60</idle_power>'))
 
 
 def test_a_saved_appliance_stays_on(world):
-    w = world(block('tv', 'tv'))
+    w = world(include('tv', 'tv'))
     w.command('appliance', 'tv', 'On')
     w.command('appliance', 'tv', 'Volume 70')
     w.run(0.1)
@@ -135,11 +126,7 @@ def test_a_saved_appliance_stays_on(world):
 
 def test_a_plug_that_rests_reads_as_one_that_samples(world):
     """A television on standby, then on, with a plug that has noise: in ticks, and in leaps."""
-    text = (block('tv', 'tv')
-            + '<model name="p"><static>true</static><link name="l"><sensor name="p" type="custom">'
-            '<update_rate>1</update_rate><plugin name="p" filename="libsmart_plug.so">'
-            '<noise_stddev>0.5</noise_stddev><load>appliance/tv</load></plugin></sensor></link>'
-            '</model>')
+    text = include('tv', 'tv') + plug('<noise_stddev>0.5</noise_stddev>', 1)
     leaping, ticking = world(text), world(text)
     for command in ('Volume 50', 'On', 'Off'):
         for w in (leaping, ticking):

@@ -6,34 +6,14 @@ from math import asin, exp
 import pytest
 
 import angen
-from sdf_text import box, rooms
-
-DOORS = '<plugin name="doors" filename="libdoor_world_plugin.so"/>'
-
-
-def block(model: str, name: str, pose: str, plugin: str = '') -> str:
-    """A model of worlds/models in a world."""
-    return (f'<include><uri>model://{model}</uri><name>{name}</name><pose>{pose}</pose>{plugin}'
-            '</include>')
-
-
-def sensor(library: str, extra: str) -> str:
-    """A sensor's element at its link's origin, 1 Hz."""
-    return (f'<sensor name="s" type="custom"><update_rate>1</update_rate>'
-            f'<plugin name="s" filename="{library}">{extra}</plugin></sensor>')
-
-
-def holder(pose: str, inside: str) -> str:
-    """A static model `s` without a body."""
-    return (f'<model name="s"><static>true</static><pose>{pose}</pose><link name="l">{inside}'
-            '</link></model>')
+from sdf_text import DOORS, air, box, holder, include, sensor
 
 
 # proximity
 
 @pytest.mark.parametrize('distance', [0.1, 1.0, 3.5])
 def test_proximity_reads_the_distance_of_a_wall(world, distance):
-    w = world(block('proximity', 'p', '0 0 1 0 0 0')
+    w = world(include('proximity', 'p', '0 0 1 0 0 0')
               + box('wall', f'{distance + 0.5} 0 1 0 0 0', '1 4 4', static=True))
     for _ in range(20):
         w.run(0.1)
@@ -41,7 +21,7 @@ def test_proximity_reads_the_distance_of_a_wall(world, distance):
 
 
 def test_proximity_sees_the_nearest_in_its_cone_only(world):
-    w = world(block('proximity', 'p', '0 0 1 0 0 0')
+    w = world(include('proximity', 'p', '0 0 1 0 0 0')
               + box('aside', '1 0.4 1 0 0 0', '0.2 0.2 2', static=True)    # 17 degrees off at least
               + box('ahead', '2 0.1 1 0 0 0', '0.2 0.2 2', static=True))
     w.run(0.1)
@@ -49,7 +29,7 @@ def test_proximity_sees_the_nearest_in_its_cone_only(world):
 
 
 def test_proximity_reads_nothing_as_infinite(world):
-    w = world(block('proximity', 'p', '0 0 1 0 0 0')
+    w = world(include('proximity', 'p', '0 0 1 0 0 0')
               + box('wall', '5.1 0 1 0 0 0', '1 4 4', static=True))
     w.run(0.1)
     assert w.sensor('proximity', 'p')['range'] == float('inf')
@@ -58,7 +38,7 @@ def test_proximity_reads_nothing_as_infinite(world):
 # pressure mat
 
 def weighed(world, mass: float) -> angen.World:
-    return world(block('pressure_mat', 'm', '0 0 0 0 0 0')
+    return world(include('pressure_mat', 'm', '0 0 0 0 0 0')
                  + box('crate', '0.1 0 0.155 0 0 0', '0.3 0.3 0.3', mass=mass))
 
 
@@ -99,7 +79,7 @@ def swing(world: angen.World, name: str, joint: str) -> list[tuple[float, bool]]
 
 
 def test_a_reed_opens_and_closes_at_the_angles_that_geometry_gives(world):
-    w = world(block('window', 'hall_window0', '0 0 1 0 0 0'), DOORS)
+    w = world(include('window', 'hall_window0', '0 0 1 0 0 0'), DOORS)
     radius = (0.93 ** 2 + 0.008 ** 2) ** 0.5
     w.run(0.5)
     assert w.sensor('reed', 'hall_window0')['closed']
@@ -115,7 +95,7 @@ def test_a_reed_opens_and_closes_at_the_angles_that_geometry_gives(world):
 
 
 def test_a_window_takes_a_doors_commands(world):
-    w = world(block('window', 'hall_window0', '0 0 1 0 0 0'), DOORS)
+    w = world(include('window', 'hall_window0', '0 0 1 0 0 0'), DOORS)
     w.command('window', 'hall0', 'Set -0.5')
     w.run(3)
     state = w.device('window', 'hall0')
@@ -129,7 +109,7 @@ def test_a_window_takes_a_doors_commands(world):
 
 
 def test_a_cabinet_opens_and_its_reed_tells(world):
-    w = world(block('wall_cabinet', 'wall_cabinet0', '0 0 1.4 0 0 0'))
+    w = world(include('wall_cabinet', 'wall_cabinet0', '0 0 1.4 0 0 0'))
     w.run(0.5)
     assert w.sensor('reed', 'wall_cabinet0')['closed']
     w.command('cabinet', 'wall0', 'Open')
@@ -139,7 +119,7 @@ def test_a_cabinet_opens_and_its_reed_tells(world):
 
 
 def test_a_cabinet_that_bounces_off_something_hard_is_blocked_until_it_is_gone(world):
-    w = world(block('wall_cabinet', 'wall_cabinet0', '0 0 1.4 0 0 0')
+    w = world(include('wall_cabinet', 'wall_cabinet0', '0 0 1.4 0 0 0')
               + box('post', '0.36 -0.74 1.7 0 0 0', '0.04 0.04 0.4', static=True))
     w.command('cabinet', 'wall0', 'Open')
     w.run(4)
@@ -152,10 +132,10 @@ def test_a_cabinet_that_bounces_off_something_hard_is_blocked_until_it_is_gone(w
 
 
 def test_a_reed_can_be_put_on_a_door(world):
-    w = world(block('kitchen_door', 'kitchen_door0', '0 0 0 0 0 0'),
+    w = world(include('kitchen_door', 'kitchen_door0', '0 0 0 0 0 0'),
               DOORS)
     w.spawn(sensor('libreed_contact.so', '<magnet_link>door</magnet_link>'
-                   '<magnet>0.93 -0.015 2.078</magnet>'), 'r',
+                   '<magnet>0.93 -0.015 2.078</magnet>', 1), 'r',
             [0.93, -0.015, 2.09, 0, 0, 0], 'kitchen_door0::base')
     w.run(1.1)
     assert w.sensor('reed', 'r')['closed']
@@ -166,7 +146,7 @@ def test_a_reed_can_be_put_on_a_door(world):
 
 def test_a_reed_names_the_links_it_could_have(world):
     with pytest.raises(angen.Error, match="no link 'leaf'; known are base, pane"):
-        world(block('window', 'w', '0 0 1 0 0 0')).spawn(
+        world(include('window', 'w', '0 0 1 0 0 0')).spawn(
             sensor('libreed_contact.so', '<magnet_link>leaf</magnet_link>'), 'r',
             [0, 0, 0, 0, 0, 0], 'w::base')
 
@@ -181,14 +161,14 @@ TAG = '<plugin name="tag" filename="librfid_tag.so"><id>{}</id><position>{}</pos
     ('0.8 1.2 1 0 0 0', True), ('0.4 1.2 1 0 0 0', False),      # 60 degrees to a side
     ('-1 0 1 0 0 0', False)])
 def test_a_tag_is_read_in_range_and_beam(world, pose, read):
-    w = world(block('rfid_reader', 'r', '0 0 1 0 0 0') + block('rfid_tag', 'card', pose))
+    w = world(include('rfid_reader', 'r', '0 0 1 0 0 0') + include('rfid_tag', 'card', pose))
     w.run(0.2)
     assert w.sensor('rfid', 'r')['ids'] == (['card'] if read else [])
 
 
 def test_a_tag_behind_a_wall_is_never_read(world):
     """The tag passes behind the wall and comes out at its end."""
-    w = world(block('rfid_reader', 'r', '0 0 1 0 0 0')
+    w = world(include('rfid_reader', 'r', '0 0 1 0 0 0')
               + box('wall', '1 -1 1 0 0 0', '0.1 2 2', static=True))
     for y in (-1.0, -0.5, -0.05, 0.05, 0.5):
         w.spawn('model://rfid_tag', 'card', [1.1, y, 1, 0, 0, 0])
@@ -202,11 +182,11 @@ def test_people_robots_and_things_carry_tags(world):
       <waypoint><time>0</time><pose>1 0.8 0 0 0 3.14159</pose></waypoint>
       <waypoint><time>30</time><pose>0.9 0.8 0 0 0 3.14159</pose></waypoint></trajectory></script>
       ''' + TAG.format('anna-badge', '0.26 0 1.2') + '</actor>'
-    w = world(block('rfid_reader', 'r', '0 0 1 0 0 0') + person
-              + block('turtlebot', 'robot', '1 0 0.001 0 0 3.14159',
-                      TAG.format('robot-7', '0.19 0 0.2'))
-              + block('chair', 'seat', '1 -0.8 0.001 0 0 3.14159',
-                      TAG.format('chair-1', '0.22 0 0.45')))
+    w = world(include('rfid_reader', 'r', '0 0 1 0 0 0') + person
+              + include('turtlebot', 'robot', '1 0 0.001 0 0 3.14159',
+                        TAG.format('robot-7', '0.19 0 0.2'))
+              + include('chair', 'seat', '1 -0.8 0.001 0 0 3.14159',
+                        TAG.format('chair-1', '0.22 0 0.45')))
     w.run(0.5)
     reading = w.sensor('rfid', 'r')
     assert reading['ids'] == ['anna-badge', 'chair-1', 'robot-7']
@@ -215,8 +195,8 @@ def test_people_robots_and_things_carry_tags(world):
 
 
 def test_a_body_shades_the_tag_behind_it(world):
-    w = world(block('rfid_reader', 'r', '0 0 1 0 0 0')
-              + block('turtlebot', 'robot', '1 0 0.001 0 0 0', TAG.format('x', '0.19 0 0.1')))
+    w = world(include('rfid_reader', 'r', '0 0 1 0 0 0')
+              + include('turtlebot', 'robot', '1 0 0.001 0 0 0', TAG.format('x', '0.19 0 0.1')))
     w.run(0.2)
     assert w.sensor('rfid', 'r')['ids'] == []
 
@@ -224,8 +204,8 @@ def test_a_body_shades_the_tag_behind_it(world):
 # smart plug
 
 def test_a_plugs_energy_is_power_times_time(world):
-    w = world(block('ceiling_lamp', 'hall_lamp0', '0 0 2.5 0 0 0')
-              + holder('0 0 0.3 0 0 0', sensor('libsmart_plug.so', '<load>lamp/hall0</load>')))
+    w = world(include('ceiling_lamp', 'hall_lamp0', '0 0 2.5 0 0 0')
+              + holder('s', sensor('libsmart_plug.so', '<load>lamp/hall0</load>', 1)))
     w.run(0.5)
     assert w.sensor('plug', 's')['energy'] == 0
     expected = 0.0
@@ -241,27 +221,22 @@ def test_a_plugs_energy_is_power_times_time(world):
 
 
 def test_a_plug_without_its_load_says_so(world):
-    w = world(holder('0 0 0.3 0 0 0', sensor('libsmart_plug.so', '<load>lamp/none0</load>')))
+    w = world(holder('s', sensor('libsmart_plug.so', '<load>lamp/none0</load>')))
     w.run(0.1)
     assert w.sensor('plug', 's')['connected'] is False and w.sensor('plug', 's')['power'] == 0
 
 
 # temperature and humidity
 
-def air(boxes: str, extra: str) -> str:
-    return (f'<model name="flat"><static>true</static><link name="l"/>{rooms(*boxes.split(";"))}'
-            f'<plugin name="air" filename="libroom_climate.so">{extra}</plugin></model>')
-
-
 LEAKS = '<heat_loss>0.8</heat_loss><air_change>0.5</air_change><heat_capacity>1.2</heat_capacity>'
 
 
 def test_a_heater_in_a_closed_room_follows_the_closed_form(world):
     """T = T0 + P / L (1 - exp(-t L / C)) in a room of 30 m^3 with 1 kW, started at outside's."""
-    w = world(air('0 0 0 4 3 2.5', LEAKS + '<temperature>10</temperature>'
+    w = world(air('0 0 0 4 3 2.5', extra=LEAKS + '<temperature>10</temperature>'
                   '<outside_temperature>10</outside_temperature>')
-              + block('heater', 'heater', '0.1 1.5 0 0 0 0')
-              + block('temperature_sensor', 't', '2 1.5 1.5 0 0 0'))
+              + include('heater', 'heater', '0.1 1.5 0 0 0 0')
+              + include('temperature_sensor', 't', '2 1.5 1.5 0 0 0'))
     w.command('heater', 'heater', 'On')
     volume = 30.0
     loss = 0.8 * volume + 1.204 * 1006 * 0.5 / 3600 * volume
@@ -274,10 +249,10 @@ def test_a_heater_in_a_closed_room_follows_the_closed_form(world):
 
 
 def test_a_closed_room_keeps_its_vapor_and_dries_relatively(world):
-    w = world(air('0 0 0 4 3 2.5', '<air_change>0</air_change>')
-              + block('heater', 'heater', '0.1 1.5 0 0 0 0')
-              + block('humidity_sensor', 'h', '2 1.5 1.5 0 0 0')
-              + block('temperature_sensor', 't', '2 1.5 1.5 0 0 0'))
+    w = world(air('0 0 0 4 3 2.5', extra='<air_change>0</air_change>')
+              + include('heater', 'heater', '0.1 1.5 0 0 0 0')
+              + include('humidity_sensor', 'h', '2 1.5 1.5 0 0 0')
+              + include('temperature_sensor', 't', '2 1.5 1.5 0 0 0'))
     w.run(1.1)
     assert w.sensor('humidity', 'h')['humidity'] == pytest.approx(50, abs=0.1)
     w.command('heater', 'heater', 'Set 50')
@@ -291,12 +266,12 @@ def test_a_closed_room_keeps_its_vapor_and_dries_relatively(world):
 @pytest.mark.parametrize('opens', [False, True])
 def test_an_open_door_lets_the_warm_air_through(world, opens):
     """Two rooms of 4 m x 3 m side by side, their door in the wall between them."""
-    w = world(air('0 0.05 0 4 3 2.5;0 -3 0 4 -0.05 2.5', '<heat_loss>0</heat_loss>'
+    w = world(air('0 0.05 0 4 3 2.5', '0 -3 0 4 -0.05 2.5', extra='<heat_loss>0</heat_loss>'
                   '<air_change>0</air_change>')
-              + block('heater', 'heater', '0.1 1.5 0 0 0 0')
-              + block('kitchen_door', 'hall_door0', '1.5 0 0 0 0 0')
-              + block('temperature_sensor', 'warm', '2 1.5 1.5 0 0 0')
-              + block('temperature_sensor', 'cold', '2 -1.5 1.5 0 0 0'),
+              + include('heater', 'heater', '0.1 1.5 0 0 0 0')
+              + include('kitchen_door', 'hall_door0', '1.5 0 0 0 0 0')
+              + include('temperature_sensor', 'warm', '2 1.5 1.5 0 0 0')
+              + include('temperature_sensor', 'cold', '2 -1.5 1.5 0 0 0'),
               DOORS)
     if opens:
         w.command('door', 'hall0', 'Open')
@@ -310,7 +285,7 @@ def test_an_open_door_lets_the_warm_air_through(world, opens):
 
 
 def test_outside_of_all_rooms_it_is_as_cold_as_outside(world):
-    w = world(air('0 0 0 4 3 2.5', '') + block('temperature_sensor', 't', '-2 0 1 0 0 0'))
+    w = world(air('0 0 0 4 3 2.5') + include('temperature_sensor', 't', '-2 0 1 0 0 0'))
     w.command('climate', 'flat', 'Outside -7.5')
     w.run(1.1)
     assert w.sensor('temperature', 't')['temperature'] == -7.5
@@ -330,7 +305,7 @@ def drive(world: angen.World, seconds: float, speed: float = 0.3, turn: float = 
 
 def test_the_charge_falls_by_the_energy_used(world):
     """Three starts to 0.5 m/s take m v^2 / 2 each, and nothing else takes work on a level floor."""
-    w = world(block('turtlebot', 'robot', '0 0 0.001 0 0 0'), ROBOTS)
+    w = world(include('turtlebot', 'robot', '0 0 0.001 0 0 0'), ROBOTS)
     w.run(1.1)
     before = w.device('battery', 'robot_battery')
     for _ in range(3):
@@ -344,7 +319,7 @@ def test_the_charge_falls_by_the_energy_used(world):
 
 
 def test_an_empty_battery_stops_the_robot(world):
-    w = world(block('turtlebot', 'robot', '0 0 0.001 0 0 0'), ROBOTS)
+    w = world(include('turtlebot', 'robot', '0 0 0.001 0 0 0'), ROBOTS)
     drive(w, 2)
     assert w.device('drive', 'robot')['v'] == pytest.approx(0.3, abs=0.02)
     w.command('battery', 'robot_battery', 'Charge 0')

@@ -6,16 +6,14 @@ from math import log10, pi
 import pytest
 
 import angen
+from sdf_text import device, holder, sensor
 
-MICROPHONE = ('<model name="m"><static>true</static><pose>4 0 1 0 0 0</pose><link name="l">'
-              '<sensor name="s" type="custom"><update_rate>10</update_rate><plugin name="s" '
-              'filename="libmicrophone.so"><background>-40</background></plugin></sensor></link>'
-              '</model>')
+MICROPHONE = holder('m', sensor('libmicrophone.so', '<background>-40</background>'),
+                    '4 0 1 0 0 0')
 
 
 def bell(extra: str = '') -> str:
-    return (f'<model name="hall0"><static>true</static><pose>0 0 1 0 0 0</pose><link name="l"/>'
-            f'<plugin name="bell" filename="libdoorbell.so">{extra}</plugin></model>')
+    return device('hall0', 'libdoorbell.so', extra, '0 0 1 0 0 0')
 
 
 def ringing(world: angen.World) -> bool:

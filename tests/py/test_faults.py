@@ -6,19 +6,15 @@ from math import log
 import pytest
 
 import angen
-from sdf_text import box
-from test_appliance import block
+from sdf_text import box, holder, include, sensor
 
 TURNS = 600
 Event = tuple[float, str]
 
 
-def plug(name: str = 'p', fault: str = '') -> str:
+def plug(fault: str = '') -> str:
     inside = f'<fault>{fault}</fault>' if fault else ''
-    return (f'<model name="{name}"><static>true</static><link name="l"><sensor name="p" '
-            'type="custom"><update_rate>10</update_rate><plugin name="p" '
-            f'filename="libsmart_plug.so"><load>appliance/fan</load>{inside}</plugin></sensor>'
-            '</link></model>')
+    return holder('p', sensor('libsmart_plug.so', f'<load>appliance/fan</load>{inside}'))
 
 
 def switched(w: angen.World, turns: int = TURNS) -> tuple[list[Event], list[Event]]:
@@ -37,7 +33,7 @@ def switched(w: angen.World, turns: int = TURNS) -> tuple[list[Event], list[Even
 
 
 def made(world, fault: str) -> angen.World:
-    w = world(block('fan', 'fan') + plug(), seed=3)
+    w = world(include('fan', 'fan') + plug(), seed=3)
     w.run(1.0)
     if fault:
         w.command('fault', 'plug/p', fault)
@@ -134,4 +130,4 @@ def test_what_is_wrong_is_said_and_changes_nothing(world):
             w.command('fault', name, text)
     assert len(switched(w, 10)[0]) == 10
     with pytest.raises(angen.Error, match='share= is missing'):
-        world(block('fan', 'fan') + plug(fault='dropout'))
+        world(include('fan', 'fan') + plug(fault='dropout'))

@@ -7,18 +7,15 @@ from typing import Callable
 import pytest
 
 import angen
-from sdf_text import box, sdf_world
+from sdf_text import box, include, person, sdf_world
 
 World = Callable[..., angen.World]
 
 SAMPLE = 0.02  # s
-SENSORS = ''.join(
-    f'<include><uri>model://{model}</uri><name>{name}</name><pose>{pose}</pose></include>'
-    for model, name, pose in (('pir_casas', 'cell', f'2 0 2.4 0 {math.pi / 2} 0'),
-                              ('pir_casas', 'corner', f'4 3 2.4 0 {math.pi / 2} 0'),
-                              ('pir_pyroelectric', 'area', '6 -3 2.2 0 0 2.4')))
-ANN = '''<actor name="ann"><pose>0 0 0 0 0 0</pose>
-    <plugin name="person" filename="libperson_controller.so"/></actor>'''
+SENSORS = (include('pir_casas', 'cell', f'2 0 2.4 0 {math.pi / 2} 0')
+           + include('pir_casas', 'corner', f'4 3 2.4 0 {math.pi / 2} 0')
+           + include('pir_pyroelectric', 'area', '6 -3 2.2 0 0 2.4'))
+ANN = person('0 0 0 0 0 0')
 WALL = box('wall', '0 4 1.2 0 0 0', '12 0.2 2.4', True)
 
 

@@ -6,30 +6,21 @@ from math import log10, pi, sin
 import pytest
 
 import angen
-from sdf_text import rooms
+from sdf_text import DOORS, air, device, holder, include, sensor, walker
 
-DOORS = '<plugin name="doors" filename="libdoor_world_plugin.so"/>'
 ROOMS = ('0 0.05 0 4 3 2.5', '0 -3 0 4 -0.05 2.5')      # their door in the wall between them
 SURFACE = 2 * (4 * 2.95 + 2.95 * 2.5 + 4 * 2.5)
 ABSORPTION = 0.2
 CONSTANT = SURFACE * ABSORPTION / (1 - ABSORPTION)
 
 
-def air(*boxes: str) -> str:
-    return (f'<model name="flat"><static>true</static><link name="l"/>{rooms(*boxes)}'
-            '<plugin name="air" filename="libroom_climate.so"/></model>')
-
-
 def source(pose: str, level: float = 80, name: str = 'radio', directivity: float = 1) -> str:
-    return (f'<model name="{name}"><static>true</static><pose>{pose}</pose><link name="l"/>'
-            f'<plugin name="a" filename="libappliance.so"><on>true</on><directivity>{directivity}'
-            f'</directivity><sound_power_level>{level}</sound_power_level></plugin></model>')
+    return device(name, 'libappliance.so', f'<on>true</on><directivity>{directivity}</directivity>'
+                  f'<sound_power_level>{level}</sound_power_level>', pose)
 
 
 def microphone(pose: str, extra: str = '<background>-40</background>', name: str = 'm') -> str:
-    return (f'<model name="{name}"><static>true</static><pose>{pose}</pose><link name="l">'
-            '<sensor name="s" type="custom"><update_rate>2</update_rate><plugin name="s" '
-            f'filename="libmicrophone.so">{extra}</plugin></sensor></link></model>')
+    return holder(name, sensor('libmicrophone.so', extra, 2), pose)
 
 
 def level(world: angen.World, name: str = 'm') -> float:
@@ -69,8 +60,7 @@ def test_a_wall_is_as_its_reduction_index_says(world):
 
 def test_a_door_lets_through_the_share_of_its_open_width(world):
     w = world(air(*ROOMS) + source('1 1.5 1 0 0 0') + microphone('1 -1.5 1 0 0 0')
-              + '<include><uri>model://kitchen_door</uri><name>hall_door0</name>'
-              '<pose>1.5 0 0 0 0 0</pose></include>', DOORS)
+              + include('kitchen_door', 'hall_door0', '1.5 0 0 0 0 0'), DOORS)
     w.run(0.5)
     width, height = w.device('door', 'hall0')['width'], w.device('door', 'hall0')['height']
     heard = []
@@ -100,8 +90,7 @@ def test_levels_add_as_powers_and_to_the_background(world):
 
 def test_an_open_window_lets_sound_out_and_none_in(world):
     """The room's own level falls by the opening's share of its absorption."""
-    window = ('<include><uri>model://window</uri><name>hall_window0</name>'
-              '<pose>1.5 0 1 0 0 0</pose></include>')
+    window = include('window', 'hall_window0', '1.5 0 1 0 0 0')
     w = world(air(ROOMS[0]) + source('1 1.5 1 0 0 0') + source('1 -4 1 0 0 0', 120, 'street')
               + microphone('3.5 2.5 1 0 0 0') + window, DOORS)
     near = direct((2.5 ** 2 + 1) ** 0.5)
@@ -114,8 +103,7 @@ def test_an_open_window_lets_sound_out_and_none_in(world):
 
 
 def test_it_gets_loud_above_its_threshold_and_quiet_three_decibels_below(world):
-    w = world('<include><uri>model://stereo</uri><name>s</name></include>'
-              + microphone('2 0 0.1 0 0 0', '<threshold>63</threshold>'))
+    w = world(include('stereo', 's') + microphone('2 0 0.1 0 0 0', '<threshold>63</threshold>'))
     w.command('appliance', 's', 'On')
     events = []
     for volume in (5, 40, 10, 5):
@@ -142,10 +130,7 @@ def test_a_source_on_another_storey_is_not_in_this_flat(world):
 
 def test_a_person_is_heard_walking_and_speaking(world):
     """Steps of 55 dB and speech of 68.4 dB, from the mouth at 1.5 m."""
-    w = world('''<actor name="anna"><script><trajectory id="0" type="walk">
-      <waypoint><time>0</time><pose>0 0 0 0 0 0</pose></waypoint>
-      <waypoint><time>20</time><pose>0 8 0 0 0 0</pose></waypoint></trajectory></script></actor>'''
-              + microphone('3 0 1.5 0 0 0'))
+    w = world(walker('anna', '0 0 0', '20 0 8') + microphone('3 0 1.5 0 0 0'))
 
     def expected(source: float) -> float:
         x, y = (w.device('person', 'anna')[axis] for axis in 'xy')

@@ -4,6 +4,7 @@ from pathlib import Path
 import pytest
 
 import angen
+from sdf_text import person
 
 WAITS = '''<plugin name="person_controller" filename="libperson_controller.so">
 <opens_doors>false</opens_doors></plugin>'''
@@ -22,44 +23,21 @@ def test_person_waits_at_a_shut_door_and_makes_room_for_it_to_open(building):
         '<actor name="person">', f'<actor name="person">{WAITS}'))
     world.step()
 
-    def person():
+    def state():
         return world.device('person', 'person')
 
-    assert until(world, 60, lambda: 6 < person()['x'] < 8 and person()['y'] < 3.5)
+    assert until(world, 60, lambda: 6 < state()['x'] < 8 and state()['y'] < 3.5)
     world.command('door', 'livingroom0', 'Close')
-    assert until(world, 30, lambda: person()['mode'] == 'BLOCKED')
-    assert person()['y'] < 4  # inside the livingroom, into which its door opens
+    assert until(world, 30, lambda: state()['mode'] == 'BLOCKED')
+    assert state()['y'] < 4  # inside the livingroom, into which its door opens
     world.command('door', 'livingroom0', 'Open')
-    assert until(world, 20, lambda: person()['y'] > 4.5)
+    assert until(world, 20, lambda: state()['y'] > 4.5)
     assert world.device('door', 'livingroom0')['mode'] == 'OPEN'
-
-
-CRATE = '''<model name="crate"><pose>2 0 0.301 0 0 0</pose><link name="l">
-<inertial><mass>60</mass><inertia>
-<ixx>4</ixx><iyy>4</iyy><izz>4</izz></inertia></inertial><collision name="c"><geometry><box>
-<size>0.6 0.6 0.6</size></box></geometry></collision></link></model>
-<actor name="person"><pose>0 0 0 0 0 0</pose></actor>'''
-
-
-def test_a_person_walks_to_its_goal_round_a_crate(world):
-    w = world(CRATE)
-    w.run(1.0)
-    w.command('person', 'person', 'GoTo 4 0.5')
-    assert until(w, 10, lambda: w.device('person', 'person')['mode'] == 'STANDING'
-                 and w.device('person', 'person')['x'] > 3.9)
-    assert abs(w.device('person', 'person')['y'] - 0.5) < 0.05
-    crate = w.links.index('crate::l')
-    assert abs(w.link_poses[crate][0] - 2.0) < 1e-3
-    assert '<go_to>4 0.5</go_to>' in w.save()
-    with pytest.raises(angen.Error, match='GoTo <x> <y>'):
-        w.command('person', 'person', 'GoTo 4')
 
 
 @pytest.mark.parametrize('rate, period', [(20, 0.04), (50, 0.02), (7, 0.14), (30, 0.02)])
 def test_a_state_is_published_at_equal_distances_and_is_of_its_tick(world, rate, period):
-    w = world(f'''<actor name="ann"><pose>0 0 0 0 0 0</pose>
-        <plugin name="person" filename="libperson_controller.so">
-        <update_rate>{rate}</update_rate></plugin></actor>''')
+    w = world(person('0 0 0 0 0 0', f'<update_rate>{rate}</update_rate>'))
     w.run(1.0)
     w.command('person', 'ann', 'GoTo 4 0')
     w.run(1.0)

@@ -7,16 +7,15 @@ from typing import Callable
 import pytest
 
 import angen
-from sdf_text import box
+from sdf_text import DOORS, box, include, person
 
-DOORS = '<plugin name="door_controller" filename="libdoor_world_plugin.so"/>'
 # Two rooms of 7 m x 4 m, and a door between them, from 0 to 0.99 m.
 ROOMS = ''.join(box(name, pose, size, True) for name, pose, size in (
     ('wall_west', '-1.55 0.06 1.3 0 0 0', '2.9 0.12 2.6'),
     ('wall_east', '2.55 0.06 1.3 0 0 0', '2.9 0.12 2.6'),
     ('north', '0.5 4 1.3 0 0 0', '8 0.1 2.6'), ('south', '0.5 -4 1.3 0 0 0', '8 0.1 2.6'),
     ('west', '-3 0 1.3 0 0 0', '0.1 8 2.6'), ('east', '4 0 1.3 0 0 0', '0.1 8 2.6')))
-DOOR = '<include><name>kitchen_door0</name><uri>model://kitchen_door</uri></include>'
+DOOR = include('kitchen_door', 'kitchen_door0')
 
 
 @pytest.mark.parametrize('closes', ['false', 'true'])
@@ -26,10 +25,8 @@ def test_people_from_both_sides_get_through_a_door(world: Callable[..., angen.Wo
     people, goals = '', []
     for i in range(count):
         side, pair = 1 - 2 * (i % 2), i // 2
-        people += f'''<actor name="p{i}">
-          <pose>{-1.2 + 0.8 * pair + 0.1 * i} {side * (1.6 + 0.5 * pair)} 0 0 0 0</pose>
-          <plugin name="p" filename="libperson_controller.so"><closes_doors>{closes}</closes_doors>
-          </plugin></actor>'''
+        people += person(f'{-1.2 + 0.8 * pair + 0.1 * i} {side * (1.6 + 0.5 * pair)} 0 0 0 0',
+                         f'<closes_doors>{closes}</closes_doors>', f'p{i}')
         goals.append((-1.0 + 0.9 * pair + 0.2 * i, -side * (2.6 - 0.5 * pair)))
     w = world(ROOMS + DOOR + people, DOORS)
     w.run(1.0)
@@ -43,8 +40,7 @@ def test_people_from_both_sides_get_through_a_door(world: Callable[..., angen.Wo
 
 def crowd(world: Callable[..., angen.World], walls: str, starts: list[tuple[float, float]],
           goals: list[tuple[float, float]]) -> angen.World:
-    people = ''.join(f'<actor name="p{i}"><pose>{x} {y} 0 0 0 0</pose></actor>'
-                     for i, (x, y) in enumerate(starts))
+    people = ''.join(person(f'{x} {y} 0 0 0 0', name=f'p{i}') for i, (x, y) in enumerate(starts))
     w = world(walls + people)
     w.run(1.0)
     for i, (x, y) in enumerate(goals):

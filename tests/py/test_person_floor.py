@@ -7,7 +7,7 @@ from typing import Callable
 import pytest
 
 import angen
-from sdf_text import box
+from sdf_text import box, person
 
 UP = 3.0  # m above the ground
 # A floor of 14 m x 6 m with a hole of 1.5 m x 2 m for stairs in its middle.
@@ -16,11 +16,6 @@ HOLE = ''.join(box(name, f'{x} {y} {UP - 0.1} 0 0 0', f'{dx} {dy} 0.2', True)
                    ('west', -3.875, 0, 6.25, 6), ('east', 3.875, 0, 6.25, 6),
                    ('north', 0, 2, 1.5, 2), ('south', 0, -2, 1.5, 2)))
 FLOOR = box('slab', f'0 0 {UP - 0.1} 0 0 0', '8 6 0.2', True)
-
-
-def person(x: float, y: float, inside: str = '') -> str:
-    return (f'<actor name="ann"><pose>{x} {y} {UP} 0 0 0</pose><plugin name="p" '
-            f'filename="libperson_controller.so">{inside}</plugin></actor>')
 
 
 def walk(w: angen.World, seconds: float) -> list[tuple[float, float, float]]:
@@ -35,7 +30,7 @@ def walk(w: angen.World, seconds: float) -> list[tuple[float, float, float]]:
 
 @pytest.mark.parametrize('y', [0.0, 0.4, -0.9])
 def test_a_person_walks_round_a_hole(world: Callable[..., angen.World], y: float) -> None:
-    w = world(HOLE + person(-5, y))
+    w = world(HOLE + person(f'-5 {y} {UP} 0 0 0'))
     w.run(0.5)
     w.command('person', 'ann', f'GoTo 5 {y}')
     places = walk(w, 25)
@@ -46,7 +41,7 @@ def test_a_person_walks_round_a_hole(world: Callable[..., angen.World], y: float
 
 @pytest.mark.parametrize('goal', ['7 0', '0 0.2', '-3 5'])
 def test_a_goal_without_floor_is_given_up(world: Callable[..., angen.World], goal: str) -> None:
-    w = world((HOLE if goal == '0 0.2' else FLOOR) + person(-3, 0))
+    w = world((HOLE if goal == '0 0.2' else FLOOR) + person(f'-3 0 {UP} 0 0 0'))
     w.run(0.5)
     w.command('person', 'ann', f'GoTo {goal}')
     assert min(z for _, _, z in walk(w, 20)) > UP - 0.05
@@ -59,7 +54,7 @@ def test_a_path_over_an_edge_ends_before_it(world: Callable[..., angen.World], s
                                             ) -> None:
     path = (f'<waypoint>0 -3 0 {UP} 0</waypoint><waypoint>{9 / speed} 6 0 {UP} 0</waypoint>'
             '<loop>false</loop>')
-    w = world(FLOOR + person(-3, 0, path))
+    w = world(FLOOR + person(f'-3 0 {UP} 0 0 0', path))
     places = walk(w, 25)
     assert min(z for _, _, z in places) > UP - 0.05
     assert 3.3 < max(x for x, _, _ in places) < 4.0

@@ -5,11 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from sdf_text import box
-
-
-def person(pose: str, name: str = 'ann') -> str:
-    return f'<actor name="{name}"><pose>{pose}</pose></actor>'
+from sdf_text import box, person
 
 
 @pytest.mark.parametrize('beside', [0.2, 0.225, 0.24, 0.252, 0.26, 0.27])
@@ -29,7 +25,7 @@ def corridor(world, aside: float):
     walls = ''.join(box(f'side{y}', f'0 {0.65 * y} 1.2 0 0 0', '12.4 0.1 2.4', True)
                     + box(f'end{y}', f'{6.05 * y} 0 1.2 0 0 0', '0.1 1.4 2.4', True)
                     for y in (-1, 1))
-    w = world(walls + person('-5 0 0 0 0 0') + person(f'0 {aside} 0 0 0 0', 'bob'))
+    w = world(walls + person('-5 0 0 0 0 0') + person(f'0 {aside} 0 0 0 0', name='bob'))
     w.run(0.3)
     w.command('person', 'ann', 'GoTo 5 0')
     w.run(120.0)

@@ -4,16 +4,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from sdf_text import box
+from sdf_text import DOORS, box, person
 
-DOORS = '<plugin name="door_controller" filename="libdoor_world_plugin.so"/>'
 WIDTH, HEIGHT, FOOT, MASS = 0.9, 1.9, 0.15, 20.0  # of a leaf; m, kg
 WALL = (box('wall_west', '-3.03 0 1.2 0 0 0', '6 0.1 2.4', True)
         + box('wall_east', '3.93 0 1.2 0 0 0', '6 0.1 2.4', True))
-
-
-def person(pose: str) -> str:
-    return f'<actor name="ann"><pose>{pose}</pose></actor>'
 
 
 def door(pose: str = '0 0 0 0 0 0', joint: str = '', origin: float = 0.0, anchor: float = 0.0

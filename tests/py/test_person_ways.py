@@ -8,20 +8,14 @@ import numpy as np
 import pytest
 
 import angen
-from sdf_text import box
+from sdf_text import DOORS, box, include, person
 
-DOORS = '<plugin name="door_controller" filename="libdoor_world_plugin.so"/>'
 # A wall along x with an opening from 0 to 0.99 m.
 WALL = (box('wall_west', '-5.05 0.06 1.2 0 0 0', '9.9 0.12 2.4', True)
         + box('wall_east', '5.55 0.06 1.2 0 0 0', '8.9 0.12 2.4', True))
-DOOR = '<include><name>kitchen_door0</name><uri>model://kitchen_door</uri></include>'
+DOOR = include('kitchen_door', 'kitchen_door0')
 
 World = Callable[..., angen.World]
-
-
-def person(pose: str, params: str = '') -> str:
-    return f'''<actor name="ann"><pose>{pose}</pose>
-    <plugin name="person" filename="libperson_controller.so">{params}</plugin></actor>'''
 
 
 def state(w: angen.World) -> dict:

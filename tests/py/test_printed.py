@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 import angen
+from sdf_text import DOORS
 
 PRINTED = Path(__file__).resolve().parent / 'printed'
-DOORS = '<plugin name="doors" filename="libdoor_world_plugin.so"/>'
 
 
 def hung(name: str, joint: str, child: str, axis: str = '0 0 1', limits: str = '-1.57 0.001',

@@ -6,20 +6,15 @@ from math import ceil, log10
 import pytest
 
 import angen
-from sdf_text import box
-
-DOORS = '<plugin name="doors" filename="libdoor_world_plugin.so"/>'
+from sdf_text import DOORS, box, device, holder, include, sensor
 
 
 def beacon(pose: str, name: str = 'b', extra: str = '') -> str:
-    return (f'<model name="{name}"><static>true</static><pose>{pose}</pose><link name="l"/>'
-            f'<plugin name="t" filename="libradio_transmitter.so">{extra}</plugin></model>')
+    return device(name, 'libradio_transmitter.so', extra, pose)
 
 
 def receiver(pose: str, extra: str = '') -> str:
-    return (f'<model name="r"><static>true</static><pose>{pose}</pose><link name="l">'
-            '<sensor name="s" type="custom"><update_rate>2</update_rate><plugin name="s" '
-            f'filename="libradio_receiver.so">{extra}</plugin></sensor></link></model>')
+    return holder('r', sensor('libradio_receiver.so', extra, 2), pose)
 
 
 def heard(world: angen.World) -> dict[str, float]:
@@ -66,7 +61,7 @@ def test_two_floors_cost_less_than_twice_one(world):
 
 def test_a_door_that_opens_lets_the_signal_through(world):
     w = world(beacon('0.5 1 1 0 0 0') + receiver('0.5 -1.5 1 0 0 0')
-              + '<include><uri>model://kitchen_door</uri><name>hall_door0</name></include>', DOORS)
+              + include('kitchen_door', 'hall_door0'), DOORS)
     assert heard(w)['b'] == pytest.approx(free(2.5) - 3.4, abs=0.01)
     w.command('door', 'hall0', 'Open')
     w.run(5)
@@ -109,9 +104,9 @@ def test_noise_is_of_each_strength(world):
 
 
 def test_a_robot_carries_a_transmitter(world):
-    robot = ('<include><uri>model://turtlebot</uri><name>robot</name><pose>1 0 0.001 0 0 0</pose>'
-             '<plugin name="t" filename="libradio_transmitter.so"><id>robot-7</id>'
-             '<position>0 0 0.6</position></plugin></include>')
+    robot = include('turtlebot', 'robot', '1 0 0.001 0 0 0',
+                    '<plugin name="t" filename="libradio_transmitter.so"><id>robot-7</id>'
+                    '<position>0 0 0.6</position></plugin>')
     w = world(robot + receiver('4 0 0.6 0 0 0'))
     assert heard(w)['robot-7'] == pytest.approx(free(3), abs=0.1)
 

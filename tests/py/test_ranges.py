@@ -173,22 +173,6 @@ def test_a_thing_nearer_than_the_minimum_hides_what_is_behind(world, library, ki
     assert found == pytest.approx(expected, abs=1e-3)
 
 
-def test_a_lidar_inside_a_solid_meets_its_far_side(world):
-    w = world(box('around', '0 0 1 0 0 0', '2 3 1', static=True)
-              + lidar('l', np.array([0.4, 0, 1, 0, 0, 0.0]), 1))
-    w.request('lidar', 'l')
-    w.step()
-    assert w.sensor('lidar', 'l')['ranges'] == pytest.approx([0.6])
-
-
-def test_what_is_nearer_than_the_least_range_is_looked_through(world):
-    w = world(box('near', '0.5 0 1 0 0 0', '0.2 1 1', static=True)
-              + lidar('l', np.array([0, 0, 1, 0, 0, 0.0]), 1, least=0.5))
-    w.request('lidar', 'l')
-    w.step()
-    assert w.sensor('lidar', 'l')['ranges'] == pytest.approx([0.6])
-
-
 def depth_camera(name: str, pose: np.ndarray) -> str:
     return f'''<model name="{name}"><static>true</static><pose>{text(pose)}</pose><link name="link">
       <sensor name="eye" type="depth"><camera><horizontal_fov>1.2</horizontal_fov><image>

@@ -20,7 +20,7 @@ def log(building: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
     world.command('door', 'bathroom0', 'Open')
     world.command('elevator', 'elevator', 'Floor1')
     world.run(2.0)
-    world.command('lamp', 'kitchen0', 'Dim 40')
+    world.command('lamp', 'bathroom1', 'Dim 40')
     world.spawn('model://chair', 'c1', [1, 1, 1, 0, 0, 1 / 3])
     world.spawn('model://pir', 'p9', [1, 1, 2, 0.1, 0, 1 / 3])
     world.spawn(ACTOR, 'guest', [0.3, 0.1, 0, 0, 0, 0.37])
@@ -51,10 +51,10 @@ def test_its_world_continues(log: Path) -> None:
         pass
     world = replay.world()
     assert world.time == pytest.approx(5.0, abs=0.002)
-    assert world.device('lamp', 'kitchen0')['level'] == 40.0
-    world.command('lamp', 'kitchen0', 'Dim 20')
+    assert world.device('lamp', 'bathroom1')['level'] == 40.0
+    world.command('lamp', 'bathroom1', 'Dim 20')
     world.run(1.0)
-    assert world.device('lamp', 'kitchen0')['level'] == 20.0
+    assert world.device('lamp', 'bathroom1')['level'] == 20.0
     with pytest.raises(angen.Error, match='was taken'):
         replay.advance(1.0)
 

@@ -5,7 +5,7 @@ from math import exp
 
 import pytest
 
-from sdf_text import rooms
+from sdf_text import air
 
 BOX = '<geometry><box><size>0.02 0.5 0.5</size></box></geometry>'
 SURFACE = f'<collision name="face">{BOX}</collision><visual name="face">{BOX}</visual>'
@@ -21,10 +21,8 @@ DEVICES = {'heater': '<plugin name="p" filename="libheater.so">{}</plugin>',
 
 def flat(celsius: float, capacity: float = 1000) -> str:
     """A room whose air stays, unless its heat capacity is small."""
-    return ('<model name="flat"><static>true</static><link name="l"/>' + rooms('-4 -4 0 4 4 2.5')
-            + f'<plugin name="air" filename="libroom_climate.so"><temperature>{celsius}'
-            f'</temperature><heat_capacity>{capacity}</heat_capacity><outside_temperature>5'
-            '</outside_temperature></plugin></model>')
+    return air('-4 -4 0 4 4 2.5', extra=f'<temperature>{celsius}</temperature><heat_capacity>'
+               f'{capacity}</heat_capacity><outside_temperature>5</outside_temperature>')
 
 
 def thing(kind: str, extra: str = '') -> str:

@@ -1,10 +1,16 @@
 """A day's start that is saved and loaded continues unchanged."""
 from __future__ import annotations
 
-import angen
-import pytest
+import subprocess
+import sys
 
-COMMANDS = [('lamp', 'kitchen0', 'Dim 40'), ('door', 'bathroom0', 'Open'),
+import angen
+import numpy as np
+import pytest
+from lxml import etree
+from sdf_text import WORLDS
+
+COMMANDS = [('lamp', 'bathroom1', 'Dim 40'), ('door', 'bathroom0', 'Open'),
             ('elevator', 'elevator', 'Floor1')]
 
 
@@ -17,10 +23,14 @@ def test_the_building_continues_as_it_was(building: str) -> None:
         before.command(kind, name, text)
     before.run(3.0)
     after = angen.World.from_text(before.save())
+    assert after.models == before.models
+    moved = np.abs(after.link_poses[:, :3] - before.link_poses[:, :3]).max(axis=1)
+    people = [i for i, name in enumerate(before.links) if name.startswith('person')]
+    assert np.delete(moved, people).max() < 1e-3
     after.run(0.001)
-    assert after.device('lamp', 'kitchen0')['level'] == 40.0
-    before.run(40.0)
-    after.run(40.0)
+    assert after.device('lamp', 'bathroom1')['level'] == 40.0
+    before.run(30.0)
+    after.run(30.0)
     for kind, name in names:
         assert after.device(kind, name).get('mode') == before.device(kind, name).get('mode'), name
     assert after.device('elevator', 'elevator')['floor'] == 1
@@ -51,3 +61,25 @@ def test_sensors_spawned_on_a_model_keep_their_names_and_leave_others_theirs() -
         world = angen.World.from_text(world.save())
         names = {name for kind, name, *_ in world.entities() if kind == 'pir'}
         assert names == {'shelf', 'p1', 'p2'}
+
+
+def test_three_apartments_from_the_empty_world() -> None:
+    """Storey by storey, with the doors that make_worlds.py lists."""
+    doors = subprocess.run([sys.executable, str(WORLDS / 'make_worlds.py'), '--list-doors',
+                            '--floor', '0'], text=True, capture_output=True, check=True).stdout
+    world = angen.World(str(WORLDS / 'empty.world'))
+    for floor in range(3):
+        world.spawn('model://apartment', f'apartment{floor}', [0, 0, 4 * floor, 0, 0, 0])
+        for line in doors.splitlines():
+            uri, name, pose = line.split(' ', 2)
+            x, y, _, *turn = map(float, pose.strip('"').split())
+            world.spawn(uri, f'{name[:-1]}{floor}', [x, y, 4 * floor, *turn])
+    assert len(world.devices('door')) == 18 and 'kitchen2' in world.devices('door')
+    world.command('door', 'kitchen2', 'Open')
+    world.spawn('model://elevator', 'elevator', [-3.65, 5, 0, 0, 0, 0])
+    world.command('elevator', 'elevator', 'Floor1')
+    with pytest.raises(angen.Error, match='Floor0 to Floor1'):
+        world.command('elevator', 'elevator', 'Floor2')
+    saved = world.save()
+    assert len(etree.fromstring(saved.encode()).xpath('world/include')) == 22
+    assert len(angen.World.from_text(saved).models) == 23  # and the ground

@@ -9,43 +9,21 @@ import sys
 from pathlib import Path
 
 import pytest
+from harness import SCRIPT
+from two_rooms import two_rooms
 
-SCRIPT = Path(__file__).resolve().parents[2] / 'src/angen_tools/scripts/angen'
-WALLS = {'south': (3, -0.06, 6.24, 0.12), 'north': (3, 3.06, 6.24, 0.12),
-         'west': (-0.06, 1.5, 0.12, 3), 'east': (6.06, 1.5, 0.12, 3),
-         'low': (3, 0.4975, 0.12, 0.995), 'high': (3, 2.5, 0.12, 1.0)}
 ROUTE = '''waypoints:
 - {name: unused, floor: 0, at: [4.8, 1.5]}
 '''
 
 
-def box(name: str, x: float, y: float, z: float, wide: float, deep: float, high: float) -> str:
-    shape = f'<geometry><box><size>{wide} {deep} {high}</size></box></geometry>'
-    return (f'<collision name="{name}"><pose>{x} {y} {z} 0 0 0</pose>{shape}</collision>'
-            f'<visual name="{name}"><pose>{x} {y} {z} 0 0 0</pose>{shape}</visual>')
-
-
-def world_text(person: bool) -> str:
-    walls = ''.join(box(name, x, y, 1.2, wide, deep, 2.4)
-                    for name, (x, y, wide, deep) in WALLS.items())
-    floors = ''.join(f'<link name="floor_{name}"><pose>{x} 1.5 -0.05 0 0 0</pose>'
-                     f'{box(name, 0, 0, 0, 3.12, 3.24, 0.1)}</link>'
-                     for name, x in (('hall', 1.5), ('kitchen', 4.5)))
-    parts = [('kitchen_door0', 'kitchen_door', '3.0 1.0 0 0 0 1.570796'),
-             ('kitchen_pir0', 'pir', '5.95 0.05 2.2 0 0.45 2.356'),
-             ('turtlebot', 'turtlebot', '0.7 1.5 0.001 0 0 0')]
-    models = ''.join(f'<include><name>{name}</name><pose>{pose}</pose><uri>model://{uri}</uri>'
-                     '</include>' for name, uri, pose in parts)
-    return f'''<sdf version="1.6"><world name="rooms"><gravity>0 0 -9.8</gravity>
-      <model name="house"><static>true</static><link name="link">{walls}</link>{floors}</model>
-      {models}{'<actor name="anna"/>' * person}
-      <plugin name="doors" filename="libdoor_world_plugin.so"/>
-      <plugin name="robots" filename="librobot_controller.so"/></world></sdf>'''
+PARTS = (('kitchen_pir0', 'pir', '5.95 0.05 2.2 0 0.45 2.356'),
+         ('turtlebot', 'turtlebot', '0.7 1.5 0.001 0 0 0'))
 
 
 def seek(folder: Path, *words: str, person: bool = True, world: str = ''
          ) -> subprocess.CompletedProcess[str]:
-    (folder / 'rooms.world').write_text(world_text(person))
+    (folder / 'rooms.world').write_text(two_rooms(*PARTS, more='<actor name="anna"/>' * person))
     (folder / 'route.yaml').write_text(ROUTE)
     return subprocess.run(
         [sys.executable, str(SCRIPT), 'task', 'seek', world or str(folder / 'rooms.world'),

@@ -6,17 +6,15 @@ from math import exp
 import pytest
 
 import angen
-from sdf_text import rooms
+from sdf_text import air, device, holder, sensor
 
-AIR = ('<model name="flat"><static>true</static><link name="l"/>' + rooms('-2 -2 0 2 2 2.5')
-       + '<plugin name="air" filename="libroom_climate.so"><heat_loss>0</heat_loss>'
-       '<air_change>0</air_change><heat_capacity>{}</heat_capacity></plugin></model>')
+AIR = air('-2 -2 0 2 2 2.5', extra='<heat_loss>0</heat_loss><air_change>0</air_change>'
+          '<heat_capacity>{}</heat_capacity>')
 STEADY_AIR = AIR.format(1000)
 
 
 def stove(extra: str = '') -> str:
-    return ('<model name="kitchen_stove0"><static>true</static><link name="l"/>'
-            f'<plugin name="stove" filename="libstove.so">{extra}</plugin></model>')
+    return device('kitchen_stove0', 'libstove.so', extra)
 
 
 def state(world: angen.World) -> dict:
@@ -65,10 +63,7 @@ def test_each_plate_has_its_own_level_and_the_rest_stay_cold(world):
 def test_energy_in_is_energy_in_the_plates_and_in_the_air(world):
     """In a closed room nothing is lost: the energy that the plug counts is in iron and air."""
     w = world(stove() + AIR.format(1)
-              + '<model name="p"><static>true</static><link name="l"><sensor name="p" '
-              'type="custom"><update_rate>1</update_rate><plugin name="p" '
-              'filename="libsmart_plug.so">'
-              '<load>stove/kitchen0</load></plugin></sensor></link></model>')
+              + holder('p', sensor('libsmart_plug.so', '<load>stove/kitchen0</load>', 1)))
     w.run(1)
     w.command('stove', 'kitchen0', 'Set 100')
     w.run(300)

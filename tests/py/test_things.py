@@ -6,23 +6,17 @@ from math import exp, tan
 import numpy as np
 import pytest
 
-from sdf_text import box, rooms
+from sdf_text import air, box, include
 
 AMBIENT = 22.0     # °C, of a world without a climate
 CUP_HEAT, WATER_HEAT, HEAT_LOSS = 300.0, 4.186, 0.7   # J/K, J/(ml K), W/K
 RADIUS, HEIGHT = 0.037, 0.085
 
 
-def block(model: str, name: str, pose: str, plugin: str = '') -> str:
-    """A model of worlds/models in a world."""
-    return (f'<include><uri>model://{model}</uri><name>{name}</name><pose>{pose}</pose>{plugin}'
-            '</include>')
-
-
 # cup
 
 def test_a_cup_cools_by_newtons_law(world):
-    w = world(block('cup', 'c', '0 0 0 0 0 0'))
+    w = world(include('cup', 'c', '0 0 0 0 0 0'))
     w.run(1)
     assert w.device('cup', 'c')['temperature'] == pytest.approx(AMBIENT)
     w.command('cup', 'c', 'Fill 250')
@@ -39,10 +33,8 @@ def test_a_cup_cools_by_newtons_law(world):
 
 @pytest.mark.parametrize('first', ['flat', 'cup'])
 def test_an_empty_cup_starts_as_warm_as_its_room(world, first):
-    flat = ('<model name="flat"><static>true</static><link name="l"/>' + rooms('-2 -2 0 2 2 2.5')
-            + '<plugin name="air" filename="libroom_climate.so"><temperature>27</temperature>'
-            '</plugin></model>')
-    cup = block('cup', 'c', '0 0 0 0 0 0')
+    flat = air('-2 -2 0 2 2 2.5', extra='<temperature>27</temperature>')
+    cup = include('cup', 'c', '0 0 0 0 0 0')
     w = world(flat + cup if first == 'flat' else cup + flat)
     w.run(0.1)
     assert w.device('cup', 'c')['temperature'] == pytest.approx(27.0, abs=0.05)
@@ -57,7 +49,7 @@ def held(tilt: float) -> float:
 
 @pytest.mark.parametrize('tilt', [0.3, 0.8, 1.0, 1.3])
 def test_a_tilted_cup_keeps_the_drink_under_its_lip(world, tilt):
-    w = world(block('cup', 'c', '0 0 0 0 0 0'))
+    w = world(include('cup', 'c', '0 0 0 0 0 0'))
     w.command('cup', 'c', 'Fill 350')
     w.command('cup', 'c', 'Lift 0.3')
     w.run(2)
@@ -71,7 +63,7 @@ def test_a_tilted_cup_keeps_the_drink_under_its_lip(world, tilt):
 
 
 def test_a_cup_that_is_knocked_over_runs_out(world):
-    w = world(block('cup', 'c', '0 0 0.03 0 0.8 0'))   # on its edge
+    w = world(include('cup', 'c', '0 0 0.03 0 0.8 0'))   # on its edge
     w.command('cup', 'c', 'Fill 200')
     w.run(3)
     assert w.device('cup', 'c')['content'] < 5
@@ -79,7 +71,7 @@ def test_a_cup_that_is_knocked_over_runs_out(world):
 
 def test_a_cup_says_why_it_does_not(world):
     import angen
-    w = world(block('cup', 'c', '0 0 0 0 0 0'))
+    w = world(include('cup', 'c', '0 0 0 0 0 0'))
     with pytest.raises(angen.Error, match='it takes 365.6 ml and has 0 ml in it'):
         w.command('cup', 'c', 'Fill 400')
     with pytest.raises(angen.Error, match='lift it first'):
@@ -87,7 +79,7 @@ def test_a_cup_says_why_it_does_not(world):
 
 
 def test_a_pour_is_reported_once_when_it_begins_and_once_when_it_has_ended(world):
-    w = world(block('cup', 'c', '0 0 0 0 0 0'))
+    w = world(include('cup', 'c', '0 0 0 0 0 0'))
     w.command('cup', 'c', 'Fill 250')
     w.command('cup', 'c', 'Lift 0.3')
     w.run(2)
@@ -102,7 +94,7 @@ def test_a_pour_is_reported_once_when_it_begins_and_once_when_it_has_ended(world
 @pytest.mark.parametrize('height', [0.3, 0.5, 1.0, 2.0])
 def test_an_even_lift_is_one_movement(world, height):
     """Between its start and its end nothing is felt of it."""
-    w = world(block('cup', 'c', '0 0 0 0 0 0'))
+    w = world(include('cup', 'c', '0 0 0 0 0 0'))
     w.run(1)
     w.events()
     for text, said, lifted in ((f'Lift {height}', 'lifted', True), ('Put', 'put_down', False)):
@@ -116,7 +108,7 @@ def test_an_even_lift_is_one_movement(world, height):
 
 
 def test_an_accelerometer_tells_lifting_from_tilting(world):
-    w = world(block('cup', 'c', '0 0 0 0 0 0'))
+    w = world(include('cup', 'c', '0 0 0 0 0 0'))
     w.run(1)
     felt = w.sensor('accelerometer', 'c')['acceleration']
     assert np.linalg.norm(felt) == pytest.approx(9.81, abs=0.15)
@@ -141,7 +133,7 @@ def test_an_accelerometer_tells_lifting_from_tilting(world):
 
 @pytest.mark.parametrize('x,y,mass', [(0.0, 0.0, 2.0), (0.12, -0.07, 1.3), (-0.15, 0.15, 8.0)])
 def test_load_cells_tell_weight_and_place(world, x, y, mass):
-    w = world(block('weighing_table', 't', '1 2 0.001 0 0 0'))
+    w = world(include('weighing_table', 't', '1 2 0.001 0 0 0'))
     w.run(2)
     assert w.sensor('load_cells', 't')['weight'] == pytest.approx(0.0, abs=0.05)
     assert np.isnan(w.sensor('load_cells', 't')['x'])
@@ -156,8 +148,8 @@ def test_load_cells_tell_weight_and_place(world, x, y, mass):
 
 
 def test_a_drink_weighs_until_it_is_poured(world):
-    w = world(block('weighing_table', 't', '0 0 0.001 0 0 0')
-              + block('cup', 'c', '0.05 0.05 0.503 0 0 0'))
+    w = world(include('weighing_table', 't', '0 0 0.001 0 0 0')
+              + include('cup', 'c', '0.05 0.05 0.503 0 0 0'))
     w.run(2)
     assert w.sensor('load_cells', 't')['weight'] == pytest.approx(0.35, abs=0.04)
     w.command('cup', 'c', 'Fill 300')
@@ -185,7 +177,7 @@ def penman(temperature: float, humidity: float) -> float:
 
 
 def test_soil_dries_evenly_and_then_as_it_has_less(world):
-    w = world(block('plant', 'p', '0 0 0 0 0 0'))
+    w = world(include('plant', 'p', '0 0 0 0 0 0'))
     day = penman(AMBIENT, 50) * 0.06 / 8.0 * 100     # % of moisture: mm x m2 / l
     easy = 9.0 / day                                 # days from 30 % to 21 %
     w.run(86400 * 0.5 * easy)
@@ -198,8 +190,8 @@ def test_soil_dries_evenly_and_then_as_it_has_less(world):
 
 
 def test_water_that_the_soil_does_not_hold_runs_through(world):
-    w = world(block('plant', 'p', '0 0 0 0 0 0',
-                    '<plugin name="p" filename="libplant.so"><moisture>20</moisture></plugin>'))
+    w = world(include('plant', 'p', '0 0 0 0 0 0',
+                      '<plugin name="p" filename="libplant.so"><moisture>20</moisture></plugin>'))
     w.run(1)
     w.command('plant', 'p', 'Water 400')      # 5 % of 8 l
     w.run(1)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import angen
+from sdf_text import include
 
 AIR = 295.15    # K
 PIR = {'thermal_time_constant': 0.1, 'electrical_time_constant': 1.6, 'low_cutoff': 0.4,
@@ -31,11 +32,6 @@ def plate(extra: str = '', name: str = 'plate', pose: str = '2 0.15 1.2 0 0 0') 
     return f'''<model name="{name}"><static>true</static><pose>{pose}</pose><link name="l">
       <collision name="face">{box}</collision><visual name="face">{box}</visual></link>
       <plugin name="warm" filename="libwarm_surface.so">{extra}</plugin></model>'''
-
-
-def include(source: str, name: str, pose: str) -> str:
-    return f'''<include><uri>model://{source}</uri><name>{name}</name><pose>{pose}</pose>
-      </include>'''
 
 
 def excess(kelvin: float) -> float:

@@ -6,7 +6,7 @@ from typing import Iterator
 
 import pytest
 from browser import Page, Server
-from harness import ROOT, WORLD, Angen, Cli, Master, end, unregister_publishers
+from harness import ROOT, WORLD, Angen, Cli, Master, unregister_publishers
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -27,12 +27,8 @@ def publishers() -> Iterator[None]:
 def angen(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
           ) -> Iterator[Angen]:
     """The node with a small world at rate 1; each file of tests has one of its own."""
-    folder = tmp_path_factory.mktemp("node")
-    world = folder / "small.world"
-    world.write_text(WORLD)
-    process = master.node(world, folder / "log", seed=7)
-    yield Angen(master, process, folder / "log")
-    end(process)
+    with master.serving(WORLD, tmp_path_factory.mktemp("node"), seed=7) as node:
+        yield node
 
 
 @pytest.fixture
@@ -44,10 +40,8 @@ def cli(angen: Angen) -> Cli:
 def home(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
          ) -> Iterator[Angen]:
     """The building that ./angen run starts: two floors, a robot, a person."""
-    log = tmp_path_factory.mktemp("home") / "log"
-    node = Angen(master, master.node(ROOT / "worlds/angen.world", log), log)
-    yield node
-    end(node.process)
+    with master.serving(ROOT / "worlds/angen.world", tmp_path_factory.mktemp("home")) as node:
+        yield node
 
 
 @pytest.fixture(scope="module")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fcntl
+import itertools
 import json
 import os
 import pty
@@ -13,8 +14,9 @@ import sys
 import termios
 import time
 import xmlrpc.client
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Callable
+from typing import Any, Callable, Iterator
 
 import pytest
 
@@ -79,10 +81,39 @@ def node_binary() -> Path:
     raise RuntimeError("angen_node is not built, or devel/setup.bash is not sourced")
 
 
+def world_file(world: Path | str, folder: Path) -> Path:
+    """The file of a world; that of a text is in the folder."""
+    if isinstance(world, Path):
+        return world
+    path = folder / "small.world"
+    path.write_text(world)
+    return path
+
+
+@contextmanager
+def own_node(folder: Path, world: Path | str, environment: dict[str, str] = {}, **params: object
+             ) -> Iterator[Angen]:
+    """A node with a master of its own."""
+    with Master(folder) as master:
+        master.environment |= environment
+        with master.serving(world, folder, **params) as angen:
+            yield angen
+
+
+# Each process begins elsewhere, below the ports that the kernel gives to connections: one of those
+# could be taken before a master listens at it.
+_ports = itertools.count(10_000 + os.getpid() % 20_000)
+
+
 def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
+    for port in _ports:
+        with socket.socket() as probe:
+            try:
+                probe.bind(("127.0.0.1", port))
+                return port
+            except OSError:
+                continue
+    raise AssertionError("there are ports")
 
 
 def end(process: subprocess.Popen[str], timeout: float = 20.0) -> int:
@@ -95,6 +126,18 @@ def end(process: subprocess.Popen[str], timeout: float = 20.0) -> int:
         process.kill()
         process.wait()
         raise
+
+
+def processes_with(word: str) -> list[int]:
+    """The processes whose environment contains a text."""
+    found = []
+    for environment in Path("/proc").glob("[0-9]*/environ"):
+        try:
+            if word.encode() in environment.read_bytes():
+                found.append(int(environment.parent.name))
+        except OSError:
+            continue
+    return found
 
 
 class Master:
@@ -113,6 +156,12 @@ class Master:
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.api: Any = xmlrpc.client.ServerProxy(self.uri)
         until(self._answers, "the master answers")
+
+    def __enter__(self) -> Master:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        end(self.process)
 
     def _answers(self) -> bool:
         try:
@@ -149,6 +198,23 @@ class Master:
 
         until(serves, "the node serves")
         return process
+
+    @contextmanager
+    def serving(self, world: Path | str, folder: Path, **params: object) -> Iterator[Angen]:
+        """A node until the end of the block, with the file or text of a world."""
+        angen = Angen(self, self.node(world_file(world, folder), folder / "log", **params),
+                      folder / "log")
+        try:
+            yield angen
+        finally:
+            end(angen.process)
+
+    def rejected(self, *words: object) -> str:
+        """The errors of a node that does not start with these words."""
+        done = subprocess.run([str(node_binary()), *map(str, words)], env=self.environment,
+                              text=True, capture_output=True, timeout=60 * SLOWNESS)
+        assert done.returncode == 1, done.stderr
+        return done.stderr
 
 
 _publishers: dict[tuple[str, type], Any] = {}

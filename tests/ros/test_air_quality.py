@@ -10,7 +10,7 @@ import subprocess
 from typing import Iterator
 
 import pytest
-from harness import ROOT, TREE, Cli, Master, end, until
+from harness import ROOT, TREE, Cli, Master, own_node, until
 
 PACKAGE = ROOT / 'tests/examples/air_quality'
 DEVEL = TREE / 'tests/examples/air_quality/devel'
@@ -30,24 +30,15 @@ WORLD = '''<sdf version="1.6"><world name="office">
 def office(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Master]:
     """A node 20 times as fast as the wall clock, with the package's workspace sourced."""
     assert (DEVEL / 'lib/libair_quality.so').exists(), 'ctest builds it: ./angen test ctest'
-    folder = tmp_path_factory.mktemp('ros')
-    world = folder / 'office.world'
-    world.write_text(WORLD)
-    master = Master(folder)
+    environment = {}
     for variable, entry in (('CMAKE_PREFIX_PATH', DEVEL), ('ROS_PACKAGE_PATH', PACKAGE),
                             ('LD_LIBRARY_PATH', DEVEL / 'lib'),
                             ('PYTHONPATH', DEVEL / 'lib/python3/dist-packages'),
                             ('ANGEN_MODEL_PATH', PACKAGE / 'models')):
         others = os.environ.get(variable)
-        master.environment[variable] = f'{entry}:{others}' if others else str(entry)
-    process = None
-    try:
-        process = master.node(world, folder / 'log', rate=20)
-        yield master
-    finally:
-        if process is not None:
-            end(process)
-        end(master.process)
+        environment[variable] = f'{entry}:{others}' if others else str(entry)
+    with own_node(tmp_path_factory.mktemp('ros'), WORLD, environment, rate=20) as node:
+        yield node.master
 
 
 def run(master: Master, *words: str) -> str:

@@ -6,20 +6,15 @@ import os
 import signal
 import socket
 import subprocess
-import sys
 import termios
 from pathlib import Path
-from typing import Any, Iterator
+from typing import Iterator
 
 import pytest
 from angen_msgs.srv import Delete, List, Step
-from harness import Angen, Cli, Master, end, open_terminal, own_terminal
+from harness import Angen, Cli, Master, open_terminal, own_terminal
 from gazebo_msgs.msg import ContactsState
-from lxml import etree
 from std_srvs.srv import Empty
-
-ROOT = Path(__file__).resolve().parents[2]
-EMPTY = ROOT / 'worlds/empty.world'
 
 
 @pytest.fixture
@@ -259,59 +254,16 @@ def test_a_live_table_ends_by_a_key_and_cleans_the_terminal(cli: Cli, key: bytes
 
 def test_ctrl_c_is_quiet(tmp_path: Path) -> None:
     """While the command waits for a simulator that has its request and does not answer."""
-    master = Master(tmp_path)
-    try:
-        with socket.create_server(('127.0.0.1', 0)) as silent:
-            silent.settimeout(60)
-            master.api.registerService('/silent', '/angen/list',
-                                       f'rosrpc://127.0.0.1:{silent.getsockname()[1]}', master.uri)
-            cli = Cli(master)
-            listing = subprocess.Popen([*cli.words, 'list'], env=cli.environment, text=True,
-                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-            connection, _ = silent.accept()
-            with connection:
-                assert b'service=/angen/list' in connection.recv(4096)
-                listing.send_signal(signal.SIGINT)
-                said = listing.communicate(timeout=30)
-            assert (listing.returncode, said) == (130, ('', ''))
-    finally:
-        end(master.process)
-
-
-@pytest.fixture
-def empty_house(tmp_path: Path) -> Iterator[Cli]:
-    """A node of its own with worlds/empty.world, at rate 4."""
-    folder = tmp_path / 'ros'
-    folder.mkdir()
-    master = Master(folder)
-    process: Any = None
-    try:
-        process = master.node(EMPTY, folder / 'log', rate=4)
-        yield Cli(master)
-    finally:
-        if process is not None:
-            end(process)
-        end(master.process)
-
-
-def test_three_apartments_from_the_empty_world(empty_house: Cli, tmp_path: Path) -> None:
-    blocks = subprocess.run([sys.executable, str(ROOT / 'worlds/make_worlds.py'), '--list-doors',
-                             '--floor', '0'], text=True, capture_output=True, check=True).stdout
-    for floor in range(3):
-        empty_house.does('spawn', 'model', 'model://apartment', f'apartment{floor}', '--pose',
-                         f'0 0 {4 * floor}')
-        for line in blocks.splitlines():
-            uri, name, pose = line.split(' ', 2)
-            x, y, _, *turn = pose.strip('"').split()
-            empty_house.does('spawn', 'model', uri, f'{name[:-1]}{floor}', '--pose',
-                             ' '.join([x, y, str(4 * floor), *turn]))
-    doors = empty_house.listed('door')
-    assert len(doors) == 18 and 'kitchen2' in doors
-    assert empty_house.does('set', 'door', 'kitchen2', 'open').startswith('door kitchen2: OPENING')
-    empty_house.does('spawn', 'model', 'model://elevator', 'elevator', '--pose', '-3.65 5 0')
-    assert empty_house.does('set', 'elevator', 'elevator', '1').startswith('elevator elevator: ')
-    assert 'Floor0 to Floor1' in empty_house.fails('set', 'elevator', 'elevator', '2')
-    out = tmp_path / 'three.world'
-    empty_house.does('save', str(out))
-    assert len(etree.parse(str(out)).xpath('world/include')) == 22
-    assert '23 models' in empty_house.does('check', str(out))  # and the ground
+    with Master(tmp_path) as master, socket.create_server(('127.0.0.1', 0)) as silent:
+        silent.settimeout(60)
+        master.api.registerService('/silent', '/angen/list',
+                                   f'rosrpc://127.0.0.1:{silent.getsockname()[1]}', master.uri)
+        cli = Cli(master)
+        listing = subprocess.Popen([*cli.words, 'list'], env=cli.environment, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        connection, _ = silent.accept()
+        with connection:
+            assert b'service=/angen/list' in connection.recv(4096)
+            listing.send_signal(signal.SIGINT)
+            said = listing.communicate(timeout=30)
+        assert (listing.returncode, said) == (130, ('', ''))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import subprocess
 from pathlib import Path
 
-from harness import Cli, Master, end, node_binary, until
+from harness import Cli, Master, end, own_node, until, world_file
 
 STILL = '''<sdf version="1.6"><world name="still">
   <include>
@@ -25,12 +25,8 @@ def clocks(master: Master, count: int) -> list[float]:
 
 
 def test_it_leaps_and_tells_every_event_and_state(tmp_path: Path) -> None:
-    master = Master(tmp_path)
-    world = tmp_path / 'still.world'
-    world.write_text(STILL)
-    cli = Cli(master)
-    node = master.node(world, tmp_path / 'log', fast='true')
-    try:
+    with own_node(tmp_path, STILL, fast='true') as node:
+        master, cli = node.master, Cli(node.master)
         times = clocks(master, 20)
         assert max(b - a for a, b in zip(times, times[1:])) > 1.0
         said = (tmp_path / 'said').open('w')
@@ -43,16 +39,9 @@ def test_it_leaps_and_tells_every_event_and_state(tmp_path: Path) -> None:
         until(lambda: '"opened"' in (tmp_path / 'said').read_text(), 'the door says so')
         end(subscriber)
         assert 'OPEN, -1.57 rad' in cli.does('set', 'door', 'bathroom0', 'open')
-    finally:
-        end(node)
-        end(master.process)
 
 
 def test_fast_needs_no_rate(master: Master, tmp_path: Path) -> None:
-    world = tmp_path / 'still.world'
-    world.write_text(STILL)
-    done = subprocess.run(
-        [str(node_binary()), str(world), '_fast:=true', '_rate:=2', '__name:=rejected'],
-        env=master.environment, text=True, capture_output=True, timeout=60)
-    assert done.returncode == 1
-    assert done.stderr.splitlines()[-1] == '~fast runs without a rate: leave ~rate out, or give 0'
+    said = master.rejected(world_file(STILL, tmp_path), '_fast:=true', '_rate:=2',
+                           '__name:=rejected')
+    assert said.splitlines()[-1] == '~fast runs without a rate: leave ~rate out, or give 0'

@@ -2,14 +2,13 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any, Iterator
 
 import pytest
 from gazebo_msgs.msg import ModelState
 from gazebo_msgs.srv import GetModelState, SetModelState
 from geometry_msgs.msg import Point, Pose, Quaternion, Twist
-from harness import Angen, Inbox, Master, end, until
+from harness import Angen, Inbox, Master, until
 from kobuki_msgs.msg import BumperEvent, CliffEvent, MotorPower, WheelDropEvent
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
@@ -58,15 +57,11 @@ COMMANDS = "/mobile_base/commands"
 EVENTS = "/mobile_base/events"
 
 
-@pytest.fixture
-def kobuki(master: Master, rospy_node: None, tmp_path: Path) -> Iterator[Angen]:
-    world = tmp_path / "kobuki.world"
-    world.write_text(WORLD)
-    process = master.node(world, tmp_path / "log", rate=0)
-    try:
-        yield Angen(master, process, tmp_path / "log")
-    finally:
-        end(process)
+@pytest.fixture(scope="module")
+def node(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
+         ) -> Iterator[Angen]:
+    with master.serving(WORLD, tmp_path_factory.mktemp("kobuki"), rate=0) as node:
+        yield node
 
 
 def drive(kobuki: Angen, speed: float) -> None:
@@ -81,31 +76,46 @@ def put(kobuki: Angen, x: float, z: float) -> None:
                 model_state=ModelState(model_name="bot", pose=pose))
 
 
+@pytest.fixture
+def kobuki(node: Angen) -> Angen:
+    """At rest at x = -1."""
+    drive(node, 0.0)
+    put(node, -1, 0)
+    passes(node, 1.0)
+    return node
+
+
+def passes(kobuki: Angen, seconds: float) -> None:
+    """Waits for a simulated time."""
+    with Inbox("/clock", Clock) as clock:
+        now = clock.wait(lambda _: True, "the time").clock.to_sec()
+        clock.wait(lambda later: later.clock.to_sec() > now + seconds, f"{seconds} s pass")
+
+
 def place(kobuki: Angen) -> float:
     state: Any = kobuki.call("/gazebo/get_model_state", GetModelState, model_name="bot")
     return float(state.pose.position.x)
 
 
 def test_a_robot_that_bumps_into_a_wall_says_so(kobuki: Angen) -> None:
-    events = Inbox(f"{EVENTS}/bumper", BumperEvent)
-    drive(kobuki, 0.2)
-    events.wait(lambda event: event.state == BumperEvent.PRESSED, "it bumps")
-    drive(kobuki, -0.2)
-    until(lambda: events.messages[-1].state == BumperEvent.RELEASED, "it comes free")
+    with Inbox(f"{EVENTS}/bumper", BumperEvent) as events:
+        drive(kobuki, 0.2)
+        events.wait(lambda event: event.state == BumperEvent.PRESSED, "it bumps")
+        drive(kobuki, -0.2)
+        until(lambda: events.messages[-1].state == BumperEvent.RELEASED, "it comes free")
     assert {event.bumper for event in events.messages} == {BumperEvent.CENTER}
 
 
 def test_a_robot_on_a_stand_misses_the_floor_once(kobuki: Angen) -> None:
-    kobuki.wait("/clock", Clock, lambda now: now.clock.to_sec() > 1)  # it stands
-    cliffs = Inbox(f"{EVENTS}/cliff", CliffEvent)
-    drops = Inbox(f"{EVENTS}/wheel_drop", WheelDropEvent)
-    for turn in (0, 1):
-        put(kobuki, -3, 0.98)
-        until(lambda: len(cliffs.messages) == 6 * turn + 3, "it misses the floor")
-        until(lambda: len(drops.messages) == 4 * turn + 2, "its wheels hang")
-        put(kobuki, -1, 0)
-        until(lambda: len(cliffs.messages) == 6 * turn + 6, "it finds the floor")
-        until(lambda: len(drops.messages) == 4 * turn + 4, "its wheels do")
+    with Inbox(f"{EVENTS}/cliff", CliffEvent) as cliffs, \
+            Inbox(f"{EVENTS}/wheel_drop", WheelDropEvent) as drops:
+        for turn in (0, 1):
+            put(kobuki, -3, 0.98)
+            until(lambda: len(cliffs.messages) == 6 * turn + 3, "it misses the floor")
+            until(lambda: len(drops.messages) == 4 * turn + 2, "its wheels hang")
+            put(kobuki, -1, 0)
+            until(lambda: len(cliffs.messages) == 6 * turn + 6, "it finds the floor")
+            until(lambda: len(drops.messages) == 4 * turn + 4, "its wheels do")
     parts, wheels = (0, 1, 2), (0, 1)
     assert [(e.sensor, e.state) for e in cliffs.messages] == 2 * (
         [(part, CliffEvent.CLIFF) for part in parts] + [(part, CliffEvent.FLOOR) for part in parts])
@@ -121,11 +131,9 @@ def test_a_robot_on_a_stand_misses_the_floor_once(kobuki: Angen) -> None:
 
 
 def test_motors_that_are_off_do_not_move_it(kobuki: Angen) -> None:
-    put(kobuki, -1, 0)
     kobuki.send(f"{COMMANDS}/motor_power", MotorPower(MotorPower.OFF))
     drive(kobuki, -0.2)
-    now = kobuki.wait("/clock", Clock).clock.to_sec()
-    kobuki.wait("/clock", Clock, lambda later: later.clock.to_sec() > now + 2)
+    passes(kobuki, 2.0)
     assert place(kobuki) == pytest.approx(-1, abs=0.02)
     kobuki.send(f"{COMMANDS}/motor_power", MotorPower(MotorPower.ON))
     drive(kobuki, -0.2)
@@ -133,10 +141,9 @@ def test_motors_that_are_off_do_not_move_it(kobuki: Angen) -> None:
 
 
 def test_odometry_is_zero_where_it_is_reset(kobuki: Angen) -> None:
-    put(kobuki, -1, 0)
-    odometry = Inbox("/odom", Odometry)
-    drive(kobuki, -0.2)
-    odometry.wait(lambda odom: odom.pose.pose.position.x < -0.3, "it drives")
-    drive(kobuki, 0.0)
-    kobuki.send(f"{COMMANDS}/reset_odometry", Empty())
-    until(lambda: abs(odometry.messages[-1].pose.pose.position.x) < 0.01, "it is zero")
+    with Inbox("/odom", Odometry) as odometry:
+        drive(kobuki, -0.2)
+        odometry.wait(lambda odom: odom.pose.pose.position.x < -0.3, "it drives")
+        drive(kobuki, 0.0)
+        kobuki.send(f"{COMMANDS}/reset_odometry", Empty())
+        until(lambda: abs(odometry.messages[-1].pose.pose.position.x) < 0.01, "it is zero")

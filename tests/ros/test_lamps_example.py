@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Iterator
 
 import pytest
-from harness import Cli, Master, end
+from harness import Cli, own_node
 
 EXAMPLE = Path(__file__).resolve().parents[2] / 'examples/lamps_by_pir.py'
 SECONDS = 22
@@ -41,19 +41,8 @@ WORLD = f'''<sdf version="1.6"><world name="rooms">
 @pytest.fixture
 def house(tmp_path: Path) -> Iterator[Cli]:
     """A node of its own, four times as fast as the wall clock."""
-    world = tmp_path / 'rooms.world'
-    world.write_text(WORLD)
-    folder = tmp_path / 'ros'
-    folder.mkdir()
-    master = Master(folder)
-    process = None
-    try:
-        process = master.node(world, folder / 'log', rate=4)
-        yield Cli(master)
-    finally:
-        if process is not None:
-            end(process)
-        end(master.process)
+    with own_node(tmp_path, WORLD, rate=4) as node:
+        yield Cli(node.master)
 
 
 def test_lamps_follow_the_person_where_it_is_dark(house: Cli) -> None:

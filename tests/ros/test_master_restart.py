@@ -11,7 +11,7 @@ from typing import Iterator
 from urllib.parse import urlparse
 
 import pytest
-from harness import WORLD, Master, end, node_binary, until
+from harness import WORLD, Master, end, node_binary, until, world_file
 
 from angen_tools.common.watchdog import watchdog
 
@@ -19,6 +19,7 @@ BALL = """<model name="ball"><pose>1 1 9 0 0 0</pose><link name="link">
   <inertial><mass>1</mass></inertial>
   <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
 </link></model>"""
+HOUSE = WORLD.replace("</world>", BALL + "</world>")
 
 
 @pytest.fixture
@@ -30,12 +31,6 @@ def master(tmp_path: Path) -> Iterator[Master]:
             end(started.process)
 
 
-def world_file(folder: Path) -> Path:
-    path = folder / "small.world"
-    path.write_text(WORLD.replace("</world>", BALL + "</world>"))
-    return path
-
-
 def killed_and_restarted(master: Master, folder: Path) -> Master:
     master.process.kill()
     master.process.wait()
@@ -45,7 +40,7 @@ def killed_and_restarted(master: Master, folder: Path) -> Master:
 
 def test_it_ends_with_its_world_saved(master: Master, tmp_path: Path) -> None:
     log, saved = tmp_path / "log", tmp_path / "saved.world"
-    process = master.node(world_file(tmp_path), log, rescue=saved)
+    process = master.node(world_file(HOUSE, tmp_path), log, rescue=saved)
     until(lambda: "/angen/stats" in master.topics(), "it runs")
     restarted = killed_and_restarted(master, tmp_path)
     try:
@@ -71,7 +66,7 @@ def test_the_default_place_is_the_users_own(master: Master, tmp_path: Path) -> N
     (state / "angen").mkdir(parents=True, mode=0o777)
     (state / "angen" / "rescue.world").symlink_to(kept)
     master.environment["XDG_STATE_HOME"] = str(state)
-    process = master.node(world_file(tmp_path), tmp_path / "log")
+    process = master.node(world_file(HOUSE, tmp_path), tmp_path / "log")
     restarted = killed_and_restarted(master, tmp_path)
     try:
         assert process.wait(20) == 75
@@ -85,7 +80,7 @@ def test_the_default_place_is_the_users_own(master: Master, tmp_path: Path) -> N
 
 def test_a_world_that_cannot_be_saved_is_an_error(master: Master, tmp_path: Path) -> None:
     log = tmp_path / "log"
-    process = master.node(world_file(tmp_path), log, rescue=tmp_path / "none" / "saved.world")
+    process = master.node(world_file(HOUSE, tmp_path), log, rescue=tmp_path / "none/saved.world")
     restarted = killed_and_restarted(master, tmp_path)
     try:
         assert process.wait(20) == 1
@@ -96,7 +91,7 @@ def test_a_world_that_cannot_be_saved_is_an_error(master: Master, tmp_path: Path
 
 def test_a_master_that_only_sleeps_is_waited_for(master: Master, tmp_path: Path) -> None:
     log = tmp_path / "log"
-    process = master.node(world_file(tmp_path), log)
+    process = master.node(world_file(HOUSE, tmp_path), log)
     try:
         master.process.send_signal(signal.SIGSTOP)
         time.sleep(3)
@@ -152,7 +147,7 @@ for line in sys.stdin:
 
 
 def test_without_a_master_it_spawns_and_deletes(master: Master, tmp_path: Path) -> None:
-    process = master.node(world_file(tmp_path), tmp_path / "log")
+    process = master.node(world_file(HOUSE, tmp_path), tmp_path / "log")
     client = Client(master)
     master.process.kill()
     master.process.wait()
@@ -166,7 +161,7 @@ def test_without_a_master_it_spawns_and_deletes(master: Master, tmp_path: Path) 
 
 
 def test_a_master_that_slept_is_told_of_spawned_sensors(master: Master, tmp_path: Path) -> None:
-    process = master.node(world_file(tmp_path), tmp_path / "log")
+    process = master.node(world_file(HOUSE, tmp_path), tmp_path / "log")
     client = Client(master)
     try:
         assert client.says("spawn early") == 1

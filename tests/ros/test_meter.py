@@ -6,19 +6,13 @@ import statistics
 from pathlib import Path
 
 from angen_msgs.msg import Cost
-from harness import WORLD, Inbox, Master, end
+from harness import WORLD, Inbox, Master
 
 
 def test_the_first_figure_is_like_the_next_ten(master: Master, rospy_node: None,
                                                tmp_path: Path) -> None:
-    world = tmp_path / "small.world"
-    world.write_text(WORLD)
-    with Inbox("/angen/cost", Cost) as costs:  # before the node starts
-        process = master.node(world, tmp_path / "log")
-        try:
-            costs.wait(lambda _: len(costs.messages) > 10, "eleven figures", 60.0)
-        finally:
-            end(process)
+    with Inbox("/angen/cost", Cost) as costs, master.serving(WORLD, tmp_path):
+        costs.wait(lambda _: len(costs.messages) > 10, "eleven figures", 60.0)
     figures = [message.process for message in costs.messages[:11]]
     assert all(message.simulated >= 1.0 for message in costs.messages)
     assert costs.messages[0].header.stamp.to_sec() >= 2.0

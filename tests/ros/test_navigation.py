@@ -14,7 +14,7 @@ import tf2_ros
 from angen_msgs.msg import DoorState
 from angen_msgs.srv import Spawn
 from geometry_msgs.msg import Pose, PoseStamped, TransformStamped
-from harness import WORLD, Angen, Inbox, Master, end, until
+from harness import WORLD, Angen, Inbox, Master, end, until, world_file
 from nav_msgs.msg import OccupancyGrid, Path as Plan
 from tf2_msgs.msg import TFMessage
 
@@ -38,10 +38,7 @@ def script(master: Master, name: str, *words: str) -> subprocess.Popen[str]:
 def site(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
          ) -> Iterator[Angen]:
     """./angen run odom_parent:=none, and an amcl that knows the robot's place."""
-    folder = tmp_path_factory.mktemp('site')
-    world = folder / 'house.world'
-    world.write_text(HOUSE)
-    process = master.node(world, folder / 'log', odom_parent='none')
+    world = world_file(HOUSE, tmp_path_factory.mktemp('site'))
     maps = script(master, 'map_publisher', str(world), '_frame_id:=map')
     broadcaster = tf2_ros.StaticTransformBroadcaster()
     placed = TransformStamped(child_frame_id='odom')
@@ -50,12 +47,12 @@ def site(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFact
     placed.transform.rotation.w = 1.0
     broadcaster.sendTransform(placed)
     try:
-        yield Angen(master, process, folder / 'log')
+        with master.serving(world, world.parent, odom_parent='none') as node:
+            yield node
     finally:
         broadcaster.pub_tf.unregister()  # latched: other tests must not see it
         assert end(maps) == 0
         master.api.deleteParam('/test', '/map_publisher')
-        end(process)
 
 
 def test_the_frames_are_whole_and_none_has_two_parents(site: Angen) -> None:

@@ -12,43 +12,26 @@ import time
 from pathlib import Path
 
 import pytest
-from harness import until, without_sanitizer
+from harness import SCRIPT, processes_with, until, without_sanitizer
+from two_rooms import two_rooms
 
-SCRIPT = Path(__file__).resolve().parents[2] / 'src/angen_tools/scripts/angen'
-WALLS = {'south': (3, -0.06, 6.24, 0.12), 'north': (3, 3.06, 6.24, 0.12),
-         'west': (-0.06, 1.5, 0.12, 3), 'east': (6.06, 1.5, 0.12, 3),
-         'low': (3, 0.4975, 0.12, 0.995), 'high': (3, 2.5, 0.12, 1.0)}
 ROUTE = '''waypoints:
 - {name: kitchen, floor: 0, at: [4.8, 1.5]}
 - {name: back, floor: 0, at: [1.0, 1.5]}
 '''
 
 
-def world_text() -> str:
-    walls = ''.join(
-        f'<collision name="{name}"><pose>{x} {y} 1.2 0 0 0</pose><geometry><box><size>{wide} '
-        f'{deep} 2.4</size></box></geometry></collision>'
-        for name, (x, y, wide, deep) in WALLS.items())
-    parts = [('kitchen_door0', 'kitchen_door', '3.0 1.0 0 0 0 1.570796'),
-             ('kitchen_switch0', 'optical_switch', '3.005 1.25 2.125 0 0 1.570796'),
-             ('kitchen_pir0', 'pir', '5.95 1.5 1.0 0 0.2 3.141593'),
-             ('turtlebot', 'turtlebot', '1.0 1.5 0.001 0 0 0')]
-    models = ''.join(f'<include><name>{name}</name><pose>{pose}</pose><uri>model://{uri}</uri>'
-                     '</include>' for name, uri, pose in parts)
-    return f'''<sdf version="1.6"><world name="rooms"><gravity>0 0 -9.8</gravity>
-      <model name="house"><static>true</static><link name="link">
-        <collision name="floor"><pose>3 1.5 -0.05 0 0 0</pose><geometry><box>
-          <size>6.24 3.24 0.1</size></box></geometry></collision>{walls}</link></model>
-      {models}<actor name="person"><script><trajectory id="0" type="walk">
-        <waypoint><time>0</time><pose>2 1.5 0 0 0 0</pose></waypoint>
-        <waypoint><time>9</time><pose>2 2.5 0 0 0 0</pose></waypoint></trajectory></script></actor>
-      <plugin name="doors" filename="libdoor_world_plugin.so"/>
-      <plugin name="robots" filename="librobot_controller.so"/></world></sdf>'''
+PERSON = '''<actor name="person"><script><trajectory id="0" type="walk">
+  <waypoint><time>0</time><pose>2 1.5 0 0 0 0</pose></waypoint>
+  <waypoint><time>9</time><pose>2 2.5 0 0 0 0</pose></waypoint></trajectory></script></actor>'''
+WORLD = two_rooms(('kitchen_switch0', 'optical_switch', '3.005 1.25 2.125 0 0 1.570796'),
+                  ('kitchen_pir0', 'pir', '5.95 1.5 1.0 0 0.2 3.141593'),
+                  ('turtlebot', 'turtlebot', '1.0 1.5 0.001 0 0 0'), more=PERSON)
 
 
 def start(folder: Path, name: str, route: str = ROUTE, largest: int = -1) -> subprocess.Popen[str]:
     """`largest`: of a file that it writes, bytes; as on a full disk."""
-    (folder / 'rooms.world').write_text(world_text())
+    (folder / 'rooms.world').write_text(WORLD)
     (folder / 'route.yaml').write_text(route)
     command = [sys.executable, str(SCRIPT), 'task', 'patrol',
                str(folder / 'rooms.world'),
@@ -66,14 +49,7 @@ def prepare(largest: int) -> None:
 
 def running(folder: Path) -> list[int]:
     """Processes that a patrol has started and left."""
-    found = []
-    for environment in Path('/proc').glob('[0-9]*/environ'):
-        try:
-            if f'ROS_HOME={folder}/'.encode() in environment.read_bytes():
-                found.append(int(environment.parent.name))
-        except OSError:
-            continue
-    return found
+    return processes_with(f'ROS_HOME={folder}/')
 
 
 def read(path: Path) -> list[dict[str, str]]:
@@ -166,14 +142,6 @@ def test_a_signal_ends_all(tmp_path: Path, number: int) -> None:
     assert not running(tmp_path)
 
 
-def is_clean(folder: Path) -> bool:
-    """Whether nothing that a patrol has started is left within 5 s."""
-    end = time.monotonic() + 5.0
-    while running(folder) and time.monotonic() < end:
-        time.sleep(0.05)
-    return not running(folder)
-
-
 @pytest.mark.parametrize('seed', range(3))
 def test_a_kill_while_it_starts_leaves_nothing(tmp_path: Path, seed: int) -> None:
     patrol = start(tmp_path, 'out')
@@ -181,7 +149,7 @@ def test_a_kill_while_it_starts_leaves_nothing(tmp_path: Path, seed: int) -> Non
     time.sleep(random.Random(seed).uniform(0.0, 0.5))
     patrol.kill()
     patrol.communicate()
-    assert is_clean(tmp_path)
+    until(lambda: not running(tmp_path), 'all that it started ends')
 
 
 @without_sanitizer
@@ -194,7 +162,7 @@ def test_a_kill_while_it_drives_leaves_a_bag_that_can_be_read(tmp_path: Path) ->
     assert len(running(tmp_path)) > 2
     patrol.kill()
     patrol.communicate()
-    assert is_clean(tmp_path)
+    until(lambda: not running(tmp_path), 'all that it started ends')
     with rosbag.Bag(str(tmp_path / 'out/patrol.bag')) as bag:
         assert bag.get_message_count('/clock') > 10
     assert not (tmp_path / 'out/summary.csv').exists()
@@ -208,7 +176,7 @@ def test_a_bag_that_the_disk_has_no_room_for_ends_it_in_a_line(tmp_path: Path) -
     last = trouble.splitlines()[-1]
     assert last.startswith(f'angen: {tmp_path}/out/patrol.bag: cannot be written: ')
     assert 'rosbag reindex' in last and not (tmp_path / 'out/patrol.bag').exists()
-    assert is_clean(tmp_path)
+    until(lambda: not running(tmp_path), 'all that it started ends')
     with rosbag.Bag(str(tmp_path / 'out/patrol.bag.active'), 'a', allow_unindexed=True) as bag:
         for _ in bag.reindex():
             pass
@@ -223,7 +191,7 @@ def test_a_disk_that_is_too_small_ends_it_in_a_line(tmp_path: Path) -> None:
              str(disk)]
     if subprocess.run([*in_it, 'true'], capture_output=True).returncode != 0:
         pytest.skip('this user may not mount a file system of its own')
-    (tmp_path / 'rooms.world').write_text(world_text())
+    (tmp_path / 'rooms.world').write_text(WORLD)
     (tmp_path / 'route.yaml').write_text(ROUTE)
     done = subprocess.run(
         [*in_it, sys.executable, str(SCRIPT), 'task', 'patrol',

@@ -8,7 +8,7 @@ from typing import Any, Iterator
 
 import pytest
 import yaml
-from harness import ROOT, Master, end, until
+from harness import ROOT, Master, own_node, until
 
 ANGEN = str(ROOT / 'src/angen_tools/scripts/angen')
 SENSOR = ROOT / 'tests/examples/rangefinder/rangefinder.py'
@@ -54,18 +54,8 @@ def node(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Master, Any
     (folder / 'rangefinder.py').write_text(SENSOR.read_text())
     (folder / 'counter.py').write_text(DEVICE)
     (folder / 'typo.py').write_text('import angen\n\nangen.register(typo)\n')
-    world = folder / 'w.world'
-    world.write_text(WORLD)
-    master = Master(folder)
-    master.environment['ANGEN_PLUGIN_PATH'] = str(folder)
-    process = None
-    try:
-        process = master.node(world, folder / 'log', rate=10)
-        yield master, process, folder
-    finally:
-        if process is not None:
-            end(process)
-        end(master.process)
+    with own_node(folder, WORLD, {'ANGEN_PLUGIN_PATH': str(folder)}, rate=10) as started:
+        yield started.master, started.process, folder
 
 
 def ask(master: Master, *words: str) -> str:

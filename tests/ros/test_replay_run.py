@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, Iterator
 
 import pytest
-from harness import SLOWNESS, WORLD, Cli, Master, end, node_binary, until
+from harness import SLOWNESS, WORLD, Cli, Master, end, node_binary, until, world_file
 
 SECONDS = float(os.environ.get("ANGEN_REPLAY_SECONDS", "60"))
 RATE = 10.0
@@ -27,18 +27,17 @@ CLIENTS = ("ann", "bob", "eve")
 
 @pytest.fixture(scope="module")
 def own_master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Master]:
-    started = Master(tmp_path_factory.mktemp("master"))
-    started.api.setParam("/test", "/use_sim_time", True)
-    yield started
-    end(started.process)
+    with Master(tmp_path_factory.mktemp("master")) as started:
+        started.api.setParam("/test", "/use_sim_time", True)
+        yield started
 
 
 def session(master: Master, folder: Path, seconds: float, kill: bool = False, **params: object
             ) -> tuple[Path, list[str]]:
     """The log of a session, and the actions of each client."""
-    world, log = folder / "small.world", folder / "session.log"
-    world.write_text(WORLD)
-    node = master.node(world, folder / "node", seed=7, rate=RATE, record=log, **params)
+    log = folder / "session.log"
+    node = master.node(world_file(WORLD, folder), folder / "node", seed=7, rate=RATE, record=log,
+                       **params)
     clients = [subprocess.Popen([sys.executable, Path(__file__).with_name("replay_client.py"),
                                  name, str(seconds)], env=master.environment, text=True,
                                 stdout=subprocess.PIPE) for name in CLIENTS]
@@ -166,14 +165,11 @@ def test_what_kill_9_leaves_is_replayed(own_master: Master, tmp_path: Path) -> N
 
 def test_commands_of_a_launch_are_executed_before_time_begins(own_master: Master, tmp_path: Path
                                                               ) -> None:
-    world, log = tmp_path / "small.world", tmp_path / "session.log"
-    world.write_text(WORLD)
-    node = own_master.node(world, tmp_path / "node", record=log,
-                           commands="lamp/kitchen0 Dim 40; door/bathroom0 Open")
-    try:
+    log = tmp_path / "session.log"
+    with own_master.serving(WORLD, tmp_path, record=log,
+                            commands="lamp/kitchen0 Dim 40; door/bathroom0 Open") as node:
         assert "40 %" in Cli(own_master).does("watch", "--once", "kitchen0")
-    finally:
-        assert end(node) == 0
+        assert end(node.process) == 0
     actions = [line for line in lines(log) if line.get("do") == "command"]
     assert [(line["tick"], line["name"], line["text"]) for line in actions] == [
         (0, "lamp/kitchen0", "Dim 40"), (0, "door/bathroom0", "Open")]
@@ -189,7 +185,4 @@ def test_a_log_that_is_damaged_or_missing_is_one_line(own_master: Master, record
     assert cli.fails("replay", str(bad)).startswith(f"{bad}:6: is damaged, the line that begins")
     assert cli.fails("replay", str(tmp_path / "none")).endswith(
         "cannot be read; give a log that record:= wrote")
-    node = subprocess.run([str(node_binary()), f"_replay:={bad}", "__name:=other"],
-                          env=own_master.environment, text=True, capture_output=True, timeout=60)
-    assert node.returncode == 1
-    assert f"{bad}:6: is damaged" in node.stderr
+    assert f"{bad}:6: is damaged" in own_master.rejected(f"_replay:={bad}", "__name:=other")

@@ -32,11 +32,9 @@ def lived(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFac
         people = subprocess.Popen(
             ['/usr/bin/python3', str(SCRIPT), str(folder / 'who.yaml'),
              str(folder / 'home.world')], env=master.environment)
-        node = Angen(master, master.node(folder / 'home.world', folder / 'log', rate=3),
-                     folder / 'log')
-        yield node, people, truth
-        end(people)
-        end(node.process)
+        with master.serving(folder / 'home.world', folder, rate=3) as node:
+            yield node, people, truth
+            end(people)
 
 
 def test_residents_wait_for_the_node_and_publish_what_they_do(lived) -> None:

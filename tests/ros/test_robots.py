@@ -22,6 +22,8 @@ def second(angen: Angen) -> Iterator[str]:
     cli.does('spawn', 'model', 'model://turtlebot', 'robot2', '--pose', '3 5 0.01')
     yield 'robot2'
     cli.does('delete', 'robot2')
+    left = {topic for topic in angen.master.topics() if topic.startswith('/robot2/')}
+    assert left <= {'/robot2/cmd_vel'}  # which this process publishes
     angen.call('/gazebo/reset_world', Empty)  # the first one is where other tests expect it
 
 

@@ -3,11 +3,10 @@ from __future__ import annotations
 
 import math
 import struct
-from pathlib import Path
 from typing import Any, Iterator
 
 import pytest
-from harness import Angen, Inbox, Master, end, until
+from harness import Angen, Inbox, Master, until
 from angen_msgs.srv import Spawn
 from gazebo_msgs.msg import ContactsState
 from gazebo_msgs.srv import GetJointProperties
@@ -102,18 +101,12 @@ ROBOT = f"""<robot name="bot">{link('body', 0.3, 20.0)}{arm('left', 0.3)}
 def bot(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
         ) -> Iterator[Angen]:
     """The node with the world, and the robot in it."""
-    folder = tmp_path_factory.mktemp('robots')
-    world: Path = folder / 'their.world'
-    world.write_text(WORLD)
-    log = folder / 'log'
-    process = master.node(world, log)
-    angen = Angen(master, process, log)
     pose = Pose()
     pose.position.z = 0.15
-    done = angen.call('/angen/spawn', Spawn, name='bot', xml=ROBOT, pose=pose)
-    assert done.success, done.message
-    yield angen
-    end(process)
+    with master.serving(WORLD, tmp_path_factory.mktemp('robots')) as angen:
+        done = angen.call('/angen/spawn', Spawn, name='bot', xml=ROBOT, pose=pose)
+        assert done.success, done.message
+        yield angen
 
 
 def test_spawning_warns_of_ros_control_alone(bot: Angen) -> None:

@@ -15,7 +15,7 @@ import pytest
 import rospy
 from angen_msgs.srv import Delete, Spawn
 from gazebo_msgs.srv import GetJointProperties
-from harness import ROOT, TREE, Angen, Master, end, until, without_sanitizer
+from harness import ROOT, TREE, Angen, Master, until, without_sanitizer
 from std_msgs.msg import Float64
 from std_srvs.srv import Empty
 
@@ -32,19 +32,13 @@ def arm(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFacto
     """A node that finds the package, and the arm in it."""
     library = LIBRARIES / 'libgazebo_ros_control_ros.so'
     assert library.exists(), 'ctest builds it: ./angen test ctest'
-    folder = tmp_path_factory.mktemp('arm')
-    world = folder / 'arm.world'
-    world.write_text(WORLD)
-    log = folder / 'log'
     before = dict(master.environment)
     master.environment['ANGEN_PLUGIN_PATH'] = str(LIBRARIES)
-    process = master.node(world, log)
-    master.environment = before
-    angen = Angen(master, process, log)
-    done = angen.call('/angen/spawn', Spawn, name='arm', xml=ARM)
-    assert done.success, done.message
-    yield angen
-    end(process)
+    with master.serving(WORLD, tmp_path_factory.mktemp('arm')) as angen:
+        master.environment = before
+        done = angen.call('/angen/spawn', Spawn, name='arm', xml=ARM)
+        assert done.success, done.message
+        yield angen
 
 
 def reached(arm: Angen, joint: str, position: float) -> bool:

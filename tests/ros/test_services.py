@@ -176,17 +176,6 @@ def test_ready_says_that_everything_is_there(angen: Angen) -> None:
     assert {"/angen/spawn", "/angen/save", "/gazebo/pause_physics"} <= services
 
 
-def test_different_names_have_different_topics(angen: Angen) -> None:
-    for name in ("same.name", "same name", "same_name"):
-        assert angen.call("/angen/spawn", Spawn, name=name, xml=PIR).success
-    entities = angen.call("/angen/list", List, kind="pir").entities
-    topics = {e.topic for e in entities if "same" in e.name}
-    assert topics == {"/angen/pir/same_x2ename", "/angen/pir/same_x20name", "/angen/pir/same_name"}
-    assert topics <= set(angen.master.topics())
-    for name in ("same.name", "same name", "same_name"):
-        assert angen.call("/angen/delete", Delete, name=name).success
-
-
 def test_what_is_saved_can_be_spawned_from(angen: Angen) -> None:
     saved = angen.call("/angen/save", Save)
     assert saved.success, saved.message

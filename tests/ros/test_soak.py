@@ -7,9 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-from harness import without_sanitizer
+from harness import SCRIPT, without_sanitizer
 
-SCRIPT = Path(__file__).resolve().parents[2] / 'src/angen_tools/scripts/angen'
 CYCLES = 1000
 
 

@@ -9,7 +9,7 @@ from typing import Any, Iterator
 
 import pytest
 import yaml
-from harness import WORLD, Angen, Cli, Inbox, Master, end, node_binary, until
+from harness import WORLD, Angen, Cli, Inbox, Master, end, until, world_file
 
 TWO_PIRS = WORLD.replace('<include><uri>model://pir', '''
     <include><uri>model://pir</uri><name>other_eye</name><pose>2 4 1.5 0 0 0</pose></include>
@@ -22,9 +22,7 @@ class House:
     def __init__(self, folder: Path, **params: object) -> None:
         self.master = Master(folder)
         self.master.api.setParam('/test', '/use_sim_time', True)
-        world = folder / 'two.world'
-        world.write_text(TWO_PIRS)
-        self.node = self.master.node(world, folder / 'log', **params)
+        self.node = self.master.node(world_file(TWO_PIRS, folder), folder / 'log', **params)
         self.master.api.setParam('/test', '/use_sim_time', False)
         self.cli = Cli(self.master)
 
@@ -44,16 +42,19 @@ class House:
                                 text=True, stdout=subprocess.DEVNULL)
 
 
-@pytest.fixture(params=['sensor', 'kind'])
-def house(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[House]:
-    started = House(tmp_path, topics=request.param)
+@pytest.fixture(scope='module')
+def house_of_kinds(tmp_path_factory: pytest.TempPathFactory) -> Iterator[House]:
+    started = House(tmp_path_factory.mktemp('kinds'), topics='kind')
     yield started
     started.end()
 
 
-@pytest.fixture(scope='module')
-def house_of_kinds(tmp_path_factory: pytest.TempPathFactory) -> Iterator[House]:
-    started = House(tmp_path_factory.mktemp('kinds'), topics='kind')
+@pytest.fixture(params=['sensor', 'kind'])
+def house(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[House]:
+    if request.param == 'kind':
+        yield request.getfixturevalue('house_of_kinds')
+        return
+    started = House(tmp_path, topics='sensor')
     yield started
     started.end()
 
@@ -147,12 +148,8 @@ def test_who_comes_later_speaks_where_the_others_do(house_of_kinds: House) -> No
 
 
 def test_other_words_for_topics_are_rejected(master: Master, tmp_path: Path) -> None:
-    world = tmp_path / 'small.world'
-    world.write_text(WORLD)
-    done = subprocess.run([str(node_binary()), str(world), '_topics:=all', '__name:=odd_topics'],
-                          env=master.environment, text=True, capture_output=True, timeout=60)
-    assert done.returncode == 1
-    assert done.stderr.splitlines()[-1] == "~topics is 'all', must be sensor or kind"
+    said = master.rejected(world_file(WORLD, tmp_path), '_topics:=all', '__name:=odd_topics')
+    assert said.splitlines()[-1] == "~topics is 'all', must be sensor or kind"
 
 
 def test_latched_topics_say_so(angen: Angen) -> None:

@@ -212,21 +212,6 @@ def test_rays_are_blue_or_in_the_color_that_is_given(angen: Angen) -> None:
             until(lambda: color_of(inbox) is None, "no rays")
 
 
-def test_frames_make_one_tree(angen: Angen) -> None:
-    with Inbox("/tf", TFMessage) as moving, Inbox("/tf_static", TFMessage) as fixed:
-        until(lambda: moving.messages and fixed.messages, "frames")
-        parents = {t.child_frame_id: t.header.frame_id
-                   for m in list(moving.messages) + list(fixed.messages) for t in m.transforms}
-    assert parents["base_footprint"] == "odom" and parents["odom"] == "world"
-    assert parents["eye"] == "eye/pir"
-    for frame in parents:
-        steps = 0
-        while frame != "world":
-            frame = parents[frame]
-            steps += 1
-            assert steps < 20, "a loop"
-
-
 def test_no_transform_goes_out_twice_with_one_stamp(angen: Angen) -> None:
     """tf2 warns of those: TF_REPEATED_DATA."""
     with Inbox("/tf", TFMessage) as moving:

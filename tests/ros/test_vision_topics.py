@@ -11,7 +11,6 @@ from harness import Angen, Inbox, until
 from gazebo_msgs.msg import ContactsState
 from geometry_msgs.msg import Pose, Twist, Vector3
 from sensor_msgs.msg import CameraInfo, Image, JointState, LaserScan, PointCloud2
-from tf2_msgs.msg import TFMessage
 
 SHAPE = "<geometry><box><size>0.1 4 2</size></box></geometry>"
 WALL = f"""<model name="wall"><static>true</static><link name="link">
@@ -75,15 +74,6 @@ def test_depth_and_points_agree(angen: Angen, wall: None) -> None:
     assert y == pytest.approx((100 - 119.5) / focal * z, abs=1e-4)
 
 
-def test_the_optical_frame_hangs_on_the_robot(angen: Angen) -> None:
-    message = angen.wait("/tf_static", TFMessage, lambda m: any(
-        t.child_frame_id == "camera_rgb_optical_frame" for t in m.transforms))
-    frame, = [t for t in message.transforms if t.child_frame_id == "camera_rgb_optical_frame"]
-    assert frame.header.frame_id == "base_footprint"
-    turn = frame.transform.rotation
-    assert [turn.x, turn.y, turn.z, turn.w] == pytest.approx([-0.5, 0.5, -0.5, 0.5])
-
-
 def test_the_bumper_and_the_joints_are_published(angen: Angen) -> None:
     contacts = angen.wait("/bumper", ContactsState)
     assert contacts.states == []
@@ -99,18 +89,6 @@ def test_wheels_turn_as_fast_as_the_robot_drives(angen: Angen) -> None:
         angen.send("/cmd_vel", Twist())
     angen.wait("/joint_states", JointState, lambda s: max(map(abs, s.velocity)) == 0.0)
     assert turning.velocity[0] == pytest.approx(turning.velocity[1], rel=0.05)
-
-
-def test_a_second_robot_speaks_below_its_own_name_only(angen: Angen) -> None:
-    answer = angen.call("/angen/spawn", Spawn, name="r2", xml="model://turtlebot",
-                        pose=at(-3, -3, 0.01))
-    assert answer.success, answer.message
-    topics = angen.master.topics()
-    assert {"/r2/scan", "/r2/camera/rgb/image_raw", "/r2/bumper", "/r2/joint_states"} <= set(topics)
-    assert angen.wait("/r2/scan", LaserScan).header.frame_id == "r2/base_scan"
-    assert angen.wait("/scan", LaserScan).header.frame_id == "base_scan"
-    assert angen.call("/angen/delete", Delete, name="r2").success
-    assert not [topic for topic in angen.master.topics() if topic.startswith("/r2/")]
 
 
 def test_a_room_camera_is_a_model_of_its_own(angen: Angen, wall: None) -> None:

@@ -4,10 +4,12 @@ from __future__ import annotations
 import argparse
 import os
 import re
+import shlex
 import socket
 import subprocess
 import sys
 from pathlib import Path
+from typing import Callable
 
 import pytest
 
@@ -58,9 +60,14 @@ def test_help_is_a_command_too(words: str, capsys: pytest.CaptureFixture[str]) -
     assert pages[0] == pages[1] and 'example' in pages[0]
 
 
+@pytest.fixture(scope='module')
+def parser() -> argparse.ArgumentParser:
+    return cli.make_parser()
+
+
 @pytest.mark.parametrize('words', COMMANDS)
-def test_help_has_an_example_that_parses(words: str, capsys: pytest.CaptureFixture[str]) -> None:
-    import shlex
+def test_help_has_an_example_that_parses(words: str, parser: argparse.ArgumentParser,
+                                         capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as end:
         cli.run([*words.split(), '--help'])
     assert end.value.code == 0
@@ -69,7 +76,7 @@ def test_help_has_an_example_that_parses(words: str, capsys: pytest.CaptureFixtu
     for example in examples:
         program, *given = shlex.split(example.split('>>')[0])
         assert program == 'angen' and example.strip().startswith(f'angen {words}')
-        assert cli.make_parser().parse_args(given).run
+        assert parser.parse_args(given).run
 
 
 NO_RESULT = {'completion', 'mqtt'}  # a script; a bridge that runs until it is ended
@@ -99,8 +106,10 @@ def test_help_needs_neither_ros_nor_lxml() -> None:
     ['spawn', 'model', 'model://chair', 'c1', '--pose', '-1 2 3 0 0 0'],
     ['set', 'door', 'kitchen0', '-1.2'], ['save', 'out.world'], ['watch', '--once'],
     ['top', '--once'], ['top']])
-def test_without_a_simulator_one_line_says_so(words: list[str], no_master: str) -> None:
-    done = angen(*words)
+def test_without_a_simulator_one_line_says_so(
+        words: list[str], no_master: str,
+        command: Callable[..., subprocess.CompletedProcess[str]]) -> None:
+    done = command(*words)
     assert done.returncode == 1 and done.stdout == ''
     assert done.stderr == (f'angen: no simulator is running at {no_master}; '
                            'start one with ./angen run\n')

@@ -11,7 +11,7 @@ import sys
 import time
 import zlib
 from pathlib import Path
-from typing import Any
+from typing import Any, Callable
 
 import angen
 import pandas
@@ -21,6 +21,7 @@ from angen_tools.offline import events, fast_run
 
 ROOT = Path(__file__).resolve().parents[3]
 SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
+Command = Callable[..., subprocess.CompletedProcess[str]]
 WORLD = '''<sdf version="1.6"><world name="w">
   <include><uri>model://pir</uri><name>eye</name><pose>0 0 1.5 0 0 0</pose></include>
   <actor name="ann"><script><loop>true</loop><trajectory id="0" type="walk">
@@ -64,29 +65,39 @@ def test_it_leaves_the_events_that_all_ticks_would_tell(world: Path, tmp_path: P
     assert f'{walked.readings} readings, {len(expected)} events in {tmp_path}' in done.stdout
 
 
-def test_errors_are_reported_in_a_line(world: Path, tmp_path: Path) -> None:
+def test_errors_are_reported_in_a_line(command: Command, world: Path, tmp_path: Path) -> None:
     world.write_text(WORLD.replace('model://pir', 'model://no_such_model')
                      .replace('name="w"', 'name="w" angen:strict="true"'))
-    done = run(world, '--for', '1', '--out', tmp_path)
+    done = command('run', '--fast', world, '--for', '1', '--out', tmp_path)
     assert done.returncode == 1 and done.stdout == ''
     line, = done.stderr.splitlines()
     assert 'walk.world:2: ' in line and 'no_such_model' in line
 
 
-def test_a_place_that_cannot_be_written_is_named(world: Path) -> None:
-    done = run(world, '--for', '1', '--out', '/dev/null')
+def test_a_place_that_cannot_be_written_is_named(command: Command, world: Path) -> None:
+    done = command('run', '--fast', world, '--for', '1', '--out', '/dev/null')
     assert done.returncode == 1 and done.stderr.count('\n') == 1
     assert '/dev/null' in done.stderr
 
 
 @pytest.mark.parametrize('words', [['--for', '0'], ['--for', 'soon'], ['--for', 'inf'], []])
-def test_a_time_is_needed(world: Path, words: list[str]) -> None:
-    done = run(world, *words)
+def test_a_time_is_needed(command: Command, world: Path, words: list[str]) -> None:
+    done = command('run', '--fast', world, *words)
     assert done.returncode == 2 and '--for' in done.stderr
 
 
+@pytest.fixture(scope='module')
+def whole(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+    """The lines of events of a run that nobody kills."""
+    folder = tmp_path_factory.mktemp('whole')
+    (folder / 'walk.world').write_text(WORLD)
+    assert run(folder / 'walk.world', '--for', '3000', '--out', folder).returncode == 0
+    return (folder / 'events.csv').read_text().splitlines()
+
+
 @pytest.mark.parametrize('seed', range(4))
-def test_a_kill_leaves_the_events_until_then(world: Path, tmp_path: Path, seed: int) -> None:
+def test_a_kill_leaves_the_events_until_then(world: Path, tmp_path: Path, seed: int,
+                                             whole: list[str]) -> None:
     log, part = tmp_path / 'events.csv', tmp_path / 'events.csv.part'
     log.write_text('of the last run')
     process = subprocess.Popen([sys.executable, str(SCRIPT), 'run', '--fast', str(world), '--for',
@@ -98,10 +109,8 @@ def test_a_kill_leaves_the_events_until_then(world: Path, tmp_path: Path, seed: 
     process.wait()
     assert log.read_text() == 'of the last run'
     written = part.read_text().splitlines()[:-1]  # the last line may be cut
-    whole = run(world, '--for', '3000', '--out', tmp_path)
-    assert whole.returncode == 0 and not part.exists()
-    lines = log.read_text().splitlines()
-    assert len(written) > 1 and written[:len(lines)] == lines[:len(written)]
+    assert len(written) > 1 and written[:len(whole)] == whole[:len(written)]
+    assert run(world, '--for', '1', '--out', tmp_path).returncode == 0 and not part.exists()
 
 
 def test_a_full_disk_leaves_whole_lines(world: Path, tmp_path: Path) -> None:
@@ -192,11 +201,12 @@ def test_pandas_reads_the_readings_with_types(tmp_path: Path) -> None:
     ('0:01,door/bathrom0,Open', "no door is named 'bathrom0'; did you mean bathroom0"),
     ('0:01,dor/bathroom0,Open', "there is no kind 'dor'; did you mean door"),
     ('0:01,door/bathroom0,Opne', "'Opne' is not a command of a door")])
-def test_a_wrong_order_is_reported_before_the_day(line: str, part: str, tmp_path: Path) -> None:
+def test_a_wrong_order_is_reported_before_the_day(command: Command, line: str, part: str,
+                                                  tmp_path: Path) -> None:
     path, day = tmp_path / 'flat.world', tmp_path / 'day.csv'
     path.write_text(FLAT)
     day.write_text(f'time,target,command\n{line}\n')
-    done = run(path, '--for', '30', '--day', day, '--out', tmp_path)
+    done = command('run', '--fast', path, '--for', '30', '--day', day, '--out', tmp_path)
     said, = done.stderr.splitlines()
     assert done.returncode == 1 and said.startswith(f'angen: {day}:2: ') and part in said
 
@@ -246,6 +256,7 @@ class Interrupting:
         return zlib.crc32(data, *before)
 
 
-def test_a_table_needs_a_known_ending(world: Path, tmp_path: Path) -> None:
-    done = run(world, '--for', '1', '--readings', tmp_path / 'r.xlsx', '--out', tmp_path)
+def test_a_table_needs_a_known_ending(command: Command, world: Path, tmp_path: Path) -> None:
+    done = command('run', '--fast', world, '--for', '1', '--readings', tmp_path / 'r.xlsx', '--out',
+                   tmp_path)
     assert done.returncode == 1 and '.csv.gz or .parquet' in done.stderr

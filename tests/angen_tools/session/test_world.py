@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Iterator
 
 import pytest
-from harness import WORLD, Master, end
+from harness import WORLD, Master, world_file
 
 from angen_tools.common.failure import Failure
 from angen_tools.session import Event, World, open_world
@@ -18,9 +18,7 @@ LIMIT = 60.0  # simulated s
 
 @pytest.fixture(scope='module')
 def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp('session') / 'small.world'
-    path.write_text(WORLD)
-    return path
+    return world_file(WORLD, tmp_path_factory.mktemp('session'))
 
 
 @pytest.fixture(scope='module', params=['in process', 'live'])
@@ -30,9 +28,8 @@ def world(request: pytest.FixtureRequest, file: Path) -> Iterator[World]:
         return
     master: Master = request.getfixturevalue('master')
     request.getfixturevalue('rospy_node')
-    node = master.node(file, file.parent / 'log', seed=7, rate=4)
-    yield open_world()
-    end(node)
+    with master.serving(file, file.parent, seed=7, rate=4):
+        yield open_world()
 
 
 @pytest.fixture
