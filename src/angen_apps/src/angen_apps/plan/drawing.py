@@ -18,7 +18,7 @@ from angen_tools.common.failure import Failure
 from angen_tools.common.text_file import shortened
 
 FARTHEST = 500.0  # m from the origin
-GREATEST = 1e5  # of other numbers
+GREATEST = 1e5  # the greatest other number
 LONGEST = 200  # characters of a text
 MOST = 5000  # entries of a list
 SENSORS = ('seed', 'casas', 'none')
@@ -85,7 +85,7 @@ def _plain(value: Any) -> Any:
     return value
 
 
-LEFT_OUT = ('remarks', 'meshes', 'entrances')  # of a plan
+LEFT_OUT = ('remarks', 'meshes', 'entrances')  # fields of a plan
 
 
 def _default(field: Any) -> Any:

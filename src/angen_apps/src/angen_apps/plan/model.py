@@ -128,7 +128,7 @@ class Sensor:
     """A sensor of one's own, beside those by rules; it faces the direction `yaw`, `pitch` down."""
 
     name: str
-    model: str  # of worlds/models
+    model: str  # a model of worlds/models
     x: float
     y: float
     z: float
