@@ -43,7 +43,7 @@ def drawn(name: str = 'kitchen') -> dict[str, Any]:
         'pieces': [{'name': name, 'source': 'table', 'thing': 'table', 'model': 'table', 'x': 3,
                     'y': 2.4, 'z': 0, 'yaw': 0, 'width': 0.7, 'depth': 1, 'height': 0.75}],
         'sensors': [{'name': name, 'model': 'pir', 'x': 0.2, 'y': 0.2, 'z': 2.2, 'yaw': 0.785}],
-        'movers': [{'name': name, 'kind': 'person', 'x': 1, 'y': 2},
+        'movers': [{'name': name, 'kind': 'person', 'x': 1, 'y': 2, 'habits': 'worker'},
                    {'name': name, 'kind': 'robot', 'x': 2, 'y': 2}]}]}, 'sensors': 'none'}
 
 
@@ -84,7 +84,9 @@ def test_rooms_and_findings_of_a_drawing(tmp_path: Path, worker: Worker) -> None
     desk = Desk(tmp_path / 'home.world', worker)
     found = desk.survey(drawn('bathroom'))
     assert [(room['name'], room['use']) for room in found['rooms']] == [('bathroom', 'bathroom')]
-    assert found['findings'] == []
+    assert found['findings'] == [] and found['ruled'] == []
+    ruled = desk.survey({**drawn(), 'sensors': 'seed'})['ruled']
+    assert sorted(sensor['model'] for sensor in ruled) == ['luminosity_sensor', 'pir', 'pir']
     shut = drawn()
     del shut['plan']['storeys'][0]['openings']
     assert any('outside' in text for text in desk.survey(shut)['findings'])

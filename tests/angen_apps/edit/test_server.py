@@ -24,8 +24,9 @@ class Simulation:
         self.worlds: list[Path] = []
         self.closed = False
 
-    def run(self, world: Path) -> str:
+    def run(self, world: Path, household: dict[str, str]) -> str:
         self.worlds.append(world)
+        assert household == {'kitchen': 'worker'}
         if len(self.worlds) == 1:
             raise Failure('the node ended')
         return 'http://127.0.0.1:1/'

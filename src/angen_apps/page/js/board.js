@@ -44,6 +44,10 @@ export class Board {
     this.preview = null;
     /** @type {{at: Point, key: string, does: string}[]} */
     this.handles = [];
+    /** @type {WeakMap<Item, {key: string, node: any}>} what was drawn of an item that is still the same */
+    this.drawn = new WeakMap();
+    /** @type {any[]} */
+    this.named = []; // shapes and names of rooms
     const on = (/** @type {string} */ name, /** @type {(e: any) => void} */ does) => this.element.addEventListener(name, does, { passive: false });
     on('pointerdown', (e) => this.down(e));
     on('pointermove', (e) => this.move(e));
@@ -119,7 +123,7 @@ export class Board {
       return ['openings', onWall(made, on.wall, gridded(on.u))];
     }
     if (list === 'lamps') return ['lamps', { name: '', x: free[0], y: free[1], z: storey.elevation + this.editor.ceiling - 0.3, flux: 800 }];
-    if (list === 'movers') return ['movers', { name: of, kind: of, x: free[0], y: free[1], yaw: normal(turn) }];
+    if (list === 'movers') return ['movers', { name: of, kind: of, x: free[0], y: free[1], yaw: normal(turn), ...(of === 'person' ? { habits: 'worker' } : {}) }];
     if (list === 'sensors') {
       const held = of.height ? this.beside(at, OFF, STICKS) : null, [x, y] = held ? held.at : free, way = yaw ?? (held ? held.yaw : 0) + turn;
       return ['sensors', { name: '', model: of.model, x, y, z: storey.elevation + (of.height || this.editor.ceiling - GAP), yaw: normal(way), pitch: of.pitch }];
@@ -390,6 +394,15 @@ export class Board {
     this.root.replaceChildren(this.grid(w, h), ...this.rooms(storey), ...this.walls(storey, chosen), ...this.things(storey, chosen), ...this.marks(storey, chosen), ...this.tooled(), ...this.frame(), ...this.grips());
   }
 
+  /** @param {Item} item @param {string} key what it looks like beside its own values @param {() => any} make @returns {any} */
+  once(item, key, make) {
+    const old = this.drawn.get(item);
+    if (old?.key === key) return old.node;
+    const node = make();
+    this.drawn.set(item, { key, node });
+    return node;
+  }
+
   /** @param {number} w @param {number} h m */
   grid(w, h) {
     const step = this.scale > 25 ? 1 : 5, [left, top] = [Math.floor((this.middle[0] - w / 2) / step) * step, Math.floor((-this.middle[1] - h / 2) / step) * step];
@@ -401,17 +414,19 @@ export class Board {
 
   /** @param {Item} storey */
   rooms(storey) {
+    if (this.preview || this.press?.does === 'pan') return this.named; // they need not be placed again
     const text = max(0.2, 12 / this.scale), taken = new Taken(), path = (/** @type {Point[]} */ p) => `M${p.map(([x, y]) => `${x} ${-y}`).join('L')}Z`;
     for (const item of ['pieces', 'lamps', 'sensors', 'movers'].flatMap((list) => storey[list] ?? [])) {
       const [c, s] = [abs(cos(item.yaw ?? 0)), abs(sin(item.yaw ?? 0))], [deep, wide] = [item.depth ?? 0.5, item.width ?? 0.5];
       taken.boxes.push([item.x, item.y, (c * deep + s * wide) / 2, (s * deep + c * wide) / 2]);
     }
     for (const { x, y, width } of storey.openings ?? []) taken.boxes.push([x, y, width / 2, width / 2]);
-    return this.editor.rooms.flatMap((room, i) => {
+    this.named = this.editor.rooms.flatMap((room, i) => {
       const name = `${room.name.replaceAll('_', ' ')} · ${areaOf(room.polygon).toFixed(1)} m²`, wide = (LETTER / 2) * text * name.length, [x, y] = nameOf(room.polygon, wide, text / 2, taken);
       return [svg('path', { class: `room-shape${this.editor.room === i ? ' chosen' : ''}`, d: [room.polygon, ...room.holes].map(path).join(''), 'fill-rule': 'evenodd', 'stroke-width': 0 }),
         svg('text', { class: 'room-name', x, y: -y + 0.35 * text, 'font-size': text }, name)];
     });
+    return this.named;
   }
 
   /** @param {Item} storey @param {Set<string>} chosen */
@@ -421,7 +436,10 @@ export class Board {
     const measured = chosen.size === 1 ? shown.filter(([i]) => chosen.has(`walls/${i}`)).map(([, wall]) => this.measure(wall.start, wall.end)) : [];
     const moving = this.preview ? shown.filter(([i, wall]) => wall !== (this.editor.storey.walls ?? [])[i]).map(([, wall]) => this.measure(wall.start, wall.end)) : [];
     return [...shown.filter(([i]) => chosen.has(`walls/${i}`)).map(([, wall]) => line(wall, 'wall chosen', 6 / this.scale)), ...shown.map(([, wall]) => line(wall, 'wall')),
-      ...(storey.openings ?? []).map((/** @type {Item} */ opening, /** @type {number} */ i) => this.opening(opening, chosen.has(`openings/${i}`))), ...measured, ...moving];
+      ...(storey.openings ?? []).map((/** @type {Item} */ opening, /** @type {number} */ i) => {
+        const mine = chosen.has(`openings/${i}`);
+        return this.once(opening, `${mine ? this.scale : ''}`, () => this.opening(opening, mine));
+      }), ...measured, ...moving];
   }
 
   /** @param {Item} opening @param {boolean} chosen @param {string} [cls] */
@@ -444,7 +462,10 @@ export class Board {
 
   /** @param {Item} storey @param {Set<string>} chosen */
   things(storey, chosen) {
-    return (storey.pieces ?? []).map((/** @type {Item} */ piece, /** @type {number} */ i) => this.piece(piece, chosen.has(`pieces/${i}`)));
+    return (storey.pieces ?? []).map((/** @type {Item} */ piece, /** @type {number} */ i) => {
+      const mine = chosen.has(`pieces/${i}`);
+      return this.once(piece, String(mine), () => this.piece(piece, mine));
+    });
   }
 
   /** @param {Item} piece @param {boolean} chosen @param {string} [cls] */
@@ -457,9 +478,10 @@ export class Board {
   /** @param {Item} storey @param {Set<string>} chosen */
   marks(storey, chosen) {
     const of = (/** @type {string} */ list) => [...(storey[list] ?? []).entries()];
+    const ruled = this.editor.ruled.flatMap((sensor) => [this.field(storey, sensor, false), this.once(sensor, String(this.scale), () => this.mark('sensors', sensor, false, 'ruled'))]);
     const fields = of('sensors').map(([i, sensor]) => this.field(storey, sensor, chosen.has(`sensors/${i}`)));
-    const marks = ['lamps', 'sensors', 'movers'].flatMap((list) => of(list).map(([i, item]) => this.mark(list, item, chosen.has(`${list}/${i}`))));
-    return [...fields.filter(Boolean), ...marks];
+    const marks = ['lamps', 'sensors', 'movers'].flatMap((list) => of(list).map(([i, item]) => this.once(item, `${this.scale} ${chosen.has(`${list}/${i}`)}`, () => this.mark(list, item, chosen.has(`${list}/${i}`)))));
+    return [...ruled.filter(Boolean), ...fields.filter(Boolean), ...marks];
   }
 
   /** @param {string} list @param {Item} item @param {boolean} chosen @param {string} [cls] */

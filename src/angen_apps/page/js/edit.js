@@ -16,6 +16,8 @@ export class Editor {
     this.catalog = { sensors: [], pieces: [] };
     /** @type {Record<string, number[][][]>} */
     this.symbols = {};
+    /** @type {string[]} */
+    this.profiles = []; // habits that a person can have
     /** @type {History} */
     this.history = /** @type {any} */ (null);
     this.floor = 0;
@@ -28,7 +30,7 @@ export class Editor {
     this.thickness = 0.1;
     /** @type {any[]} rooms of all floors, as the server found them */
     this.found = [];
-    /** @type {{findings: string[], remarks: string[], wrong?: string}} */
+    /** @type {{findings: string[], remarks: string[], ruled?: any[], wrong?: string}} */
     this.told = { findings: [], remarks: [] };
     this.version = 0;
     this.connected = true;
@@ -53,6 +55,9 @@ export class Editor {
   /** The rooms of the floor that is shown. */
   get rooms() { return this.found.filter((room) => room.storey === this.storey.number); }
 
+  /** @returns {any[]} the sensors of that floor that rules have placed */
+  get ruled() { return (this.told.ruled ?? []).filter((sensor) => sensor.storey === this.storey.number); }
+
   /** @returns {number} m of the floor's ceiling over it */
   get ceiling() { return Math.max(...(this.storey.walls ?? []).map((/** @type {any} */ wall) => wall.top - this.storey.elevation), 0) || HEIGHT; }
 
@@ -66,7 +71,7 @@ export class Editor {
       return;
     }
     const given = await answer.json();
-    Object.assign(this, { catalog: given.catalog, symbols: given.symbols, version: given.version });
+    Object.assign(this, { catalog: given.catalog, symbols: given.symbols, profiles: given.profiles, version: given.version });
     this.given = given;
     this.place = `angen-edit ${given.path}`;
     by('file').textContent = given.file;

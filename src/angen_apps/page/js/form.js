@@ -83,7 +83,10 @@ export class Form {
         this.number('Height, m', item.height, 0.05, (height) => put({ height }), 0.01, 10), degrees('Front, °')];
     }
     if (list === 'lamps') return [this.number('Light, lm', item.flux, 100, (flux) => put({ flux }), 0, 20000), this.number('Height, m', item.z - storey.elevation, 0.1, (high) => put({ z: exact(storey.elevation + high) }), 0.1, 10)];
-    if (list === 'movers') return [this.text('Name', item.name ?? '', (name) => put({ name }), item.kind), degrees('Direction, °')];
+    if (list === 'movers') {
+      const habits = el('select', { onchange: () => put({ habits: habits.value }) }, ...['', ...editor.profiles].map((value) => el('option', { value, selected: value === (item.habits ?? '') }, value ? words(value) : 'stands')));
+      return [this.text('Name', item.name ?? '', (name) => put({ name }), item.kind), degrees('Direction, °'), item.kind === 'person' ? el('label', {}, 'Lives as', habits) : null];
+    }
     if (list === 'sensors') {
       return [this.text('Name', item.name ?? '', (name) => put({ name }), 'by its room'), this.number('Height, m', item.z - storey.elevation, 0.1, (high) => put({ z: exact(storey.elevation + high) }), 0, 10), degrees('Direction, °'),
         this.number('Down, °', Math.round((item.pitch ?? 0) / DEGREE), 5, (value) => put({ pitch: exact(value * DEGREE) }), -90, 90)];

@@ -16,7 +16,9 @@ from angen_apps.plan.model import Plan, Room, Storey
 from angen_apps.plan.polygons import contains
 from angen_apps.plan.writer import world_of, write_world, written
 from angen_tools.common.catalog import angen_module, simulator
+from angen_tools.world import sdf
 
+MODELS = ('pir', 'pir_casas', 'luminosity_sensor')  # sensors that rules place
 CEILING = 2.5  # m, of a floor without walls
 SAME = 0.5  # share of the smaller of two rooms that is in both, if they are one
 
@@ -54,6 +56,7 @@ def survey(data: Any) -> dict[str, Any]:
               'polygon': room.polygon, 'holes': room.holes}
              for storey in plan.storeys for room in storey.rooms]
     root, counts = world_of(plan, drawing.sensors)
+    ruled = _by_rules(root, plan)
     for piece in root.iter('mesh'):  # looks do not matter, and their files are elsewhere
         visual = piece.getparent().getparent()
         visual.getparent().remove(visual)
@@ -61,7 +64,24 @@ def survey(data: Any) -> dict[str, Any]:
         world = angen_module().World.from_text(etree.tostring(root, encoding='unicode'))
     findings = [text.partition('; name it in <angen:')[0] for _, text in world.home_findings()
                 if not text.startswith('no <angen:')] if rooms else []
-    return {'rooms': rooms, 'findings': findings, 'remarks': plan.remarks, 'counts': counts}
+    return {'rooms': rooms, 'findings': findings, 'remarks': plan.remarks, 'counts': counts,
+            'ruled': ruled}
+
+
+def _by_rules(root: etree._Element, plan: Plan) -> list[dict[str, Any]]:
+    """The sensors that a world has beside the plan's own."""
+    own = {(sensor.model, sensor.x, sensor.y) for storey in plan.storeys
+           for sensor in storey.sensors}
+    found = []
+    for block in root.iterfind('world/include'):
+        model = block.findtext('uri').removeprefix('model://')
+        x, y, z, _, pitch, yaw = sdf.parse_pose(block.findtext('pose'))
+        if model in MODELS and (model, x, y) not in own:
+            storey = max((storey for storey in plan.storeys if storey.elevation <= z),
+                         key=lambda storey: storey.elevation)
+            found.append({'storey': storey.number, 'model': model, 'x': x, 'y': y, 'z': z,
+                          'pitch': pitch, 'yaw': yaw})
+    return found
 
 
 def write(data: Any, path: Path) -> str:

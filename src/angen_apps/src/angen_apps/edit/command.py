@@ -12,6 +12,7 @@ from angen_apps.edit.simulation import Simulation
 from angen_apps.edit.worker import Worker
 from angen_apps.imports.command import read_plan
 from angen_apps.plan.drawing import drawing_of, to_json
+from angen_apps.residents.profiles import names
 from angen_apps.web.command import page, serve, symbols
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import check_output
@@ -29,7 +30,8 @@ def edit(args: argparse.Namespace) -> None:
         worker = Worker()  # before there are threads
         try:
             desk = Desk(path, worker, worker.run(plan, _imported, plan, args) if plan else None)
-            given = {'catalog': worker.run('the catalog', catalog), 'symbols': symbols()}
+            given = {'catalog': worker.run('the catalog', catalog), 'symbols': symbols(),
+                     'profiles': names()}
             simulation = Simulation(args.host)
             serve('edit', lambda guard: Editor(desk, simulation, given, guard, page()), args.host,
                   args.port, args.json)

@@ -9,6 +9,8 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+from lxml import etree
+
 from angen_apps.edit import build
 from angen_apps.edit.worker import Worker
 from angen_apps.plan.drawing import from_json, recovered, to_json
@@ -97,6 +99,13 @@ class Desk:
         """The plan of the file as SVG; Failure if it cannot be drawn."""
         drawn: bytes = self._worker.run(self.path, _picture, self.path)
         return drawn
+
+    def household(self, drawing: Any) -> dict[str, str]:
+        """Names of the people in the file who live by habits, and these."""
+        names = etree.parse(str(self.path)).xpath('world/actor/@name')
+        people = [mover for storey in from_json(drawing, 'the drawing').plan.storeys
+                  for mover in storey.movers if mover.kind == 'person']
+        return {str(name): mover.habits for name, mover in zip(names, people) if mover.habits}
 
     def survey(self, drawing: Any) -> dict[str, Any]:
         """See build.survey."""

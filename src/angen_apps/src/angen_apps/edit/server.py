@@ -112,7 +112,8 @@ class Editor(Site):
             answer = {'version': desk.version, 'text': text}
             if what == 'simulate':
                 try:
-                    answer['address'] = await in_thread(self._simulation.run, desk.path)
+                    household = await in_thread(desk.household, drawing)
+                    answer['address'] = await in_thread(self._simulation.run, desk.path, household)
                 except Failure as failure:  # it is saved
                     answer['wrong'] = str(failure)
             return answer

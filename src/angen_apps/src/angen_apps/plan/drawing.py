@@ -28,7 +28,7 @@ CHOICES = {('Opening', 'kind'): ('door', 'window', 'opening'),
                                 'flat')}
 PLAIN = {('Piece', 'model'): r'\w*', ('Sensor', 'model'): r'\w+', ('Piece', 'thing'): r'\w*',
          ('Piece', 'mesh'): r'(?!.*\.\.)[\w./ -]*', ('Room', 'use'): r'\w*',
-         ('Label', 'use'): r'\w*'}
+         ('Label', 'use'): r'\w*', ('Mover', 'habits'): r'\w*'}
 LENGTHS = ('thickness', 'width', 'height', 'depth', 'slab', 'flux', 'ceiling', 'doorway')  # >= 0
 MARK = '<!-- angen drawing '
 KEPT = re.compile(re.escape(MARK) + r'([0-9a-f]{64}) (\{.*\}) -->\n\Z')

@@ -145,6 +145,7 @@ class Mover:
     x: float
     y: float
     yaw: float = 0.0
+    habits: str = ''  # profile by which a person lives there, when its drawing is simulated
 
 
 @dataclass(frozen=True)
