@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Draws the pictures of docs/web.md that show the page in chromium.
+"""Draws the pictures of docs/web.md and docs/edit.md that show the pages in chromium.
 
     ./angen shell
     python3 docs/web_pictures.py [NAME ...]
 
-NAME is live, replay, film or tower; without one it draws all.
+NAME is live, replay, film, tower or edit; without one it draws all.
 """
 from __future__ import annotations
 
@@ -28,6 +28,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / 'tests/ros'))
 
 from browser import Page, free_port  # noqa: E402
+from hand import Hand, draw_flat  # noqa: E402
 from selenium.webdriver.common.action_chains import ActionChains  # noqa: E402
 
 WIDTH, HEIGHT = 1280, 800
@@ -188,8 +189,35 @@ def tower(sandbox: Sandbox) -> None:
         save(page, 'web_tower')
 
 
+def edit(sandbox: Sandbox) -> None:
+    """The tutorial's apartment, drawn by hand; then on a phone."""
+    port = free_port()
+    sandbox.start(['angen', 'edit', str(sandbox.folder / 'home.world'), '--port', str(port)],
+                  'edit')
+    log = sandbox.folder / 'edit.log'
+    wait(lambda: f':{port}/' in log.read_text(), 'angen edit does not serve', LIMIT)
+    with tempfile.TemporaryDirectory() as folder:
+        page = Page(Path(folder), WIDTH, HEIGHT)
+        try:
+            for name, (wide, high) in (('edit', (WIDTH, HEIGHT)), ('edit_phone', PHONE)):
+                page.driver.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
+                    'width': wide, 'height': high, 'deviceScaleFactor': 1, 'mobile': False})
+                if name == 'edit':
+                    page.driver.get(f'http://127.0.0.1:{port}/')
+                    page.until('return !!window.angen?.history')
+                    page.run('angen.setTheme("light")')
+                    draw_flat(Hand(page))
+                page.run('angen.select(["sensors/1"]); angen.board.whole()')
+                page.until('return angen.kept && !angen.asking && !angen.stale')
+                time.sleep(1.0)
+                shown = Image.open(BytesIO(page.driver.get_screenshot_as_png())).convert('RGB')
+                shown.save(ROOT / f'docs/images/{name}.png', optimize=True)
+        finally:
+            page.close()
+
+
 def main(names: list[str]) -> None:
-    for make in (live, replay, film, tower):
+    for make in (live, replay, film, tower, edit):
         if not names or make.__name__ in names:
             with tempfile.TemporaryDirectory() as folder, Sandbox(Path(folder)) as sandbox:
                 make(sandbox)

@@ -29,7 +29,7 @@ LEFT_OUT = re.compile('|'.join((
     r'\./angen (shell|demo|build|wheel|package)( [^"]*)?$',  # as CI does
     r'\./angen (test|fuzz|coverage|tidy|docs)( [^"]*)?$',
     r'mosquitto_',  # ros/test_mqtt.py runs them
-    r'(\./)?angen (drive|watch$|care$|web|mqtt|replay .*--until)',  # hands, no end
+    r'(\./)?angen (drive|watch$|care$|web|edit|mqtt|replay .*--until)',  # hands, no end
     r'(\./)?angen (bench|task|situations$|generate|validate out|realism out)',  # minutes
     r'.*(ROS_NAMESPACE=|ROS_IP=|--ns )',  # ros/test_namespaces.py runs them
     r'rostopic pub -r', r'roslaunch', r'rosrun (image_view|angen_apps|angen_tools)',  # no end

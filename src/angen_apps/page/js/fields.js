@@ -42,7 +42,7 @@ export function fieldShape(home, sensor) {
  * @param {number[]} at
  * @param {number[]} way
  */
-function reach(polygon, at, way) {
+export function reach(polygon, at, way) {
   let nearest = Infinity;
   polygon.forEach(([x0, y0], i) => {
     const [x1, y1] = polygon[(i + 1) % polygon.length], [ex, ey] = [x1 - x0, y1 - y0];

@@ -1,10 +1,11 @@
 /** The plan of one floor, as SVG: a tap finds the nearest mark, and the keyboard reaches each. */
-import { by, el, glyph, isNarrow, svg, words } from './dom.js';
+import { by, el, isNarrow, svg, words } from './dom.js';
 import { fieldShape, yawOf } from './fields.js';
 import { roomText } from './labels.js';
 import { MOVES, scanPoints } from './overlays.js';
 import { Taken, around, nameOf } from './places.js';
 import { bytes } from './shapes.js';
+import { furniture, signOf } from './symbols.js';
 
 const SHOWN = new Set(['lamp', 'door', 'window', 'elevator', 'stove', 'heater', 'appliance', 'cabinet']);
 const LETTER = 0.66; // of a text's height: the width of a letter
@@ -194,13 +195,11 @@ export class Plan {
     const own = parts.flatMap((/** @type {any} */ part) => this.corners(part)).map((/** @type {number[]} */ [x, y]) => [(x - tx) * c + (y - ty) * s, (y - ty) * c - (x - tx) * s]);
     const [xs, ys] = [own.map((/** @type {number[]} */ [x]) => x), own.map((/** @type {number[]} */ [, y]) => y)];
     const [left, right, back, front] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-    const line = (/** @type {number[][]} */ points) => `M${points.map(([u, v]) => {
+    const at = (/** @type {number} */ u, /** @type {number} */ v) => {
       const [x, y] = [(left + right) / 2 + (u * (right - left)) / 2, (back + front) / 2 + (v * (front - back)) / 2];
-      return `${(tx + x * c - y * s).toFixed(3)} ${(-(ty + x * s + y * c)).toFixed(3)}`;
-    }).join('L')}`;
-    const round = parts.length === 1 && parts[0].type ? Array.from({ length: 24 }, (_, i) => [Math.cos((i * Math.PI) / 12), Math.sin((i * Math.PI) / 12)]) : [[-1, -1], [1, -1], [1, 1], [-1, 1]];
-    const hung = parts.every((/** @type {any} */ part) => low(part) > HUNG) ? ' hung' : '';
-    return [svg('path', { class: `furniture${hung}`, d: `${line(round)}Z` }), svg('path', { class: `symbol${hung}`, d: (home.symbols[thing.type] ?? []).map(line).join('') })];
+      return [tx + x * c - y * s, ty + x * s + y * c];
+    };
+    return furniture(home.symbols[thing.type], at, parts.length === 1 && Boolean(parts[0].type), parts.every((/** @type {any} */ part) => low(part) > HUNG));
   }
 
   /** @param {any} shape @returns {any} the box around a mesh; another shape as it is */
@@ -389,16 +388,5 @@ function away([x, y], [u, v, s, t]) {
 /** @param {import('./home.js').Home} home @param {any} e @returns {string} */
 const classOf = (home, e) => `item ${e.kind}${home.isRobot(e) ? ' robot' : ''}${home.kinds[e.kind]?.role === 'sensor' ? ' sensor' : ''}${MOVES.has(e.kind) ? ' moves' : ''}`;
 
-/**
- * The mark of a kind: a circle for people, robots and lamps, a square for other devices, a diamond for sensors.
- * @param {import('./home.js').Home} home @param {any} e @param {number} size half of its width
- * @returns {any[]}
- */
-function mark(home, e, size) {
-  if (LEAVES.includes(e.kind)) return [svg('path', { class: 'leaf' })];
-  if (home.kinds[e.kind]?.role === 'sensor') return [svg('path', { class: 'face', d: `M${size} 0L0 ${size}L${-size} 0L0 ${-size}Z` })];
-  if (home.isMover(e)) return [svg('path', { class: 'face', d: `M${size * 1.7} 0L${size * 0.5} ${-size * 0.85}V${size * 0.85}Z` }), svg('circle', { class: 'face', r: size })];
-  const part = size * Math.SQRT1_2;
-  if (e.kind === 'lamp') return [svg('circle', { class: 'face', r: size }), svg('path', { class: 'sign', d: `M${-part} ${-part}L${part} ${part}M${-part} ${part}L${part} ${-part}` })];
-  return [svg('rect', { class: 'face', x: -size, y: -size, width: 2 * size, height: 2 * size, rx: 0.3 * size }), svg('text', { class: 'sign', y: 0.55 * size, 'font-size': 1.6 * size }, glyph(e.kind))];
-}
+/** @param {import('./home.js').Home} home @param {any} e @param {number} size half of its width @returns {any[]} */
+const mark = (home, e, size) => (LEAVES.includes(e.kind) ? [svg('path', { class: 'leaf' })] : signOf(e.kind, size, home.kinds[e.kind]?.role === 'sensor', home.isMover(e)));

@@ -3,8 +3,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from angen_apps.cli import (apartment, automation, care, data, go, imports, locate, maps, mqtt,
-                            patrol, plan, situations, walktest, web)
+from angen_apps.cli import (apartment, automation, care, data, edit, go, imports, locate, maps,
+                            mqtt, patrol, plan, situations, walktest, web)
 
 
 def add_commands(commands: Any) -> None:
@@ -12,6 +12,6 @@ def add_commands(commands: Any) -> None:
     for add in (maps.add_map, go.add_go, patrol.add_task, walktest.add_walktest,
                 situations.add_situations, care.add_care, locate.add_locate, imports.add_import,
                 plan.add_plan, apartment.add_home, data.add_household, data.add_generate,
-                data.add_validate, data.add_realism, web.add_web, mqtt.add_mqtt,
+                data.add_validate, data.add_realism, web.add_web, edit.add_edit, mqtt.add_mqtt,
                 automation.add_automation_test):
         add(commands)

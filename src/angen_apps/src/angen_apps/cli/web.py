@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from angen_tools.cli.arguments import checked
-from angen_tools.cli.parser import add_world_file, command
+from angen_tools.cli.parser import Parser, add_world_file, command
 from angen_tools.common.port import port
 
 PORT = 8080
@@ -34,9 +34,14 @@ def add_web(commands: Any) -> None:
                      help='plays a run that record:= of ./angen run has recorded, or a home of '
                      'angen generate, with a time line')
     add_world_file(web, 'the world of --replay, if it is of a home of your own')
-    web.add_argument('--port', metavar='N', type=checked(port), default=PORT,
-                     help=f'port of the page ({PORT})')
-    web.add_argument('--host', metavar='ADDRESS', default='127.0.0.1',
-                     help='an address of this machine that other machines reach, or 0.0.0.0: the '
-                     'address that it prints then has a token (127.0.0.1)')
-    web.add_argument('--json', action='store_true', help='prints the address as JSON')
+    add_address(web, PORT)
+
+
+def add_address(parser: Parser, at: int) -> None:
+    """The options of a command that serves a page."""
+    parser.add_argument('--port', metavar='N', type=checked(port), default=at,
+                        help=f'port of the page ({at})')
+    parser.add_argument('--host', metavar='ADDRESS', default='127.0.0.1',
+                        help='an address of this machine that other machines reach, or 0.0.0.0: '
+                        'the address that it prints then has a token (127.0.0.1)')
+    parser.add_argument('--json', action='store_true', help='prints the address as JSON')

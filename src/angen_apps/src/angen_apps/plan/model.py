@@ -124,6 +124,41 @@ class Lamp:
 
 
 @dataclass(frozen=True)
+class Sensor:
+    """A sensor of one's own, beside those by rules; it faces the direction `yaw`, `pitch` down."""
+
+    name: str
+    model: str  # a model of worlds/models
+    x: float
+    y: float
+    z: float
+    yaw: float = 0.0
+    pitch: float = 0.0
+
+
+@dataclass(frozen=True)
+class Mover:
+    """A person or a robot that stands somewhere."""
+
+    name: str
+    kind: str  # person, robot
+    x: float
+    y: float
+    yaw: float = 0.0
+    habits: str = ''  # profile by which a person lives there, when its drawing is simulated
+
+
+@dataclass(frozen=True)
+class Label:
+    """A name in a room that is found between walls."""
+
+    name: str
+    x: float
+    y: float
+    use: str = ''
+
+
+@dataclass(frozen=True)
 class Lift:
     """A lift: the middle of its cabin, its inner size, and the floors at which it stops."""
 
@@ -153,6 +188,9 @@ class Storey:
     pieces: list[Piece] = field(default_factory=list)
     lamps: list[Lamp] = field(default_factory=list)
     cutouts: list[tuple[Point, ...]] = field(default_factory=list)  # holes in its floor
+    labels: list[Label] = field(default_factory=list)
+    sensors: list[Sensor] = field(default_factory=list)
+    movers: list[Mover] = field(default_factory=list)
 
 
 @dataclass

@@ -18,6 +18,7 @@ PART = 0.2  # m of a passage that more than two rooms share, for two of them
 HEIGHT = 2.1  # m
 NEAR = 6  # cells between the polygons of rooms that touch
 THIN = 0.04  # m across the opening
+PASSAGE = 'passage'  # the source of those
 AROUND = np.ones((3, 3), bool)  # cells beside each other
 
 
@@ -119,4 +120,4 @@ def _opening(edge: _Edge, raster: Grid, storey: Storey) -> Opening:
     x, y = (west + middle, south + across) if edge.axis == 0 else (west + across, south + middle)
     return Opening('opening', round(x, 3), round(y, 3), 0.0 if edge.axis == 0 else pi / 2,
                    round(edge.width, 3), storey.elevation, storey.elevation + HEIGHT,
-                   (-THIN / 2, THIN / 2), source='passage')
+                   (-THIN / 2, THIN / 2), source=PASSAGE)

@@ -10,17 +10,18 @@ from lxml import etree
 
 from angen_apps.plan import sensors as rules
 from angen_apps.plan.doors import GLASS, OAK, Hung, leaf_model
-from angen_apps.plan.finish import beside_box, sides, stem
+from angen_apps.plan.drawing import Drawing, drawing_of, kept
+from angen_apps.plan.finish import beside_box, room_at, sides, stem
 from angen_apps.plan.furnish import obstacles, piece_model
 from angen_apps.plan.lifts import add_lift
-from angen_apps.plan.names import line_of, with_number
-from angen_apps.plan.model import Lamp, Opening, Plan, Room, Storey
+from angen_apps.plan.names import Names, line_of, slug, with_number
+from angen_apps.plan.model import Lamp, Mover, Opening, Plan, Room, Storey
 from angen_apps.plan.slabs import Slabs, slabs
 from angen_apps.plan.travel import Obstacle, hang
 from angen_apps.plan.walls import Box, boxes
 from angen_models.sdf import (ANGEN, Part, add, add_home, add_link, add_plugin, add_pose, new_model,
                               numbers, spanned)
-from angen_models.world import add_world_plugins, comment, new_world
+from angen_models.world import add_world_plugins, comment, include, new_world
 from angen_tools.common.catalog import angen_module, simulator
 from angen_tools.common.files import make_folder, write_text
 from angen_tools.world import sdf
@@ -34,22 +35,25 @@ PANE = 0.02  # m, thickness of a pane that does not open
 INSIDE = 0.02  # m from a wall's face to the source of daylight
 FLOOR_THICK = 0.2  # m of the lowest floor
 ELEMENTS, PARTS = 8000, 200  # XML elements of a building, boxes of a link; more are divided
-SENSORS = ('seed', 'casas', 'none')
+ROBOT, ABOVE = 'turtlebot', 0.01  # m over the floor, on its wheels
 SEATS = ('chair', 'sofa', 'armchair', 'bed')
 
 
-def write_world(plan: Plan, path: Path, sensors: str = 'seed') -> dict[str, int]:
-    """Writes the world, and the meshes in a folder beside it; returns counts of its parts."""
+def write_world(plan: Plan, path: Path, sensors: str = 'seed', drawn: Drawing | None = None
+                ) -> dict[str, int]:
+    """Writes the world with its drawing, and the meshes in a folder beside it; returns counts of
+    its parts. `drawn`: the drawing from which the plan was made, if it was drawn."""
     folder = path.with_name(f'{path.stem}_meshes')
     for storey in plan.storeys:
-        storey.pieces = [replace(piece, mesh=f'{folder.name}/{piece.mesh}') if piece.mesh else piece
-                         for piece in storey.pieces]
+        storey.pieces = [replace(piece, mesh=f'{folder.name}/{piece.mesh}')
+                         if piece.mesh in plan.meshes else piece for piece in storey.pieces]
+    drawn = drawn or drawing_of(plan, sensors)
     root, counts = world_of(plan, sensors)
     if plan.meshes:
         make_folder(folder)
     for name, text in plan.meshes.items():
         write_text(folder / name, text)
-    _write_checked(path, f'<?xml version="1.0"?>\n{sdf.text(root)}')
+    _write_checked(path, kept(f'<?xml version="1.0"?>\n{sdf.text(root)}', drawn))
     return counts
 
 
@@ -88,6 +92,7 @@ def world_of(plan: Plan, sensors: str) -> tuple[etree._Element, dict[str, int]]:
         comment(world, storey.name)
         leaves = _add_storey(world, plan, storey, made[storey.number], sensors, counts, opened)
         shut |= {hung.name for hung in leaves if not hung.opens}
+    _add_own(world, plan)
     for lift in plan.lifts:
         add_lift(world, plan, lift)
         counts['lifts'] += 1
@@ -96,6 +101,35 @@ def world_of(plan: Plan, sensors: str) -> tuple[etree._Element, dict[str, int]]:
         plan.entrance = next((name for name in plan.entrances if name not in shut), plan.entrance)
         world.find(f'{{{ANGEN}}}home/{{{ANGEN}}}entrance').text = plan.entrance
     return root, counts
+
+
+def _add_own(world: etree._Element, plan: Plan) -> None:
+    """The sensors, people and robots that the plan has itself."""
+    names = Names()
+    for element in world.xpath('model/@name | include/name/text()'):
+        names.take(element)
+    for storey in plan.storeys:
+        for sensor in storey.sensors:
+            room = room_at(storey, (sensor.x, sensor.y))
+            text = f'{stem(room.name)}_' if room is not None else ''
+            text = slug(sensor.name or f'{text}{sensor.model}', 'sensor')
+            include(world, sensor.model, names.take(text, storey.number),
+                    (sensor.x, sensor.y, sensor.z, 0, sensor.pitch, sensor.yaw))
+        for mover in storey.movers:
+            name = names.take(slug(mover.name, mover.kind))
+            if mover.kind == 'robot':
+                include(world, ROBOT, name, (mover.x, mover.y, storey.elevation + ABOVE, 0, 0,
+                                             mover.yaw))
+            else:
+                _add_person(world, mover, name)
+
+
+def _add_person(world: etree._Element, mover: Mover, name: str) -> None:
+    """A person who stands at a place until a command."""
+    script = add(add(world, 'actor', name=name), 'script')
+    waypoint = add(add(script, 'trajectory', id='0', type='walking'), 'waypoint')
+    add(waypoint, 'time', 0)
+    add(waypoint, 'pose', numbers(mover.x, mover.y, 0, 0, 0, mover.yaw))
 
 
 def _with_namespace(root: etree._Element) -> tuple[etree._Element, etree._Element]:

@@ -9,11 +9,11 @@ import signal
 import socket
 import sys
 from pathlib import Path
-from typing import Any
+from typing import Any, Callable
 
 from angen_apps.plan.symbols import SYMBOLS
 from angen_apps.web.guard import Guard, is_loopback, url_host
-from angen_apps.web.server import Server, Source, listen
+from angen_apps.web.server import Server, Site, Source, listen
 from angen_tools.common.catalog import kinds
 from angen_tools.common.installed import share
 from angen_tools.common.port import not_served, require_free
@@ -40,8 +40,8 @@ def own_address() -> str:
     return '127.0.0.1'
 
 
-def show_address(url: str, with_code: bool, as_json: bool) -> None:
-    print(json.dumps({'address': url}) if as_json else f'angen web: {url}', flush=True)
+def show_address(url: str, with_code: bool, as_json: bool, command: str = 'web') -> None:
+    print(json.dumps({'address': url}) if as_json else f'angen {command}: {url}', flush=True)
     if with_code and not as_json:
         import qrcode
         code = qrcode.QRCode()
@@ -50,21 +50,18 @@ def show_address(url: str, with_code: bool, as_json: bool) -> None:
         sys.stdout.flush()
 
 
-async def _serve(source: Source, host: str, port: int, as_json: bool) -> None:
+async def _serve(command: str, site: Callable[[Guard], Site], host: str, port: int, as_json: bool
+                 ) -> None:
     anywhere = host in ('0.0.0.0', '::')
     shown = own_address() if anywhere else host
     guard = Guard(host, port, {shown, socket.gethostname()})
-    if guard.token:
-        source.store.put('token', guard.token)  # for addresses that a page gives
 
     async def started(_: int) -> None:
         query = f'?token={guard.token}' if guard.token else ''
-        show_address(f'http://{url_host(shown)}:{port}/{query}', bool(guard.token), as_json)
+        show_address(f'http://{url_host(shown)}:{port}/{query}', bool(guard.token), as_json,
+                     command)
 
-    source.store.put('symbols', {name: [[[round(x, 3), round(y, 3)] for x, y in line]
-                                        for line in lines] for name, lines in SYMBOLS.items()})
-    work = asyncio.ensure_future(
-        listen(Server(source, guard, page(), described_kinds()), host, port, started))
+    work = asyncio.ensure_future(listen(site(guard), host, port, started))
     loop = asyncio.get_running_loop()
     for number in (signal.SIGINT, signal.SIGTERM):
         loop.add_signal_handler(number, work.cancel)
@@ -75,13 +72,29 @@ async def _serve(source: Source, host: str, port: int, as_json: bool) -> None:
             raise not_served(host, port, error) from None
 
 
-def serve(source: Source, host: str, port: int, as_json: bool) -> None:
-    """Serves until Ctrl-C."""
+def serve(command: str, site: Callable[[Guard], Site], host: str, port: int, as_json: bool) -> None:
+    """Serves a site until Ctrl-C; `command` is that of angen."""
     logging.basicConfig(level=logging.WARNING, format='%(message)s')
     if not is_loopback(host):
-        print('angen web: reachable from other machines; anyone with the address and its token '
-              'controls the building, and nothing is encrypted', file=sys.stderr)
-    asyncio.run(_serve(source, host, port, as_json))
+        print(f'angen {command}: reachable from other machines; anyone with the address and its '
+              'token controls the building, and nothing is encrypted', file=sys.stderr)
+    asyncio.run(_serve(command, site, host, port, as_json))
+
+
+def symbols() -> dict[str, Any]:
+    """The lines of the symbols of furniture."""
+    return {name: [[[round(x, 3), round(y, 3)] for x, y in line] for line in lines]
+            for name, lines in SYMBOLS.items()}
+
+
+def _serve_source(source: Source, host: str, port: int, as_json: bool) -> None:
+    def site(guard: Guard) -> Site:
+        if guard.token:
+            source.store.put('token', guard.token)  # for addresses that a page gives
+        return Server(source, guard, page(), described_kinds())
+
+    source.store.put('symbols', symbols())
+    serve('web', site, host, port, as_json)
 
 
 def web_recording(path: Path, world: Path | None, host: str, port: int,
@@ -95,7 +108,7 @@ def web_recording(path: Path, world: Path | None, host: str, port: int,
         from angen_apps.web.recording import Recording
         played = Recording(path)
     with played:
-        serve(played, host, port, as_json)
+        _serve_source(played, host, port, as_json)
 
 
 def web_live(host: str, port: int, as_json: bool) -> None:
@@ -104,4 +117,4 @@ def web_live(host: str, port: int, as_json: bool) -> None:
     from angen_apps.web.node import start_node
     require_free(host, port)
     start_node('web')
-    serve(Feed(), host, port, as_json)
+    _serve_source(Feed(), host, port, as_json)

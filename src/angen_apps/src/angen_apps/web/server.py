@@ -88,30 +88,42 @@ class Browser:
                 await asyncio.sleep(PERIOD)
 
 
-class Server:
-    """The application; `page` is the folder of its files."""
+class Site:
+    """The application with its files: those of the folder `page`, of which `index` is the first."""
 
-    def __init__(self, source: Source, guard: Guard, page: Path, kinds: dict[str, Any]) -> None:
-        self._source = source
-        self._files = Files(page)
-        self._kinds = gzip.compress(json_text(kinds).encode())
-        self._browsers: set[Browser] = set()
-        self._scene: tuple[int, bytes] = (0, b'')
-        self._tasks: set[asyncio.Task[None]] = set()
+    def __init__(self, guard: Guard, page: Path, index: str, largest: int) -> None:
+        """`largest`: bytes of a request."""
+        self._files, self._name = Files(page), index
         self.clients: set[Any] = set()  # protocols of connections that sent a request
         self.app = web.Application(middlewares=[self._count_client, guard.middleware],
-                                   client_max_size=LARGEST_MESSAGE)
-        self.app.add_routes([web.get('/', self._index), web.get('/socket', self._socket),
-                             web.get('/scene.json', self._get_scene),
-                             web.get('/kinds.json', self._get_kinds),
+                                   client_max_size=largest)
+        self.app.add_routes([web.get('/', self._index),
                              web.get('/page/{name:.+}', self._files.get)])
-        self.app.on_startup.append(self._start)
-        self.app.on_shutdown.append(self._stop)
 
     @web.middleware
     async def _count_client(self, request: web.Request, handler: Handler) -> web.StreamResponse:
         self.clients.add(request.protocol)
         return await handler(request)
+
+    async def _index(self, request: web.Request) -> web.StreamResponse:
+        return await self._files.answer(request, self._name)
+
+
+class Server(Site):
+    """Serves a source."""
+
+    def __init__(self, source: Source, guard: Guard, page: Path, kinds: dict[str, Any]) -> None:
+        super().__init__(guard, page, 'index.html', LARGEST_MESSAGE)
+        self._source = source
+        self._kinds = gzip.compress(json_text(kinds).encode())
+        self._browsers: set[Browser] = set()
+        self._scene: tuple[int, bytes] = (0, b'')
+        self._tasks: set[asyncio.Task[None]] = set()
+        self.app.add_routes([web.get('/socket', self._socket),
+                             web.get('/scene.json', self._get_scene),
+                             web.get('/kinds.json', self._get_kinds)])
+        self.app.on_startup.append(self._start)
+        self.app.on_shutdown.append(self._stop)
 
     async def _start(self, _: web.Application) -> None:
         loop = asyncio.get_running_loop()
@@ -148,9 +160,6 @@ class Server:
     def _request(self) -> None:
         topics = {topic for browser in self._browsers for topic in browser.requested}
         self._source.request(topics if self._browsers else None)
-
-    async def _index(self, request: web.Request) -> web.StreamResponse:
-        return await self._files.answer(request, 'index.html')
 
     async def _get_kinds(self, _: web.Request) -> web.Response:
         return web.Response(body=self._kinds, content_type='application/json', headers=PACKED)
@@ -254,7 +263,7 @@ def pack(scene: dict[str, Any]) -> bytes:
     return gzip.compress(json_text(scene).encode(), 5)
 
 
-async def close_idle(server: Server, runner: web.AppRunner) -> None:
+async def close_idle(server: Site, runner: web.AppRunner) -> None:
     """Closes connections without a request in time, which would use up those of others."""
     began: dict[Any, float] = {}
     while True:
@@ -269,7 +278,7 @@ async def close_idle(server: Server, runner: web.AppRunner) -> None:
                 protocol.force_close()
 
 
-async def listen(server: Server, host: str, port: int,
+async def listen(server: Site, host: str, port: int,
                  started: Callable[[int], Awaitable[None]]) -> None:
     """Serves until cancelled; `started` gets the port."""
     runner = web.AppRunner(server.app, access_log=None, handle_signals=False)

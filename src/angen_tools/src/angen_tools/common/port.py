@@ -27,3 +27,10 @@ def require_free(host: str, number: int) -> None:
 def not_served(host: str, number: int, error: OSError) -> Failure:
     return Failure(f'{host}:{number} cannot be served: {error.strerror}; choose another with '
                    '--port, or port:= of ./angen run')
+
+
+def free_port() -> int:
+    """A port of 127.0.0.1 that nobody uses now."""
+    with socket.socket() as probe:
+        probe.bind(('127.0.0.1', 0))
+        return int(probe.getsockname()[1])

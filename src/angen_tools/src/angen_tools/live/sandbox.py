@@ -6,7 +6,6 @@ import os
 import re
 import shutil
 import signal
-import socket
 import subprocess
 import threading
 import time
@@ -16,6 +15,7 @@ from typing import Any, Iterator
 
 from angen_tools.common.failure import Failure
 from angen_tools.common.installed import share
+from angen_tools.common.port import free_port
 from angen_tools.common.wait import wait
 from angen_tools.common.watchdog import watchdog
 from angen_tools.entry.master import master_command
@@ -41,9 +41,7 @@ class Sandbox:
         self.launched = 0.0  # when the last node was started, s of wall time
         self._all = ExitStack()
         self._all.enter_context(watchdog())
-        with socket.socket() as probe:
-            probe.bind(('127.0.0.1', 0))
-            port = probe.getsockname()[1]
+        port = free_port()
         uri = f'http://127.0.0.1:{port}'
         # for this process too, which is to become a node of that master
         os.environ.update(ROS_MASTER_URI=uri, ROS_IP='127.0.0.1', ROS_LOG_DIR=str(folder),

@@ -1,0 +1,499 @@
+/** The page of angen edit: a home is drawn, checked while one draws, saved and simulated. */
+import { Board } from './board.js';
+import { by, el, notice } from './dom.js';
+import { GRID, HEIGHT, History, apply, copied, empty, innerPoint, keysOf, middleOf, moved, removed, shifted, turned, within } from './drawing.js';
+import { Form, labelIn } from './form.js';
+import { Shelf } from './shelf.js';
+
+const KEEP = 400, SURVEY = 350, AGAIN = 1500; // ms after a change until it is kept, and checked; between tries
+const FINE = 0.01; // m of an arrow key with Shift
+const COPIES = 'angen-edit-copies'; // in this browser's session
+const TOOLS = [['select', '⬉', 'Select', 'V'], ['wall', '╱', 'Walls', 'W'], ['room', '▭', 'Room', 'Q']];
+
+export class Editor {
+  constructor() {
+    /** @type {any} */
+    this.catalog = { sensors: [], pieces: [] };
+    /** @type {Record<string, number[][][]>} */
+    this.symbols = {};
+    /** @type {string[]} */
+    this.profiles = []; // habits that a person can have
+    /** @type {History} */
+    this.history = /** @type {any} */ (null);
+    this.floor = 0;
+    /** @type {string[]} */
+    this.selection = [];
+    /** @type {number | null} index in the rooms that are shown */
+    this.room = null;
+    this.several = false;
+    this.closed = true;
+    this.thickness = 0.1;
+    /** @type {any[]} rooms of all floors, as the server found them */
+    this.found = [];
+    /** @type {{findings: string[], remarks: string[], ruled?: any[], wrong?: string}} */
+    this.told = { findings: [], remarks: [] };
+    this.version = 0;
+    this.connected = true;
+    this.dirty = false;
+    this.base = ''; // the drawing that is saved, as text
+    this.place = ''; // the key of the drawing in this browser
+    this.board = new Board(this);
+    this.setTheme(localStorage.getItem('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
+    by('theme').addEventListener('click', () => this.setTheme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark'));
+    by('help').addEventListener('click', () => this.help());
+    by('undo').addEventListener('click', () => this.undo());
+    by('redo').addEventListener('click', () => this.redo());
+    by('save').addEventListener('click', () => this.save());
+    by('simulate').addEventListener('click', () => this.simulate());
+    document.addEventListener('keydown', (e) => this.key(e));
+    addEventListener('beforeunload', (e) => { if (this.dirty && !this.connected) e.preventDefault(); });
+    this.load();
+  }
+
+  get storey() { return this.history.now.plan.storeys[this.floor]; }
+
+  /** The rooms of the floor that is shown. */
+  get rooms() { return this.found.filter((room) => room.storey === this.storey.number); }
+
+  /** @returns {any[]} the sensors of that floor that rules have placed */
+  get ruled() { return (this.told.ruled ?? []).filter((sensor) => sensor.storey === this.storey.number); }
+
+  /** @returns {number} m of the floor's ceiling over it */
+  get ceiling() { return Math.max(...(this.storey.walls ?? []).map((/** @type {any} */ wall) => wall.top - this.storey.elevation), 0) || HEIGHT; }
+
+  // --- the server
+
+  async load() {
+    const answer = await fetch('/home.json').catch(() => null);
+    if (!answer?.ok) {
+      this.setStatus('off', 'No server');
+      setTimeout(() => this.load(), AGAIN);
+      return;
+    }
+    const given = await answer.json();
+    Object.assign(this, { catalog: given.catalog, symbols: given.symbols, profiles: given.profiles, version: given.version });
+    this.given = given;
+    this.place = `angen-edit ${given.path}`;
+    by('file').textContent = given.file;
+    document.title = `${given.file}: Angen`;
+    const saved = given.drawing ?? empty(), draft = this.newest(given.draft);
+    this.base = JSON.stringify(saved);
+    this.history = new History(draft ?? saved);
+    this.dirty = JSON.stringify(this.history.now) !== this.base;
+    this.closed = Boolean(given.reason);
+    this.shelf = new Shelf(this);
+    this.form = new Form(this);
+    this.buildTools();
+    if (this.closed) this.showClosed(given.reason);
+    else if (this.dirty) this.ask('The changes that were not saved are here again.', [['Continue', () => {}], ['Show the saved home', () => this.discard()]]);
+    this.listen();
+    this.changed();
+    this.board.whole();
+  }
+
+  /** @param {{at: number, drawing: any} | null} draft of the server @returns {any} the drawing that was changed last, here or there */
+  newest(draft) {
+    let own = null;
+    try {
+      own = JSON.parse(localStorage.getItem(this.place) ?? 'null');
+    } catch { /* it is not ours */ }
+    const last = own?.drawing?.plan?.storeys?.length && own.at > (draft?.at ?? 0) ? own : draft;
+    return last?.drawing ?? null;
+  }
+
+  /** @param {string} kind @param {any} [order] @returns {Promise<any>} */
+  async order(kind, order = {}) {
+    try {
+      const answer = await fetch(`/do/${kind}`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ ...order, base: this.version }) });
+      const said = await answer.json();
+      this.setConnected(true);
+      return { ...said, ok: answer.ok, conflict: answer.status === 409 };
+    } catch {
+      this.setConnected(false);
+      return { ok: false, lost: true, text: 'There is no connection to the server; the drawing is kept in this browser.' };
+    }
+  }
+
+  listen() {
+    const socket = new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/windows`);
+    socket.onopen = () => { this.setConnected(true); };
+    socket.onmessage = (event) => {
+      const { windows } = JSON.parse(event.data);
+      if (windows > 1 && !this.closed) this.hint(`This home is open in ${windows} windows: change it in one of them`);
+    };
+    socket.onclose = () => {
+      this.setConnected(false);
+      setTimeout(() => this.listen(), AGAIN);
+    };
+  }
+
+  /** @param {boolean} connected */
+  setConnected(connected) {
+    const back = connected && !this.connected;
+    this.connected = connected;
+    this.showStatus();
+    if (back && this.dirty) this.later();
+  }
+
+  // --- changes
+
+  /** @param {import('./drawing.js').Edit} edit @param {string[]} [selection] after it */
+  do(edit, selection = []) {
+    if (this.closed) return;
+    this.history.do({ ...edit, storey: this.floor });
+    this.selection = selection;
+    this.room = null;
+    this.changed();
+  }
+
+  /** @param {any} edit @returns {any} the floor as it would be */
+  previewed(edit) { return apply(this.history.now, { ...edit, storey: this.floor }).plan.storeys[this.floor]; }
+
+  undo() { this.step(this.history.undo()); }
+  redo() { this.step(this.history.redo()); }
+
+  /** @param {boolean} stepped */
+  step(stepped) {
+    if (!stepped) return;
+    this.selection = [];
+    this.room = null;
+    this.floor = Math.min(this.floor, this.history.now.plan.storeys.length - 1);
+    this.changed();
+  }
+
+  /** Shows, keeps and checks the drawing. */
+  changed() {
+    this.dirty = JSON.stringify(this.history.now) !== this.base;
+    this.show();
+    if (this.closed) return;
+    try {
+      if (this.dirty) localStorage.setItem(this.place, JSON.stringify({ at: Date.now(), drawing: this.history.now }));
+      else localStorage.removeItem(this.place);
+    } catch { /* there is no place; the server keeps it too */ }
+    this.later();
+  }
+
+  later() {
+    clearTimeout(this.keeping);
+    clearTimeout(this.surveying);
+    this.keeping = setTimeout(() => this.keep(), KEEP);
+    this.surveying = setTimeout(() => this.survey(), SURVEY);
+  }
+
+  async keep() {
+    if (!this.dirty || this.conflict) return;
+    const answer = await this.order('keep', { drawing: this.history.now, at: Date.now() });
+    if (answer.ok) this.version = answer.version;
+    else if (answer.conflict) this.showConflict(answer);
+    else if (!answer.lost) notice(`The draft is not kept: ${answer.text}`, true);
+    this.kept = answer.ok;
+    this.showStatus();
+  }
+
+  async survey() {
+    if (this.asking) {
+      this.stale = true;
+      return;
+    }
+    this.asking = true;
+    const answer = await this.order('survey', { drawing: this.history.now });
+    this.asking = false;
+    if (answer.ok) {
+      this.found = answer.rooms;
+      this.told = answer;
+    } else if (!answer.lost) this.told = { findings: [], remarks: [], wrong: answer.text };
+    if (this.room !== null && !this.rooms[this.room]) this.room = null;
+    this.showFindings();
+    this.board.draw();
+    if (this.room !== null) this.form?.show();
+    if (this.stale) {
+      this.stale = false;
+      this.survey();
+    }
+  }
+
+  /** @param {boolean} [anyway] also if another program changed the file */
+  async save(anyway = false) {
+    if (this.closed) return;
+    clearTimeout(this.keeping);
+    const answer = await this.order('save', { drawing: this.history.now, anyway });
+    this.saved(answer, () => this.save(true));
+    if (answer.ok) notice(answer.text);
+  }
+
+  /** @param {any} answer @param {() => void} anyway */
+  saved(answer, anyway) {
+    if (answer.conflict) this.showConflict(answer, anyway);
+    else if (!answer.ok) notice(answer.text, true);
+    if (!answer.ok) return;
+    this.version = answer.version;
+    this.base = JSON.stringify(this.history.now);
+    this.dirty = false;
+    localStorage.removeItem(this.place);
+    this.show();
+  }
+
+  async simulate(anyway = false) {
+    if (this.closed) return;
+    clearTimeout(this.keeping);
+    const shown = window.open('', 'angen-home'); // while it is the answer to a click
+    by('simulate').disabled = true;
+    this.hint('Writes the world and starts the simulator …');
+    const answer = await this.order('simulate', { drawing: this.history.now, anyway });
+    by('simulate').disabled = false;
+    this.hint('');
+    this.saved(answer, () => this.simulate(true));
+    if (answer.address && shown) shown.location.href = answer.address;
+    else if (answer.address) location.href = answer.address;
+    else shown?.close();
+    if (answer.wrong) notice(`It is saved, and does not run: ${answer.wrong}`, true);
+  }
+
+  async discard() {
+    const answer = await this.order('discard');
+    if (answer.conflict) this.showConflict(answer);
+    if (!answer.ok) return;
+    localStorage.removeItem(this.place);
+    location.reload();
+  }
+
+  /** @param {any} answer @param {() => void} [anyway] */
+  showConflict(answer, anyway) {
+    this.conflict = true;
+    this.ask(`${answer.text[0].toUpperCase()}${answer.text.slice(1)}.`, [
+      ['Show the other', () => { localStorage.removeItem(this.place); location.reload(); }],
+      ['Keep mine', () => {
+        this.conflict = false;
+        this.version = answer.version;
+        if (anyway) anyway();
+        else this.keep();
+      }]]);
+  }
+
+  // --- a selection
+
+  /** @param {string[]} keys */
+  select(keys) {
+    this.selection = keys;
+    this.room = null;
+    this.show();
+  }
+
+  /** @param {number[] | null} at */
+  selectRoom(at) {
+    this.selection = [];
+    const index = at ? this.rooms.findIndex((room) => inRoom(room, at)) : -1;
+    this.room = index < 0 ? null : index;
+    this.show();
+  }
+
+  /** @param {any} room @param {string} name @param {string} use */
+  nameRoom(room, name, use) {
+    const own = (this.storey.rooms ?? []).findIndex((/** @type {any} */ one) => inRoom(one, innerPoint(room.polygon))), in_ = labelIn(this.storey, room), [x, y] = innerPoint(room.polygon).map((value) => Math.round(value * 1e3) / 1e3);
+    const index = this.room, named = { name, ...(use ? { use } : {}) };
+    if (own >= 0) this.do({ change: { [`rooms/${own}`]: { ...this.storey.rooms[own], name, use } } });
+    else if (in_) this.do({ change: { [in_.key]: name || use ? { x: in_.label.x, y: in_.label.y, ...named } : null } });
+    else this.do({ add: [['labels', { x, y, ...named }]] });
+    room.name = name;
+    if (use) room.use = use;
+    this.room = index;
+    this.show();
+  }
+
+  remove() { if (this.selection.length) this.do(removed(this.storey, this.selection)); }
+
+  /** @param {number} angle */
+  turn(angle) {
+    if (this.board.tool.name === 'put') {
+      this.board.tool.turn += angle;
+      this.board.draw();
+    } else if (this.selection.length) this.do(turned(this.storey, this.selection, angle), this.selection);
+  }
+
+  copy() {
+    if (this.selection.length) sessionStorage.setItem(COPIES, JSON.stringify(copied(this.storey, this.selection)));
+  }
+
+  /** @param {[string, any][]} items @param {number} dx @param {number} dy */
+  add(items, dx, dy) {
+    const before = this.storey, made = shifted(items, dx, dy), keys = keysOf(before);
+    if (!made.length) return;
+    const counts = /** @type {Record<string, number>} */ ({});
+    const added = made.map(([list]) => `${list}/${(before[list]?.length ?? 0) + (counts[list] = (counts[list] ?? -1) + 1)}`);
+    this.do({ add: made }, added.filter((key) => !keys.includes(key) && !key.startsWith('labels/')));
+  }
+
+  paste() {
+    /** @type {[string, any][]} */
+    const items = JSON.parse(sessionStorage.getItem(COPIES) ?? '[]');
+    if (!items.length) return;
+    const storey = Object.fromEntries(items.map(([list]) => [list, items.filter(([name]) => name === list).map(([, item]) => item)])), [mx, my] = middleOf(storey, keysOf(storey)), [x, y] = this.board.inside ? this.board.at : [mx + 0.5, my - 0.5];
+    this.add(items, Math.round((x - mx) / GRID) * GRID, Math.round((y - my) / GRID) * GRID);
+  }
+
+  duplicate() { this.add(copied(this.storey, this.selection), 0.5, -0.5); }
+
+  /** @param {any} what of the catalog */
+  put(what) {
+    if (this.closed) return;
+    this.selection = [];
+    this.room = null;
+    this.board.use({ name: 'put', ...what });
+    this.form?.show();
+    this.hint(what.list === 'openings' ? 'Press on a wall; R turns it' : what.list === 'sensors' ? 'Press at its place, and drag to aim it' : 'Press at its place; R turns it');
+    by('board').focus();
+  }
+
+  // --- keys
+
+  /** @param {KeyboardEvent} e */
+  key(e) {
+    const target = /** @type {any} */ (e.target);
+    if (/^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName ?? '') || by('dialog').open || !this.history) return;
+    const control = e.ctrlKey || e.metaKey, key = e.key.length === 1 ? e.key.toLowerCase() : e.key;
+    if (control ? this.controlled(key, e.shiftKey) : this.pressed(e, key)) e.preventDefault();
+  }
+
+  /** @param {string} key @param {boolean} shift @returns {boolean} */
+  controlled(key, shift) {
+    /** @type {Record<string, () => void>} */
+    const keys = { z: () => (shift ? this.redo() : this.undo()), y: () => this.redo(), c: () => this.copy(), v: () => this.paste(), x: () => { this.copy(); this.remove(); }, d: () => this.duplicate(), s: () => this.save(),
+      a: () => this.select(keysOf(this.storey)) };
+    keys[key]?.();
+    return key in keys;
+  }
+
+  /** @param {KeyboardEvent} e @param {string} key @returns {boolean} */
+  pressed(e, key) {
+    const { board } = this, onBoard = document.activeElement === by('board') || document.activeElement === document.body;
+    if (e.key === 'Escape') {
+      if (board.tool.from) board.use(board.tool);
+      else if (board.tool.name !== 'select') board.use({ name: 'select' });
+      else this.select([]);
+      this.hint('');
+      return true;
+    }
+    if (onBoard && board.key(e.key)) return true;
+    const way = /** @type {any} */ ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] })[e.key];
+    if (way && onBoard) {
+      const step = e.shiftKey ? FINE : GRID;
+      if (this.selection.length) this.do(moved(this.storey, this.selection, way[0] * step, way[1] * step), this.selection);
+      else board.middle = [board.middle[0] + way[0] * 0.5, board.middle[1] + way[1] * 0.5];
+      board.draw();
+      return true;
+    }
+    /** @type {Record<string, () => void>} */
+    const keys = { r: () => this.turn((e.shiftKey ? 15 : 90) * (Math.PI / 180)), Delete: () => this.remove(), Backspace: () => this.remove(), v: () => board.use({ name: 'select' }), w: () => board.use({ name: 'wall' }), q: () => board.use({ name: 'room' }),
+      '.': () => this.next(1), ',': () => this.next(-1), '+': () => board.zoom(1.25), '-': () => board.zoom(0.8), h: () => board.whole(), t: () => by('theme').click(), '?': () => this.help() };
+    keys[key]?.();
+    return key in keys;
+  }
+
+  /** @param {number} way to the next or the last thing */
+  next(way) {
+    const keys = keysOf(this.storey).filter((key) => !key.startsWith('labels/')), at = keys.indexOf(this.selection[0]);
+    if (keys.length) this.select([keys[(at < 0 ? (way > 0 ? 0 : keys.length - 1) : at + way + keys.length) % keys.length]]);
+  }
+
+  help() {
+    const rows = [['Walls (W)', 'press where they begin, then at each corner; type a length and Enter'], ['Room (Q)', 'press at two corners, or drag'], ['Click', 'selects; with Shift several; in a room: its name'], ['Drag', 'moves what is selected; on the ground selects all within'],
+      ['Wheel, right button', 'zooms, moves the sheet; on a phone two fingers'], ['Arrows', '0.1 m, with Shift 0.01 m; with a tool: its place, Enter puts'], ['R, Shift+R', 'turns by 90°, by 15°; a door: hinge and side'], ['. ,', 'the next, the last thing'],
+      ['Delete', 'removes it'], ['Ctrl+C X V D A', 'copy, cut, paste, twice, all'], ['Ctrl+Z Y', 'undo, redo'], ['Ctrl+S', 'saves'], ['Esc', 'ends a tool'], ['H, + −', 'the whole home, zoom'], ['Alt', 'turns a sensor freely']];
+    by('dialog').replaceChildren(el('h2', {}, 'Keys'), el('dl', {}, ...rows.flatMap(([key, text]) => [el('dt', {}, el('kbd', {}, key)), el('dd', {}, text)])), el('form', { method: 'dialog' }, el('button', { class: 'main' }, 'Close')));
+    by('dialog').showModal();
+  }
+
+  // --- what it shows
+
+  show() {
+    this.board.draw();
+    this.form?.show();
+    this.shelf?.show();
+    this.buildFloors();
+    by('undo').disabled = this.closed || this.history.at === 0;
+    by('redo').disabled = this.closed || this.history.at === this.history.all.length - 1;
+    by('save').disabled = this.closed;
+    by('simulate').disabled = this.closed;
+    this.showStatus();
+  }
+
+  showStatus() {
+    if (!this.history || this.closed) return;
+    if (!this.connected) this.setStatus('off', 'No connection: kept in this browser');
+    else if (this.dirty) this.setStatus('kept', this.kept ? 'Draft kept' : 'Changed');
+    else this.setStatus('', this.given.drawing || this.version ? 'Saved' : 'New');
+  }
+
+  /** @param {string} cls @param {string} text */
+  setStatus(cls, text) {
+    by('status').className = cls;
+    by('status').textContent = text;
+    by('status').title = text;
+  }
+
+  showFindings() {
+    const { findings, remarks, wrong } = this.told, item = (/** @type {string} */ text, cls = '') => el('li', { class: cls }, text);
+    const rows = wrong ? [item(wrong, 'bad')] : [...findings.map((text) => item(text)), ...remarks.map((text) => item(text))];
+    const none = this.rooms.length ? 'Nothing is wrong with the home.' : 'Draw a room first: the tool Room, or walls around it.';
+    by('findings').replaceChildren(el('h2', {}, rows.length ? `Findings (${rows.length})` : 'Findings'), el('ul', {}, ...(rows.length ? rows : [item(none, 'good')])));
+  }
+
+  showTool() {
+    for (const [name] of TOOLS) by(`tool-${name}`)?.setAttribute('aria-pressed', String(this.board.tool.name === name));
+    by('board').classList.toggle('draws', this.board.tool.name !== 'select');
+    if (this.thick) this.thick.hidden = !['wall', 'room'].includes(this.board.tool.name);
+    if (this.board.tool.name !== 'put') this.hint('');
+    this.shelf?.show();
+  }
+
+  buildTools() {
+    const button = (/** @type {string} */ name, /** @type {string} */ sign, /** @type {string} */ text, /** @type {string} */ key) => el('button', { id: `tool-${name}`, type: 'button', 'aria-pressed': 'false', title: `${text} (${key})`, 'aria-label': text, onclick: () => { this.select([]); this.board.use({ name }); } }, sign, el('span', {}, text));
+    const several = el('button', { type: 'button', 'aria-pressed': 'false', title: 'Each press selects one more', 'aria-label': 'Several', onclick: () => { this.several = !this.several; several.setAttribute('aria-pressed', String(this.several)); } }, '☑', el('span', {}, 'Several'));
+    this.thick = el('select', { 'aria-label': 'Thickness of walls', onchange: () => { this.thickness = Number(this.thick.value); } }, ...[0.1, 0.15, 0.2, 0.3].map((value) => el('option', { value }, `${value * 100} cm`)));
+    by('tools').replaceChildren(...TOOLS.map(([name, sign, text, key]) => button(name, sign, text, key)), several, el('button', { type: 'button', title: 'The whole home (H)', 'aria-label': 'The whole home', onclick: () => this.board.whole() }, '⤢', el('span', {}, 'Whole')), this.thick);
+    by('tools').hidden = this.closed;
+    this.showTool();
+  }
+
+  buildFloors() {
+    const { storeys } = this.history.now.plan;
+    by('floors').replaceChildren(...(storeys.length > 1 ? [...storeys.entries()].reverse().map(([i, one]) => el('button', { type: 'button', 'aria-pressed': String(i === this.floor), onclick: () => { this.floor = i; this.select([]); this.showFindings(); this.board.whole(); } }, one.name || `Floor ${one.number}`)) : []));
+  }
+
+  /** @param {string} reason why the world cannot be edited */
+  showClosed(reason) {
+    by('board').hidden = true;
+    by('side').hidden = true;
+    by('picture').hidden = false;
+    by('picture').src = '/plan.svg';
+    this.setStatus('off', 'Read only');
+    this.hint(reason);
+  }
+
+  /** @param {string} text */
+  hint(text) {
+    by('hint').textContent = text;
+    by('hint').hidden = !text;
+  }
+
+  /** @param {string} text @param {[string, () => void][]} answers */
+  ask(text, answers) {
+    const dialog = by('dialog');
+    dialog.replaceChildren(el('p', {}, text), el('form', { method: 'dialog', class: 'tools' }, ...answers.map(([name, does], i) => el('button', { class: i ? null : 'main', onclick: does }, name))));
+    if (!dialog.open) dialog.showModal();
+  }
+
+  /** @param {string} theme */
+  setTheme(theme) {
+    document.documentElement.dataset.theme = theme;
+    localStorage.setItem('theme', theme);
+    by('theme').textContent = theme === 'dark' ? '☀' : '☾';
+  }
+}
+
+/** @param {{polygon: number[][], holes?: number[][][]}} room @param {number[]} at */
+function inRoom({ polygon, holes }, at) {
+  return within(polygon, at) && !(holes ?? []).some((hole) => within(hole, at));
+}
+
+/** @type {any} */ (window).angen = new Editor(); // for tests and the console

@@ -1,0 +1,1 @@
+"""angen edit: homes drawn in a browser."""

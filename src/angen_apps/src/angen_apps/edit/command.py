@@ -1,0 +1,67 @@
+"""angen edit: opens a home, and serves the page that draws it."""
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from angen_apps.edit.catalog import catalog
+from angen_apps.edit.desk import Desk, in_use
+from angen_apps.edit.server import Editor
+from angen_apps.edit.simulation import Simulation
+from angen_apps.edit.worker import Worker
+from angen_apps.imports.command import read_plan
+from angen_apps.plan.drawing import drawing_of, to_json
+from angen_apps.residents.profiles import names
+from angen_apps.web.command import page, serve, symbols
+from angen_tools.common.failure import Failure
+from angen_tools.common.files import check_output
+from angen_tools.common.port import require_free
+
+WORLDS = ('.world', '.sdf')
+
+
+def edit(args: argparse.Namespace) -> None:
+    """Serves until Ctrl-C."""
+    path, plan = _files(args)
+    check_output(path)
+    require_free(args.host, args.port)
+    with in_use(path):
+        worker = Worker()  # before there are threads
+        try:
+            desk = Desk(path, worker, worker.run(plan, _imported, plan, args) if plan else None)
+            given = {'catalog': worker.run('the catalog', catalog), 'symbols': symbols(),
+                     'profiles': names()}
+            simulation = Simulation(args.host)
+            serve('edit', lambda guard: Editor(desk, simulation, given, guard, page()), args.host,
+                  args.port, args.json)
+        finally:
+            worker.end()
+
+
+def _files(args: argparse.Namespace) -> tuple[Path, Path | None]:
+    """The world that is written, and the plan that is read."""
+    if args.file is None:
+        return args.output or _free(Path('home.world')), None
+    if args.file.suffix.lower() in WORLDS:
+        if args.output is not None:
+            raise Failure('-o is for a plan that is imported; a world is saved where it is')
+        return args.file, None
+    path = args.output or args.file.with_name(args.file.name.partition('.')[0] + '.world')
+    if path.exists():
+        raise Failure(f'{path}: exists; edit it, or give -o FILE')
+    return path, args.file
+
+
+def _free(path: Path) -> Path:
+    """The path, or the next one like it without a file."""
+    number = 2
+    tried = path
+    while tried.exists():
+        tried = path.with_stem(f'{path.stem}{number}')
+        number += 1
+    return tried
+
+
+def _imported(plan: Path, args: argparse.Namespace) -> dict[str, Any]:
+    return to_json(drawing_of(read_plan(plan, args), args.sensors))

@@ -1,0 +1,214 @@
+"""The page of angen edit in a real browser: a home is drawn, kept, saved, opened and simulated."""
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+from typing import Iterator
+
+import angen
+import pytest
+from browser import LIMIT, Page
+from hand import ROOMS, Hand, draw_flat
+from harness import end, free_port, until
+from selenium.webdriver.common.actions.interaction import POINTER_TOUCH
+from selenium.webdriver.common.keys import Keys
+
+MOST = 120  # gestures
+NOW = 'return JSON.stringify(angen.history.now)'
+
+
+class Editor:
+    """angen edit of a file, and its page."""
+
+    def __init__(self, path: Path, browser: Path, width: int = 1280, height: int = 800) -> None:
+        self.path, self._log = path, path.with_suffix('.log')
+        self.port = free_port()
+        self.start()
+        self.page = Page(browser, width, height)
+        self.open()
+
+    def start(self) -> None:
+        with self._log.open('w') as out:
+            self.process = subprocess.Popen(
+                ['angen', 'edit', str(self.path), '--port', str(self.port)], stdout=out,
+                stderr=out)
+        until(lambda: self.process.poll() is not None or f':{self.port}/' in self.log(),
+              'the address', LIMIT)
+        assert self.process.poll() is None, self.log()
+
+    def open(self) -> None:
+        self.page.driver.get(f'http://127.0.0.1:{self.port}/')
+        self.page.until('return !!window.angen?.history && angen.connected')
+
+    def log(self) -> str:
+        return self._log.read_text()
+
+    def storey(self) -> dict[str, list[dict[str, object]]]:
+        storey: dict[str, list[dict[str, object]]] = json.loads(
+            self.page.run('return JSON.stringify(angen.storey)'))
+        return storey
+
+    def close(self) -> None:
+        self.page.close()
+        assert end(self.process, LIMIT) == 0, self.log()
+
+
+@pytest.fixture(scope='module')
+def editor(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Editor]:
+    made = Editor(tmp_path_factory.mktemp('edit') / 'home.world',
+                  tmp_path_factory.mktemp('browser'))
+    yield made
+    made.close()
+
+
+def test_the_tutorials_flat_is_drawn_and_saved(editor: Editor) -> None:
+    page, hand = editor.page, Hand(editor.page)
+    page.until('return document.querySelector("#findings").textContent.includes("Draw a room")')
+    draw_flat(hand)
+    hand.button('#save')
+    page.until('return !angen.dirty && document.querySelector("#status").textContent === "Saved"')
+    assert hand.gestures < MOST
+    page.until('return !angen.asking && !angen.stale')
+    assert 'Nothing is wrong' in page.text('#findings')
+    assert page.errors() == []
+    world = angen.World(str(editor.path))
+    names = {(kind, name) for kind, name, *_ in world.entities()}
+    assert {('door', 'bedroom0'), ('lamp', 'kitchen0'), ('pir', 'kitchen_pir0'),
+            ('stove', 'kitchen0'),
+            ('person', 'person_b'), ('drive', 'robot')} <= names
+    rooms = {room['name'] for room in world.home['rooms']}
+    assert rooms == {f'{name}0' for name, _ in ROOMS}
+    out = editor.path.with_name('day')
+    for words in (['check'], ['home'], ['generate', '--residents', '1', '--out', str(out)]):
+        subprocess.run(['angen', *words, str(editor.path)], check=True, capture_output=True)
+
+
+def test_all_steps_are_undone_and_done_again(editor: Editor) -> None:
+    page, hand = editor.page, Hand(editor.page)
+    last, steps = page.run(NOW), page.run('return angen.history.at')
+    page.run('document.querySelector("#board").focus()')
+    hand.control(*['z'] * steps)
+    assert page.run(NOW) == page.run('return JSON.stringify(angen.history.all[0])')
+    assert 'walls' not in editor.storey()
+    hand.control(*['y'] * steps)
+    assert page.run(NOW) == last
+
+
+def test_things_are_moved_turned_copied_and_removed_by_keys(editor: Editor) -> None:
+    page, hand = editor.page, Hand(editor.page)
+    hand.keys(Keys.ESCAPE)
+    before = editor.storey()['pieces']
+    hand.press((6.9, 1.2))
+    assert page.run('return angen.selection') == ['pieces/3']
+    hand.keys(Keys.ARROW_LEFT, Keys.ARROW_UP, 'r')
+    bed, old = editor.storey()['pieces'][3], before[3]
+    assert (bed['x'], bed['y']) == (pytest.approx(old['x'] - 0.1), pytest.approx(old['y'] + 0.1))
+    assert abs(bed['yaw'] - old['yaw']) % 3.1416 == pytest.approx(1.5708, abs=1e-3)
+    hand.control('c', 'v')
+    assert len(editor.storey()['pieces']) == len(before) + 1
+    hand.keys(Keys.DELETE)
+    assert len(editor.storey()['pieces']) == len(before)
+    hand.control('a')
+    hand.keys(Keys.DELETE)
+    assert sorted(editor.storey()) == ['elevation', 'height', 'name', 'number']
+    hand.control(*'zzzzzz')
+    assert editor.storey()['pieces'] == before
+
+
+def test_a_wall_is_drawn_by_keys_with_its_length(editor: Editor) -> None:
+    page, hand = editor.page, Hand(editor.page)
+    count = len(editor.storey()['walls'])
+    hand.keys('w')
+    page.run('angen.board.at = [10, 0]')
+    hand.keys(Keys.ENTER, Keys.ARROW_RIGHT, '2', '.', '3', '5', Keys.ENTER, Keys.ESCAPE, 'v')
+    assert editor.storey()['walls'][count:] == [
+        {'start': [10, 0], 'end': [12.35, 0], 'thickness': 0.1, 'bottom': 0, 'top': 2.5}]
+    hand.control('z')
+
+
+def test_a_door_goes_to_another_wall_and_turns(editor: Editor) -> None:
+    page, hand = editor.page, Hand(editor.page)
+    hand.drag((6, 3), (5, 3.4), (4.02, 1.5))
+    door = editor.storey()['openings'][1]
+    assert (door['x'], door['y']) == (4, 1.5)
+    page.press('#card .verbs button', 'Other hinge')
+    page.press('#card .verbs button', 'Other side')
+    leaf, old = editor.storey()['openings'][1]['leaves'][0], door['leaves'][0]
+    assert leaf['hinge'] == [-old['hinge'][0], -old['hinge'][1]] and leaf['turn'] == old['turn']
+    page.run('document.querySelector("#board").focus()')
+    hand.control(*'zzz')
+
+
+def test_a_sensor_is_aimed_with_its_field(editor: Editor) -> None:
+    page, hand = editor.page, Hand(editor.page)
+    hand.put('motion sensor', (3, 4), (3, 5))
+    sensor = editor.storey()['sensors'][-1]
+    assert (sensor['x'], sensor['y'], sensor['yaw']) == (3, 4, pytest.approx(1.5708))
+    assert page.run('return document.querySelectorAll("#board .field.chosen").length') == 1
+    page.run('document.querySelector("#board").focus()')
+    hand.control('z')
+
+
+def test_a_draft_outlives_server_and_page(editor: Editor) -> None:
+    page, hand = editor.page, Hand(editor.page)
+    hand.put('plant', (7.5, 3.6))
+    page.until('return angen.kept && document.querySelector("#status").textContent'
+               '.startsWith("Draft")')
+    assert end(editor.process, LIMIT) == 0
+    page.until('return !angen.connected')
+    hand.put('plant', (7, 3.6))  # without a server
+    last = page.run(NOW)
+    editor.start()
+    page.until('return angen.connected')
+    editor.open()
+    assert page.run(NOW) == last
+    assert 'not saved' in page.text('#dialog')
+    page.press('#dialog button', 'Continue')
+    page.until('return angen.kept')
+    assert json.loads(editor.path.with_name('home.world.draft').read_text())['drawing'] == (
+        json.loads(last))
+
+
+def test_two_windows_are_told(editor: Editor) -> None:
+    page = editor.page
+    first = page.driver.current_window_handle
+    page.driver.switch_to.new_window('window')
+    editor.open()
+    page.until('return !document.querySelector("#hint").hidden')
+    assert 'open in 2 windows' in page.text('#hint')
+    page.run('document.querySelector("#dialog").close(); angen.do({home: {sensors: "casas"}})')
+    page.until('return angen.kept')
+    page.driver.close()
+    page.driver.switch_to.window(first)
+    page.run('angen.do({home: {sensors: "seed"}})')
+    page.until('return document.querySelector("#dialog").open')
+    assert 'Another window' in page.text('#dialog')
+    page.press('#dialog button', 'Keep mine')
+    page.until('return angen.kept && !angen.conflict')
+
+
+def test_simulate_shows_the_home_live(editor: Editor) -> None:
+    page = editor.page
+    drawing = page.driver.current_window_handle
+    page.press('#simulate')
+    until(lambda: len(page.driver.window_handles) == 2, 'a window of the home', LIMIT)
+    page.driver.switch_to.window(next(
+        each for each in page.driver.window_handles if each != drawing))
+    page.until('return window.angen?.home?.entities?.length > 0 && !!angen.home.scene')
+    assert page.run('return angen.home.rooms.map((room) => room.name).sort()') == [
+        'bedroom0', 'kitchen0', 'livingroom0']
+    page.driver.close()
+    page.driver.switch_to.window(drawing)
+
+
+def test_touch_draws_too(editor: Editor) -> None:
+    page, hand = editor.page, Hand(editor.page, POINTER_TOUCH)
+    count = len(editor.storey()['walls'])
+    hand.button('#tool-wall')
+    hand.drag((5, 3.6), (7, 3.6))
+    assert len(editor.storey()['walls']) == count + 1
+    small = page.run('''return [...document.querySelectorAll("#tools button")].filter(
+        (e) => Math.min(e.clientWidth, e.clientHeight) < 42).length''')
+    assert small == 0
+    assert [error for error in page.errors() if '/do/' not in error] == []  # while it was away
