@@ -139,7 +139,9 @@ def main() -> None:
     client = Client(name)
     for service in client.services.values():
         service.wait_for_service(20.0)
-    time.sleep(0.5)  # for the node to subscribe
+    for publisher in (client.doors, client.lamps, client.any, client.notes, client.wheels):
+        while publisher.get_num_connections() == 0 and not rospy.is_shutdown():
+            time.sleep(0.02)
     client.run(seconds)
     print(sum(client.done.values()), dict(sorted(client.done.items())))
 
