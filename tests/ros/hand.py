@@ -79,8 +79,8 @@ def draw_flat(hand: Hand) -> None:
     hand.put('table', (4.3, 5.5))
     hand.put('chair', (4.3, 4.8))
     hand.put('tv', (1.5, 3.3))
-    for place in ((2, 1.5), (6, 2), (4, 4.5)):
-        hand.put('lamp', place)
+    for lamp in ((2, 1.5), (6, 2), (4, 4.5)):
+        hand.put('lamp', lamp)
     hand.put('motion sensor', (0.15, 0.15))
     hand.put('motion sensor', (7.85, 5.85), (4, 4))
     hand.put('motion sensor', (4.15, 0.2))

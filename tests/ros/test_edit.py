@@ -152,9 +152,16 @@ def test_a_sensor_is_aimed_with_its_field(editor: Editor) -> None:
 
 def test_a_draft_outlives_server_and_page(editor: Editor) -> None:
     page, hand = editor.page, Hand(editor.page)
+    draft = editor.path.with_name('home.world.draft')
     hand.put('plant', (7.5, 3.6))
     page.until('return angen.kept && document.querySelector("#status").textContent'
                '.startsWith("Draft")')
+    assert draft.exists()
+    hand.control('z')
+    page.until('return !angen.kept && document.querySelector("#status").textContent === "Saved"')
+    assert not draft.exists()
+    hand.put('plant', (7.5, 3.6))
+    page.until('return angen.kept')
     assert end(editor.process, LIMIT) == 0
     page.until('return !angen.connected')
     hand.put('plant', (7, 3.6))  # without a server
@@ -165,9 +172,7 @@ def test_a_draft_outlives_server_and_page(editor: Editor) -> None:
     assert page.run(NOW) == last
     assert 'not saved' in page.text('#dialog')
     page.press('#dialog button', 'Continue')
-    page.until('return angen.kept')
-    assert json.loads(editor.path.with_name('home.world.draft').read_text())['drawing'] == (
-        json.loads(last))
+    until(lambda: json.loads(draft.read_text())['drawing'] == json.loads(last), 'the draft', LIMIT)
 
 
 def test_two_windows_are_told(editor: Editor) -> None:
@@ -177,8 +182,9 @@ def test_two_windows_are_told(editor: Editor) -> None:
     editor.open()
     page.until('return !document.querySelector("#hint").hidden')
     assert 'open in 2 windows' in page.text('#hint')
-    page.run('document.querySelector("#dialog").close(); angen.do({home: {sensors: "casas"}})')
-    page.until('return angen.kept')
+    version = page.run('document.querySelector("#dialog").close();'
+                       'angen.do({home: {sensors: "casas"}}); return angen.version')
+    page.until('return angen.version > arguments[0]', version)
     page.driver.close()
     page.driver.switch_to.window(first)
     page.run('angen.do({home: {sensors: "seed"}})')

@@ -53,7 +53,9 @@ def test_a_home_is_drawn_kept_saved_and_opened_again(tmp_path: Path, worker: Wor
     assert desk.opened()['drawing'] is None and not desk.opened()['reason']
     desk.keep(drawn(), 5.0, desk.version)
     assert Desk(path, worker).opened()['draft'] == {'at': 5.0, 'drawing': drawn()}
+    assert not desk.opened()['saved']
     text = desk.save(drawn(), desk.version, False)
+    assert desk.opened()['saved']
     assert '1 room, 4 walls, 1 door' in text and not desk.draft.exists()
     again = Desk(path, worker).opened()
     assert again['draft'] is None

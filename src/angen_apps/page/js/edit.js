@@ -33,8 +33,10 @@ export class Editor {
     /** @type {{findings: string[], remarks: string[], ruled?: any[], wrong?: string}} */
     this.told = { findings: [], remarks: [] };
     this.version = 0;
+    this.line = Promise.resolve(); // ends with the last change that was sent
     this.connected = true;
     this.dirty = false;
+    this.kept = false; // whether the server has the drawing as a draft
     this.base = ''; // the drawing that is saved, as text
     this.place = ''; // the key of the drawing in this browser
     this.board = new Board(this);
@@ -77,7 +79,8 @@ export class Editor {
     by('file').textContent = given.file;
     document.title = `${given.file}: Angen`;
     const saved = given.drawing ?? empty(), draft = this.newest(given.draft);
-    this.base = JSON.stringify(saved);
+    this.base = given.drawing && !given.saved ? '' : JSON.stringify(saved); // an imported plan is not saved yet
+    this.kept = Boolean(given.draft);
     this.history = new History(draft ?? saved);
     this.dirty = JSON.stringify(this.history.now) !== this.base;
     this.closed = Boolean(given.reason);
@@ -85,7 +88,7 @@ export class Editor {
     this.form = new Form(this);
     this.buildTools();
     if (this.closed) this.showClosed(given.reason);
-    else if (this.dirty) this.ask('The changes that were not saved are here again.', [['Continue', () => {}], ['Show the saved home', () => this.discard()]]);
+    else if (this.dirty && draft) this.ask('The changes that were not saved are here again.', [['Continue', () => {}], ['Show the saved home', () => this.discard()]]);
     this.listen();
     this.changed();
     this.board.whole();
@@ -101,8 +104,18 @@ export class Editor {
     return last?.drawing ?? null;
   }
 
-  /** @param {string} kind @param {any} [order] @returns {Promise<any>} */
-  async order(kind, order = {}) {
+  /**
+   * Changes follow one another: each is based on the version that the one before has made.
+   * @param {string} kind @param {any} [order] @returns {Promise<any>}
+   */
+  order(kind, order = {}) {
+    const turn = this.line.then(() => this.send(kind, order));
+    this.line = turn.then((answer) => { if (answer.ok) this.version = answer.version; });
+    return turn;
+  }
+
+  /** @param {string} kind @param {any} order @returns {Promise<any>} */
+  async send(kind, order) {
     try {
       const answer = await fetch(`/do/${kind}`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ ...order, base: this.version }) });
       const said = await answer.json();
@@ -181,12 +194,12 @@ export class Editor {
   }
 
   async keep() {
-    if (!this.dirty || this.conflict) return;
-    const answer = await this.order('keep', { drawing: this.history.now, at: Date.now() });
-    if (answer.ok) this.version = answer.version;
-    else if (answer.conflict) this.showConflict(answer);
-    else if (!answer.lost) notice(`The draft is not kept: ${answer.text}`, true);
-    this.kept = answer.ok;
+    await this.line;
+    if (this.conflict || (!this.dirty && !this.kept)) return;
+    const answer = await (this.dirty ? this.order('keep', { drawing: this.history.now, at: Date.now() }) : this.order('discard')); // all is undone
+    if (answer.conflict) this.showConflict(answer);
+    else if (!answer.ok && !answer.lost) notice(`The draft is not kept: ${answer.text}`, true);
+    this.kept = answer.ok && this.dirty;
     this.showStatus();
   }
 
@@ -196,7 +209,7 @@ export class Editor {
       return;
     }
     this.asking = true;
-    const answer = await this.order('survey', { drawing: this.history.now });
+    const answer = await this.send('survey', { drawing: this.history.now });
     this.asking = false;
     if (answer.ok) {
       this.found = answer.rooms;
@@ -216,21 +229,20 @@ export class Editor {
   async save(anyway = false) {
     if (this.closed) return;
     clearTimeout(this.keeping);
-    const answer = await this.order('save', { drawing: this.history.now, anyway });
-    this.saved(answer, () => this.save(true));
+    const drawing = this.history.now, answer = await this.order('save', { drawing, anyway });
+    this.saved(answer, drawing, () => this.save(true));
     if (answer.ok) notice(answer.text);
   }
 
-  /** @param {any} answer @param {() => void} anyway */
-  saved(answer, anyway) {
+  /** @param {any} answer @param {any} drawing that was sent @param {() => void} anyway */
+  saved(answer, drawing, anyway) {
     if (answer.conflict) this.showConflict(answer, anyway);
     else if (!answer.ok) notice(answer.text, true);
     if (!answer.ok) return;
-    this.version = answer.version;
-    this.base = JSON.stringify(this.history.now);
-    this.dirty = false;
-    localStorage.removeItem(this.place);
-    this.show();
+    this.base = JSON.stringify(drawing);
+    this.kept = false;
+    this.given.saved = true;
+    this.changed(); // there may be later ones
   }
 
   async simulate(anyway = false) {
@@ -239,10 +251,10 @@ export class Editor {
     const shown = window.open('', 'angen-home'); // while it is the answer to a click
     by('simulate').disabled = true;
     this.hint('Writes the world and starts the simulator …');
-    const answer = await this.order('simulate', { drawing: this.history.now, anyway });
+    const drawing = this.history.now, answer = await this.order('simulate', { drawing, anyway });
     by('simulate').disabled = false;
     this.hint('');
-    this.saved(answer, () => this.simulate(true));
+    this.saved(answer, drawing, () => this.simulate(true));
     if (answer.address && shown) shown.location.href = answer.address;
     else if (answer.address) location.href = answer.address;
     else shown?.close();
@@ -421,7 +433,7 @@ export class Editor {
     if (!this.history || this.closed) return;
     if (!this.connected) this.setStatus('off', 'No connection: kept in this browser');
     else if (this.dirty) this.setStatus('kept', this.kept ? 'Draft kept' : 'Changed');
-    else this.setStatus('', this.given.drawing || this.version ? 'Saved' : 'New');
+    else this.setStatus('', this.given.saved ? 'Saved' : 'New');
   }
 
   /** @param {string} cls @param {string} text */

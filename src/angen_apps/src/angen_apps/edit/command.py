@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ from angen_apps.edit.desk import Desk, in_use
 from angen_apps.edit.server import Editor
 from angen_apps.edit.simulation import Simulation
 from angen_apps.edit.worker import Worker
-from angen_apps.imports.command import read_plan
+from angen_apps.imports.command import SHOWN, read_plan
 from angen_apps.plan.drawing import drawing_of, to_json
 from angen_apps.residents.profiles import names
 from angen_apps.web.command import page, serve, symbols
@@ -29,7 +30,10 @@ def edit(args: argparse.Namespace) -> None:
     with in_use(path):
         worker = Worker()  # before there are threads
         try:
-            desk = Desk(path, worker, worker.run(plan, _imported, plan, args) if plan else None)
+            drawing, remarks = worker.run(plan, _imported, plan, args) if plan else (None, [])
+            for remark in remarks:
+                print(f'remark: {remark}', file=sys.stderr)
+            desk = Desk(path, worker, drawing)
             given = {'catalog': worker.run('the catalog', catalog), 'symbols': symbols(),
                      'profiles': names()}
             simulation = Simulation(args.host)
@@ -47,6 +51,8 @@ def _files(args: argparse.Namespace) -> tuple[Path, Path | None]:
         if args.output is not None:
             raise Failure('-o is for a plan that is imported; a world is saved where it is')
         return args.file, None
+    if not args.file.exists():
+        raise Failure(f'{args.file}: there is no such plan; the name of a new home ends in .world')
     path = args.output or args.file.with_name(args.file.name.partition('.')[0] + '.world')
     if path.exists():
         raise Failure(f'{path}: exists; edit it, or give -o FILE')
@@ -63,5 +69,6 @@ def _free(path: Path) -> Path:
     return tried
 
 
-def _imported(plan: Path, args: argparse.Namespace) -> dict[str, Any]:
-    return to_json(drawing_of(read_plan(plan, args), args.sensors))
+def _imported(file: Path, args: argparse.Namespace) -> tuple[dict[str, Any], list[str]]:
+    plan = read_plan(file, args)
+    return to_json(drawing_of(plan, args.sensors)), plan.remarks[:SHOWN]

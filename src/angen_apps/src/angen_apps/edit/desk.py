@@ -60,7 +60,8 @@ class Desk:
         """What a page that opens needs: the drawing, and the draft if there is one."""
         draft = None if self.reason else self._kept()
         return {'file': self.path.name, 'path': str(self.path.resolve()), 'version': self.version,
-                'reason': self.reason, 'drawing': self.drawing, 'draft': draft}
+                'reason': self.reason, 'drawing': self.drawing, 'draft': draft,
+                'saved': bool(self._file)}
 
     def _kept(self) -> Any:
         try:
