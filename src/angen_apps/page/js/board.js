@@ -1,53 +1,35 @@
-/** The sheet on which a home is drawn: what it shows, and what pointers and keys do there. */
-import { by, svg } from './dom.js';
+/** What pointers, keys and tools do on the sheet on which a home is drawn. */
+import { svg } from './dom.js';
 import { GRID, STEP, along, directionOf, distance, gridded, itemOf, keysOf, lengthOf, moved, normal, onWall, openingOf, placeOn, placesOf, roomWalls, snapped, stretched, turnedDoor, wallAt, wallOf } from './drawing.js';
-import { reach } from './fields.js';
-import { Taken, nameOf } from './places.js';
-import { furniture, signOf } from './symbols.js';
+import { BODY, MOUSE, SIGN, SPOT, Sheet } from './sheet.js';
 
 /** @typedef {import('./drawing.js').Item} Item @typedef {import('./drawing.js').Point} Point */
 
-const FINGER = 22, MOUSE = 9; // px around a pointer
 const CLICK = 5; // px that a pointer moves at most in a click
-const HANDLE = 8, SIGN = 0.17, SPOT = 0.12, BODY = 0.22; // px of a handle's radius; m of marks: half of a lamp, a sensor, a person
-const LEAST_MARK = 7; // px
-const LETTER = 0.66; // of a text's height: the width of a letter
+const HANDLE = 8; // px of a handle's radius
 const HANGS = 0.5; // m to a wall on which a door is put
 const STICKS = 0.45; // m to a wall to which furniture and sensors stick
 const GAP = 0.02, OFF = 0.1, CORNER = 0.15; // m from a wall to furniture, to a sensor; by which furniture is drawn into a corner
 const LEAST_WALL = 0.05; // m
-const FARTHEST = 8, LEAST = 4, MOST = 400; // m of the ground that an empty lot shows; px of a meter
-const MARGIN = 44, ABOVE = 76; // px around all, and above
 const { PI, cos, sin, hypot, min, max, abs, atan2 } = Math;
 
-export class Board {
+export class Board extends Sheet {
   /** @param {import('./edit.js').Editor} editor */
   constructor(editor) {
-    this.editor = editor;
-    this.element = by('board');
-    this.root = svg('svg', { class: 'drawing', 'aria-hidden': 'true' });
-    this.element.append(this.root);
-    this.middle = [4, 3];
-    this.scale = 60; // px of a meter
+    super(editor);
+    /** @type {any} what a press has begun */
+    this.press = null;
+    /** @type {{at: Point, key: string, does: string}[]} */
+    this.handles = [];
     /** @type {any} */
     this.tool = { name: 'select' };
     /** @type {Point} */
     this.at = [0, 0]; // the place of the pointer
     this.inside = false;
-    /** @type {any} what a press has begun */
-    this.press = null;
     /** @type {Map<number, number[]>} x y px by pointer */
     this.pointers = new Map();
     /** @type {number | undefined} */
     this.pending = undefined;
-    /** @type {any} an edit that a drag would make */
-    this.preview = null;
-    /** @type {{at: Point, key: string, does: string}[]} */
-    this.handles = [];
-    /** @type {WeakMap<Item, {key: string, node: any}>} what was drawn of an item that is still the same */
-    this.drawn = new WeakMap();
-    /** @type {any[]} */
-    this.named = []; // shapes and names of rooms
     const on = (/** @type {string} */ name, /** @type {(e: any) => void} */ does) => this.element.addEventListener(name, does, { passive: false });
     on('pointerdown', (e) => this.down(e));
     on('pointermove', (e) => this.move(e));
@@ -59,43 +41,6 @@ export class Board {
     on('dblclick', () => { if (this.tool.from) this.use(this.tool); });
     new ResizeObserver(() => this.draw()).observe(this.element);
   }
-
-  // --- places
-
-  box() { return this.element.getBoundingClientRect(); }
-
-  /** @param {number} x @param {number} y px of the window @returns {Point} */
-  ground(x, y) {
-    const { left, top, width, height } = this.box();
-    return [this.middle[0] + (x - left - width / 2) / this.scale, this.middle[1] - (y - top - height / 2) / this.scale];
-  }
-
-  /** @param {Point} at @returns {number[]} px of the window */
-  screen([x, y]) {
-    const { left, top, width, height } = this.box();
-    return [left + width / 2 + (x - this.middle[0]) * this.scale, top + height / 2 - (y - this.middle[1]) * this.scale];
-  }
-
-  /** @param {number} factor @param {number[]} [at] px that stay where they are */
-  zoom(factor, at) {
-    const { left, top, width, height } = this.box(), px = at ?? [left + width / 2, top + height / 2], before = this.ground(px[0], px[1]);
-    this.scale = min(MOST, max(LEAST, this.scale * factor));
-    const after = this.ground(px[0], px[1]);
-    this.middle = [this.middle[0] + before[0] - after[0], this.middle[1] + before[1] - after[1]];
-    this.draw();
-  }
-
-  /** Shows all that is drawn. */
-  whole() {
-    const { storey } = this.editor, places = keysOf(storey).flatMap((key) => placesOf(itemOf(storey, key)));
-    if (places.length < 2) places.push([0, 0], [FARTHEST, FARTHEST * 0.75]);
-    const xs = places.map(([x]) => x), ys = places.map(([, y]) => y), { width, height } = this.box();
-    this.scale = min(MOST / 2, max(LEAST, min((width - 2 * MARGIN) / (max(...xs) - min(...xs) || 1), (height - MARGIN - ABOVE) / (max(...ys) - min(...ys) || 1))));
-    this.middle = [(min(...xs) + max(...xs)) / 2, (min(...ys) + max(...ys) + (ABOVE - MARGIN) / this.scale) / 2];
-    this.draw();
-  }
-
-  get reach() { return (this.fingers ? FINGER : MOUSE) / this.scale; }
 
   // --- tools
 
@@ -394,131 +339,6 @@ export class Board {
     this.root.replaceChildren(this.grid(w, h), ...this.rooms(storey), ...this.walls(storey, chosen), ...this.things(storey, chosen), ...this.marks(storey, chosen), ...this.tooled(), ...this.frame(), ...this.grips());
   }
 
-  /** @param {Item} item @param {string} key what it looks like beside its own values @param {() => any} make @returns {any} */
-  once(item, key, make) {
-    const old = this.drawn.get(item);
-    if (old?.key === key) return old.node;
-    const node = make();
-    this.drawn.set(item, { key, node });
-    return node;
-  }
-
-  /** @param {number} w @param {number} h m */
-  grid(w, h) {
-    const step = this.scale > 25 ? 1 : 5, [left, top] = [Math.floor((this.middle[0] - w / 2) / step) * step, Math.floor((-this.middle[1] - h / 2) / step) * step];
-    let d = '';
-    for (let x = left; x <= left + w + step; x += step) d += `M${x} ${top}v${h + 2 * step}`;
-    for (let y = top; y <= top + h + step; y += step) d += `M${left} ${y}h${w + 2 * step}`;
-    return svg('path', { class: 'grid', d });
-  }
-
-  /** @param {Item} storey */
-  rooms(storey) {
-    if (this.preview || this.press?.does === 'pan') return this.named; // they need not be placed again
-    const text = max(0.2, 12 / this.scale), taken = new Taken(), path = (/** @type {Point[]} */ p) => `M${p.map(([x, y]) => `${x} ${-y}`).join('L')}Z`;
-    for (const item of ['pieces', 'lamps', 'sensors', 'movers'].flatMap((list) => storey[list] ?? [])) {
-      const [c, s] = [abs(cos(item.yaw ?? 0)), abs(sin(item.yaw ?? 0))], [deep, wide] = [item.depth ?? 0.5, item.width ?? 0.5];
-      taken.boxes.push([item.x, item.y, (c * deep + s * wide) / 2, (s * deep + c * wide) / 2]);
-    }
-    for (const { x, y, width } of storey.openings ?? []) taken.boxes.push([x, y, width / 2, width / 2]);
-    this.named = this.editor.rooms.flatMap((room, i) => {
-      const name = `${room.name.replaceAll('_', ' ')} · ${areaOf(room.polygon).toFixed(1)} m²`, wide = (LETTER / 2) * text * name.length, [x, y] = nameOf(room.polygon, wide, text / 2, taken);
-      return [svg('path', { class: `room-shape${this.editor.room === i ? ' chosen' : ''}`, d: [room.polygon, ...room.holes].map(path).join(''), 'fill-rule': 'evenodd', 'stroke-width': 0 }),
-        svg('text', { class: 'room-name', x, y: -y + 0.35 * text, 'font-size': text }, name)];
-    });
-    return this.named;
-  }
-
-  /** @param {Item} storey @param {Set<string>} chosen */
-  walls(storey, chosen) {
-    const line = (/** @type {Item} */ wall, /** @type {string} */ cls, more = 0) => svg('line', { class: cls, x1: wall.start[0], y1: -wall.start[1], x2: wall.end[0], y2: -wall.end[1], 'stroke-width': wall.thickness + more });
-    const shown = [...(storey.walls ?? []).entries()];
-    const measured = chosen.size === 1 ? shown.filter(([i]) => chosen.has(`walls/${i}`)).map(([, wall]) => this.measure(wall.start, wall.end)) : [];
-    const moving = this.preview ? shown.filter(([i, wall]) => wall !== (this.editor.storey.walls ?? [])[i]).map(([, wall]) => this.measure(wall.start, wall.end)) : [];
-    return [...shown.filter(([i]) => chosen.has(`walls/${i}`)).map(([, wall]) => line(wall, 'wall chosen', 6 / this.scale)), ...shown.map(([, wall]) => line(wall, 'wall')),
-      ...(storey.openings ?? []).map((/** @type {Item} */ opening, /** @type {number} */ i) => {
-        const mine = chosen.has(`openings/${i}`);
-        return this.once(opening, `${mine ? this.scale : ''}`, () => this.opening(opening, mine));
-      }), ...measured, ...moving];
-  }
-
-  /** @param {Item} opening @param {boolean} chosen @param {string} [cls] */
-  opening(opening, chosen, cls = '') {
-    const { x, y, yaw, width, band, kind } = opening, [c, s] = [cos(yaw), sin(yaw)];
-    const at = (/** @type {number} */ u, /** @type {number} */ v) => `${(x + u * c - v * s).toFixed(4)} ${(-(y + u * s + v * c)).toFixed(4)}`, half = width / 2;
-    const across = (/** @type {number} */ v) => `M${at(-half, v)}L${at(half, v)}`, [low, high] = band, middle = (low + high) / 2;
-    let leaves = '', swings = '';
-    for (const leaf of opening.leaves ?? []) {
-      const [u, v] = leaf.hinge, way = leaf.shut + (kind === 'window' ? 0.35 : 1) * (leaf.turn ?? 0), end = (/** @type {number} */ a) => at(u + leaf.width * cos(a), v + leaf.width * sin(a));
-      leaves += `M${at(u, v)}L${end(way)}`;
-      if (leaf.turn) swings += `M${end(leaf.shut)}A${leaf.width} ${leaf.width} 0 0 ${leaf.turn > 0 ? 0 : 1} ${end(way)}`;
-      if (leaf.slide) swings += `M${at(u + leaf.slide * cos(leaf.shut), v)}L${at(u, v)}`;
-    }
-    return svg('g', { class: `item ${kind === 'window' ? 'window' : 'door'} ${chosen ? 'chosen' : ''} ${cls}` },
-      chosen ? svg('path', { class: 'halo', d: across(middle), 'stroke-width': high - low + 10 / this.scale }) : null, svg('path', { class: 'gap', d: across(middle), style: `stroke-width: ${high - low + 0.02}` }),
-      kind === 'window' || opening.glazed || opening.glass ? svg('path', { class: 'pane', d: [low, middle, high].map(across).join('') }) : null,
-      swings ? svg('path', { class: 'swing', d: swings }) : null, leaves ? svg('path', { class: 'leaf', d: leaves }) : null);
-  }
-
-  /** @param {Item} storey @param {Set<string>} chosen */
-  things(storey, chosen) {
-    return (storey.pieces ?? []).map((/** @type {Item} */ piece, /** @type {number} */ i) => {
-      const mine = chosen.has(`pieces/${i}`);
-      return this.once(piece, String(mine), () => this.piece(piece, mine));
-    });
-  }
-
-  /** @param {Item} piece @param {boolean} chosen @param {string} [cls] */
-  piece(piece, chosen, cls = '') {
-    const { x, y, yaw, width, depth } = piece, [c, s] = [cos(yaw), sin(yaw)];
-    const at = (/** @type {number} */ u, /** @type {number} */ v) => [x + (u * c * depth) / 2 - (v * s * width) / 2, y + (u * s * depth) / 2 + (v * c * width) / 2];
-    return svg('g', { class: `thing-shape ${chosen ? 'chosen' : ''} ${cls}` }, ...furniture(this.editor.symbols[piece.thing], at, piece.shape === 'cylinder', piece.shape === 'flat'));
-  }
-
-  /** @param {Item} storey @param {Set<string>} chosen */
-  marks(storey, chosen) {
-    const of = (/** @type {string} */ list) => [...(storey[list] ?? []).entries()];
-    const ruled = this.editor.ruled.flatMap((sensor) => [this.field(storey, sensor, false), this.once(sensor, String(this.scale), () => this.mark('sensors', sensor, false, 'ruled'))]);
-    const fields = of('sensors').map(([i, sensor]) => this.field(storey, sensor, chosen.has(`sensors/${i}`)));
-    const marks = ['lamps', 'sensors', 'movers'].flatMap((list) => of(list).map(([i, item]) => this.once(item, `${this.scale} ${chosen.has(`${list}/${i}`)}`, () => this.mark(list, item, chosen.has(`${list}/${i}`)))));
-    return [...ruled.filter(Boolean), ...fields.filter(Boolean), ...marks];
-  }
-
-  /** @param {string} list @param {Item} item @param {boolean} chosen @param {string} [cls] */
-  mark(list, item, chosen, cls = '') {
-    const sensor = list === 'sensors', mover = list === 'movers', size = max(LEAST_MARK / this.scale, sensor ? SPOT : mover ? BODY : SIGN), kind = mover ? item.kind : sensor ? 'sensor' : 'lamp';
-    const text = max(0.16, 11 / this.scale), turn = (-(item.yaw ?? 0) * 180) / PI;
-    return svg('g', { class: `item ${kind} ${chosen ? 'chosen' : ''} ${cls}`, transform: `translate(${item.x} ${-item.y})` },
-      chosen ? svg('circle', { class: 'halo', r: size + 5 / this.scale }) : null, svg('g', { transform: `rotate(${turn})` }, ...signOf(kind, size, sensor, mover), sensor ? svg('path', { class: 'nose', d: `M${size} 0h${size}` }) : null),
-      mover ? svg('text', { class: 'who', 'font-size': text, y: size + text }, item.name) : null);
-  }
-
-  /** @param {Item} storey @param {Item} sensor @param {boolean} chosen */
-  field(storey, sensor, chosen) {
-    const of = this.editor.catalog.sensors.find((/** @type {any} */ one) => one.model === sensor.model);
-    if (!of?.far) return null;
-    const high = sensor.z - storey.elevation, steps = 32;
-    let points;
-    if (sensor.pitch > 1) {
-      const far = high * Math.tan(min(1.3, of.left));
-      points = Array.from({ length: steps }, (_, i) => [sensor.x + far * cos((2 * PI * i) / steps), sensor.y + far * sin((2 * PI * i) / steps)]);
-    } else {
-      const walls = (storey.walls ?? []).map((/** @type {Item} */ wall) => [wall.start, wall.end]);
-      points = [[sensor.x, sensor.y], ...Array.from({ length: steps + 1 }, (_, i) => {
-        const way = sensor.yaw + of.right + ((of.left - of.right) * i) / steps, to = [cos(way), sin(way)], far = min(of.far, ...walls.map((/** @type {Point[]} */ wall) => reach(wall, [sensor.x, sensor.y], to)));
-        return [sensor.x + far * to[0], sensor.y + far * to[1]];
-      })];
-    }
-    return svg('polygon', { class: `field${chosen ? ' chosen' : ''}`, points: points.map(([x, y]) => `${x.toFixed(3)},${(-y).toFixed(3)}`).join(' ') });
-  }
-
-  /** @param {Point} a @param {Point} b @param {string} [typed] */
-  measure(a, b, typed = '') {
-    const text = 13 / this.scale, yaw = atan2(b[1] - a[1], b[0] - a[0]), upright = abs(normal(yaw)) > PI / 2 + 0.01 ? yaw + PI : yaw, away = 14 / this.scale;
-    const [x, y] = [(a[0] + b[0]) / 2 - away * sin(upright), (a[1] + b[1]) / 2 + away * cos(upright)];
-    return svg('text', { class: 'measure', 'font-size': text, transform: `translate(${x} ${-y}) rotate(${(-upright * 180) / PI})`, y: text / 3 }, typed ? `${typed} m` : `${distance(a, b).toFixed(2)} m`);
-  }
-
   /** What the tool would make where the pointer is. */
   tooled() {
     const { tool, editor, press } = this, { storey } = editor;
@@ -559,9 +379,3 @@ export class Board {
     return [...stem, ...this.handles.map(({ at }) => svg('circle', { class: 'grip', r: HANDLE / this.scale, cx: at[0], cy: -at[1] }))];
   }
 }
-
-/** @param {Point[]} polygon @returns {number} m² */
-export const areaOf = (polygon) => abs(polygon.reduce((sum, [x, y], i) => {
-  const [u, v] = polygon[(i + 1) % polygon.length];
-  return sum + x * v - u * y;
-}, 0)) / 2;

@@ -1,12 +1,12 @@
 /** The page of angen edit: a home is drawn, checked while one draws, saved and simulated. */
 import { Board } from './board.js';
 import { by, el, notice } from './dom.js';
-import { GRID, HEIGHT, History, apply, copied, empty, innerPoint, keysOf, middleOf, moved, removed, shifted, turned, within } from './drawing.js';
+import { GRID, HEIGHT, History, apply, copied, empty, innerPoint, keysOf, middleOf, removed, shifted, turned, within } from './drawing.js';
 import { Form, labelIn } from './form.js';
+import { help, pressed } from './keys.js';
 import { Shelf } from './shelf.js';
 
 const KEEP = 400, SURVEY = 350, AGAIN = 1500; // ms after a change until it is kept, and checked; between tries
-const FINE = 0.01; // m of an arrow key with Shift
 const COPIES = 'angen-edit-copies'; // in this browser's session
 const TOOLS = [['select', '⬉', 'Select', 'V'], ['wall', '╱', 'Walls', 'W'], ['room', '▭', 'Room', 'Q']];
 
@@ -42,12 +42,12 @@ export class Editor {
     this.board = new Board(this);
     this.setTheme(localStorage.getItem('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
     by('theme').addEventListener('click', () => this.setTheme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark'));
-    by('help').addEventListener('click', () => this.help());
+    by('help').addEventListener('click', help);
     by('undo').addEventListener('click', () => this.undo());
     by('redo').addEventListener('click', () => this.redo());
     by('save').addEventListener('click', () => this.save());
     by('simulate').addEventListener('click', () => this.simulate());
-    document.addEventListener('keydown', (e) => this.key(e));
+    document.addEventListener('keydown', (e) => pressed(this, e));
     addEventListener('beforeunload', (e) => { if (this.dirty && !this.connected) e.preventDefault(); });
     this.load();
   }
@@ -354,65 +354,6 @@ export class Editor {
     this.form?.show();
     this.hint(what.list === 'openings' ? 'Press on a wall; R turns it' : what.list === 'sensors' ? 'Press at its place, and drag to aim it' : 'Press at its place; R turns it');
     by('board').focus();
-  }
-
-  // --- keys
-
-  /** @param {KeyboardEvent} e */
-  key(e) {
-    const target = /** @type {any} */ (e.target);
-    if (/^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName ?? '') || by('dialog').open || !this.history) return;
-    const control = e.ctrlKey || e.metaKey, key = e.key.length === 1 ? e.key.toLowerCase() : e.key;
-    if (control ? this.controlled(key, e.shiftKey) : this.pressed(e, key)) e.preventDefault();
-  }
-
-  /** @param {string} key @param {boolean} shift @returns {boolean} */
-  controlled(key, shift) {
-    /** @type {Record<string, () => void>} */
-    const keys = { z: () => (shift ? this.redo() : this.undo()), y: () => this.redo(), c: () => this.copy(), v: () => this.paste(), x: () => { this.copy(); this.remove(); }, d: () => this.duplicate(), s: () => this.save(),
-      a: () => this.select(keysOf(this.storey)) };
-    keys[key]?.();
-    return key in keys;
-  }
-
-  /** @param {KeyboardEvent} e @param {string} key @returns {boolean} */
-  pressed(e, key) {
-    const { board } = this, onBoard = document.activeElement === by('board') || document.activeElement === document.body;
-    if (e.key === 'Escape') {
-      if (board.tool.from) board.use(board.tool);
-      else if (board.tool.name !== 'select') board.use({ name: 'select' });
-      else this.select([]);
-      this.hint('');
-      return true;
-    }
-    if (onBoard && board.key(e.key)) return true;
-    const way = /** @type {any} */ ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] })[e.key];
-    if (way && onBoard) {
-      const step = e.shiftKey ? FINE : GRID;
-      if (this.selection.length) this.do(moved(this.storey, this.selection, way[0] * step, way[1] * step), this.selection);
-      else board.middle = [board.middle[0] + way[0] * 0.5, board.middle[1] + way[1] * 0.5];
-      board.draw();
-      return true;
-    }
-    /** @type {Record<string, () => void>} */
-    const keys = { r: () => this.turn((e.shiftKey ? 15 : 90) * (Math.PI / 180)), Delete: () => this.remove(), Backspace: () => this.remove(), v: () => board.use({ name: 'select' }), w: () => board.use({ name: 'wall' }), q: () => board.use({ name: 'room' }),
-      '.': () => this.next(1), ',': () => this.next(-1), '+': () => board.zoom(1.25), '-': () => board.zoom(0.8), h: () => board.whole(), t: () => by('theme').click(), '?': () => this.help() };
-    keys[key]?.();
-    return key in keys;
-  }
-
-  /** @param {number} way to the next or the last thing */
-  next(way) {
-    const keys = keysOf(this.storey).filter((key) => !key.startsWith('labels/')), at = keys.indexOf(this.selection[0]);
-    if (keys.length) this.select([keys[(at < 0 ? (way > 0 ? 0 : keys.length - 1) : at + way + keys.length) % keys.length]]);
-  }
-
-  help() {
-    const rows = [['Walls (W)', 'press where they begin, then at each corner; type a length and Enter'], ['Room (Q)', 'press at two corners, or drag'], ['Click', 'selects; with Shift several; in a room: its name'], ['Drag', 'moves what is selected; on the ground selects all within'],
-      ['Wheel, right button', 'zooms, moves the sheet; on a phone two fingers'], ['Arrows', '0.1 m, with Shift 0.01 m; with a tool: its place, Enter puts'], ['R, Shift+R', 'turns by 90°, by 15°; a door: hinge and side'], ['. ,', 'the next, the last thing'],
-      ['Delete', 'removes it'], ['Ctrl+C X V D A', 'copy, cut, paste, twice, all'], ['Ctrl+Z Y', 'undo, redo'], ['Ctrl+S', 'saves'], ['Esc', 'ends a tool'], ['H, + −', 'the whole home, zoom'], ['Alt', 'turns a sensor freely']];
-    by('dialog').replaceChildren(el('h2', {}, 'Keys'), el('dl', {}, ...rows.flatMap(([key, text]) => [el('dt', {}, el('kbd', {}, key)), el('dd', {}, text)])), el('form', { method: 'dialog' }, el('button', { class: 'main' }, 'Close')));
-    by('dialog').showModal();
   }
 
   // --- what it shows

@@ -1,7 +1,7 @@
 /** The card of what is selected: its numbers and names, and what one can do with it. */
-import { areaOf } from './board.js';
 import { by, el, words } from './dom.js';
 import { itemOf, lengthOf, mirrored, normal, placeOn, stretched, swung, widened, within, withWalls } from './drawing.js';
+import { areaOf } from './sheet.js';
 
 const USES = ['', 'bedroom', 'bathroom', 'kitchen', 'living', 'work', 'hall', 'landing', 'outdoor', 'other'];
 const DEGREE = Math.PI / 180;
