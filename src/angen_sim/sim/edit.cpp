@@ -205,6 +205,10 @@ class Apply {
     if (edit.motor_force) check("motor's force", limits::kNoLimit, *edit.motor_force);
     for (desc::JointAxis& axis : axes) {
       if (axis.damping < 0.0) throw Error("the damping is negative");
+      if (axis.lower > axis.upper) {
+        throw Error("the lower limit " + number_text(axis.lower) + " is above the upper limit " +
+                    number_text(axis.upper));
+      }
       if (axis.lower > limits::kPosition.most || axis.upper < -limits::kPosition.most) {
         throw Error("the stops " + number_text(axis.lower) + " and " + number_text(axis.upper) +
                     " leave no position within " + number_text(limits::kPosition.most));
