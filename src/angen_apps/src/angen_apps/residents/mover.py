@@ -14,7 +14,7 @@ from angen_apps.robot.planner import Point
 
 POLL = (0.1, 0.4)  # s between two looks at where it is, at least and at most
 STARTS = 0.8  # s until its state shows that it goes, in ROS
-THERE, NEARBY = 0.12, 0.35  # m from its goal, and if something holds it there
+NEARBY = 0.35  # m from a goal: something may hold one there who has arrived
 TRIES = 3
 PAUSE = 6.0  # s between them, in which doors shut
 LEAVES_AROUND = 2.5  # m to the middle of their doorways
@@ -193,7 +193,7 @@ class Mover:
                 away = math.dist(self.at, goal) if self.storey == storey else math.inf
                 state = self.simulator.state('person', self.name)
                 ended = self.now - since > STARTS and not state.get('going', True)
-                self.arrived = away < (NEARBY if ended else THERE)
+                self.arrived = ended and away < NEARBY  # and stands: it is at `at` from now on
                 if self.arrived or (ended and state.get('unreachable', False)):
                     return
                 least, most = POLL
