@@ -23,6 +23,7 @@ from angen_apps.residents.resident import Resident
 from angen_bench.homes import examples
 
 LEAF = 0.9  # m
+WORLD = Path(__file__).resolve().parents[3] / 'worlds/angen.world'
 
 
 def home_of(path: Path) -> tuple[Site, Household, Resident]:
@@ -183,6 +184,19 @@ def test_a_resident_waits_for_another_one_who_is_in_the_way(tmp_path):
     phases = [i.phase for i in anna.diary.closed]
     assert anna.arrived and phases == ['goes', 'waits', 'goes']
     assert not any(i.note for i in anna.diary.closed)
+
+
+def test_a_resident_whom_a_chair_shuts_in_gets_out():
+    site, household, anna = home_of(WORLD)
+    site.world.set_state('kitchen_chair0_b', [0.9, 1.25, 0.0, 0.0, 0.0, 0.4])
+
+    def script():
+        anna.enter(Spot((0.39, 1.5), 0, 0.0, 'kitchen0'))  # between a table and a wall
+        yield from anna.go((2.25, 1.04), 0)
+
+    household.add(script())
+    household.run(200.0)
+    assert anna.arrived and math.dist(anna.at, (2.25, 1.04)) < 0.1
 
 
 def test_people_without_a_place_of_their_own_are_not_all_at_one(tmp_path):

@@ -14,11 +14,12 @@ from angen_apps.robot.planner import Point
 
 POLL = (0.1, 0.4)  # s between two looks at where it is, at least and at most
 STARTS = 0.8  # s until its state shows that it goes, in ROS
-THERE, NEARBY = 0.12, 0.35  # m from its goal, and if something holds it there
+NEARBY = 0.35  # m from a goal: something may hold one there who has arrived
 TRIES = 3
 PAUSE = 6.0  # s between them, in which doors shut
 LEAVES_AROUND = 2.5  # m to the middle of their doorways
 STUCK = 150.0  # s at one place, as before a door that it cannot open, and it gives up
+PUSHES = 5.0  # s against something that does not move
 SEAT_WAIT = 20.0  # s for a place to get up to
 LIFT_WAIT = 90.0  # s for somebody else in the elevator
 LIFT_ROOM = 1.6  # m around cabin and landings, where a robot uses the elevator
@@ -134,6 +135,8 @@ class Mover:
                 if attempt:
                     yield from self._shut_around()
                     yield self.now + PAUSE
+                if attempt == TRIES - 1:
+                    yield from self._push_out()
                 if not self._send(goal, storey):
                     break
                 yield from self._walk(goal, storey)
@@ -154,6 +157,13 @@ class Mover:
                     and self.simulator.state('door', door.name).get('mode') == 'OPEN'):
                 yield from self._out_of_swing(x, y)
                 self.household.do(self.name, 'door', door.name, 'CloseByHand')
+
+    def _push_out(self) -> Process:
+        """Goes to the open floor of its room straight, against a chair that shuts it in."""
+        for x, y in self.floors.spots(self.room, 1, self._habits) if self.room else ():
+            if self._order(f'PushTo {x:.3f} {y:.3f}'):
+                yield from self._walk((x, y), self.storey, PUSHES)
+                self.arrived = False
 
     def _out_of_swing(self, x: float, y: float) -> Process:
         """Steps to where the leaf of a door there does not hit it."""
@@ -184,7 +194,7 @@ class Mover:
     def _order(self, text: str) -> bool:
         return self.household.do(self.name, 'person', self.name, text)
 
-    def _walk(self, goal: Point, storey: int) -> Process:
+    def _walk(self, goal: Point, storey: int, patience: float = STUCK) -> Process:
         """Waits until it has arrived or given up; in ROS its state may be a little old."""
         self.walks, since = True, self.now
         try:
@@ -193,12 +203,12 @@ class Mover:
                 away = math.dist(self.at, goal) if self.storey == storey else math.inf
                 state = self.simulator.state('person', self.name)
                 ended = self.now - since > STARTS and not state.get('going', True)
-                self.arrived = away < (NEARBY if ended else THERE)
+                self.arrived = ended and away < NEARBY  # and stands: it is at `at` from now on
                 if self.arrived or (ended and state.get('unreachable', False)):
                     return
                 least, most = POLL
                 yield self.now + min(max(away / self.profile.speed, least), most)
-                if self.now - max(self.moved, since) > STUCK:
+                if self.now - max(self.moved, since) > patience:
                     self._order('Stop')
                     return
         finally:
