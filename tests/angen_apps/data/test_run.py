@@ -111,6 +111,23 @@ def test_validate_knows_a_room_within_another(lived, tmp_path):
     assert 'from hall' in wrong and 'to bathroom' in wrong
 
 
+def test_validate_lets_a_step_board_an_elevator(lived, tmp_path):
+    """The cabin is in no room, and the landing's edge is no wall before it."""
+    FORMATS['csv'](tmp_path, lived)
+    write_truth(tmp_path, lived)
+    layout = json.loads((tmp_path / 'layout.json').read_text())
+    layout |= {'doors': [], 'landings': [{'elevator': 'e', 'storey': 0,
+                                          'pose': [1.0, 3.0, 0.0, math.pi]}],
+               'rooms': [{**layout['rooms'][0], 'name': 'landing', 'storey': 0, 'holes': [],
+                          'polygon': [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0]]}]}
+    (tmp_path / 'layout.json').write_text(json.dumps(layout))
+    with gzip.open(tmp_path / 'track.csv.gz', 'wt') as file:
+        file.write('time,resident,x,y,storey\n5000.0,anna,0.1,3.1,0\n5000.4,anna,-0.2,3.1,0\n'
+                   '6000.0,anna,0.1,4.1,0\n6000.4,anna,-0.2,4.1,0\n')
+    wrong, = validate(tmp_path).wrong['no resident crossed a wall']
+    assert wrong.startswith('anna at 6000.4')
+
+
 def test_validate_lets_a_step_pass_an_opening_aslant(lived, tmp_path):
     FORMATS['csv'](tmp_path, lived)
     write_truth(tmp_path, lived)

@@ -14,7 +14,7 @@ from angen_tools.common.failure import Failure
 
 LAYOUT: dict[str, Any] = {
     'start': '2026-03-02T00:00:00', 'days': 1, 'residents': [{'name': 'ann', 'speed': 1.0}],
-    'rooms': [], 'doors': [], 'things': [], 'sensors': []}
+    'rooms': [], 'doors': [], 'landings': [], 'things': [], 'sensors': []}
 
 
 @pytest.mark.parametrize('layout, what', [

@@ -210,6 +210,9 @@ def write_truth(folder: Path, data: run.Data) -> list[Path]:
                   for r in home.rooms],
         'doors': [{'name': d.name, 'kind': d.kind, 'rooms': list(d.rooms), 'pose': list(d.pose),
                    'width': d.width} for d in home.doors],
+        'landings': [{'elevator': elevator.name, 'storey': landing.storey,
+                      'pose': list(landing.pose)}
+                     for elevator in home.elevators for landing in elevator.landings],
         'things': [{'name': t.name, 'type': t.type, 'room': t.room, 'x': t.pose[0], 'y': t.pose[1]}
                    for t in home.things],
         'sensors': [{key: value for key, value in asdict(s).items() if key != 'source'}

@@ -53,6 +53,7 @@ LAYOUT = {'start': datetime.fromisoformat, 'days': finite,
           'residents': [{'name': str, 'speed': finite}],
           'rooms': [{'name': str, 'use': str, 'storey': int, 'polygon': [[finite]]}],
           'doors': [{'name': str, 'kind': str, 'pose': [finite], 'width': finite, 'rooms': [str]}],
+          'landings': [{'elevator': str, 'storey': int, 'pose': [finite]}],
           'things': [{'name': str, 'type': str, 'room': str, 'x': finite, 'y': finite}],
           'sensors': [{'name': str, 'id': str, 'kind': str, 'room': str,
                        'x': finite, 'y': finite, 'z': finite}]}

@@ -13,6 +13,7 @@ FASTER = 1.35  # times the speed of a profile that a person may reach
 USUAL = (0.75, 1.15)  # times that speed, of the middle of their steps
 STEPS = 100  # least number whose usual speed is checked
 SLACK = 0.5  # m from the middle of an opening to the end of a step to its room
+CABIN, LEAVES = 3.0, 0.6  # m from a landing into the cabin, and to the sides between the leaves
 STEP = 0.65  # s between two places of one walk, at most
 JUMP = 2.3  # m between two places without a walk: from a bed to where one stands
 NEAR = 1.9  # m from the middle of a thing to its user
@@ -82,7 +83,10 @@ def _walls(findings: Findings, home: Written) -> None:
                      f'{who} at {time}: {way:.2f} m in {took:.2f} s')
         rooms = [_room(home.layout, *before[1:]), _room(home.layout, x, y, storey)]
         if rooms[0] != rooms[1]:
-            near = any(_through(door, before[1:3], (x, y)) for door in home.layout['doors'])
+            near = any(_through(door, before[1:3], (x, y)) for door in home.layout['doors']) or (
+                '' in rooms and any(_boards(landing, before[1:3], (x, y))
+                                    for landing in home.layout['landings']
+                                    if landing['storey'] == storey))
             findings.say('no resident crossed a wall', near,
                          f'{who} at {time}: from {rooms[0]} at {before[1]} {before[2]} to '
                          f'{rooms[1]} at {x} {y}')
@@ -97,6 +101,14 @@ def _room(layout: Any, x: float, y: float, storey: int) -> str:
     return next((str(room['name']) for room in layout['rooms']
                  if room['storey'] == storey and contains(room['polygon'], x, y)
                  and not any(contains(hole, x, y) for hole in room.get('holes', ()))), '')
+
+
+def _boards(landing: Any, *step: tuple[float, float]) -> bool:
+    """Whether a step is between a landing and its cabin, which is in no room."""
+    x, y, _, yaw = landing['pose']
+    return all(-SLACK <= math.cos(yaw) * (a - x) + math.sin(yaw) * (b - y) <= CABIN
+               and abs(math.cos(yaw) * (b - y) - math.sin(yaw) * (a - x)) <= LEAVES
+               for a, b in step)
 
 
 def _through(door: Any, start: tuple[float, float], end: tuple[float, float]) -> bool:
