@@ -1,4 +1,4 @@
-/** Edits of drawings, in node: python3 -m pytest tests/angen_apps/edit/test_edits.py */
+/** Edits of drawings, in node: python3 -m pytest tests/page/test_drawing.py */
 import assert from 'node:assert/strict';
 import { History, SORTS, apply, copied, directionOf, empty, hostOf, itemOf, keysOf, lengthOf, mirrored, moved, openingOf, removed, roomWalls, shifted, snapped, stretched, swung, turned, wallAt, wallOf, widened } from './drawing.mjs';
 
