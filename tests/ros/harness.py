@@ -100,9 +100,9 @@ def own_node(folder: Path, world: Path | str, environment: dict[str, str] = {}, 
             yield angen
 
 
-# Each process begins elsewhere, below the ports that the kernel gives to connections: one of those
-# could be taken before a master listens at it.
-_ports = itertools.count(10_000 + os.getpid() % 20_000)
+# Each process begins elsewhere, workers of neighboring ids 997 apart, below the ports that the
+# kernel gives to connections: one of those could be taken before a master listens at it.
+_ports = itertools.count(10_000 + os.getpid() * 997 % 20_000)
 
 
 def free_port() -> int:

@@ -20,6 +20,7 @@ PAUSE = 6.0  # s between them, in which doors shut
 LEAVES_AROUND = 2.5  # m to the middle of their doorways
 STUCK = 150.0  # s at one place, as before a door that it cannot open, and it gives up
 PUSHES = 5.0  # s against something that does not move
+BESIDE = 2.5  # m to others, against whom nobody pushes
 SEAT_WAIT = 20.0  # s for a place to get up to
 LIFT_WAIT = 90.0  # s for somebody else in the elevator
 LIFT_ROOM = 1.6  # m around cabin and landings, where a robot uses the elevator
@@ -135,7 +136,7 @@ class Mover:
                 if attempt:
                     yield from self._shut_around()
                     yield self.now + PAUSE
-                if attempt == TRIES - 1:
+                if attempt == TRIES - 1 and not self._beside_somebody():
                     yield from self._push_out()
                 if not self._send(goal, storey):
                     break
@@ -157,6 +158,12 @@ class Mover:
                     and self.simulator.state('door', door.name).get('mode') == 'OPEN'):
                 yield from self._out_of_swing(x, y)
                 self.household.do(self.name, 'door', door.name, 'CloseByHand')
+
+    def _beside_somebody(self) -> bool:
+        """Whether another resident is so near that a push could be against that one."""
+        return any(other is not self and not other.away and other.storey == self.storey
+                   and math.dist(self.at, other.at) < BESIDE
+                   for other in self.household.residents)
 
     def _push_out(self) -> Process:
         """Goes to the open floor of its room straight, against a chair that shuts it in."""
