@@ -206,7 +206,7 @@ def test_a_kill_leaves_nothing(environment, seed):
     assert len(marked(environment)) > 1
     process.kill()
     process.wait()
-    end = time.monotonic() + 60.0  # many times what it takes, also on a busy machine
+    end = time.monotonic() + 5.0
     while marked(environment) and time.monotonic() < end:
         time.sleep(0.05)
     assert marked(environment) == []

@@ -65,7 +65,7 @@ def test_a_seed_that_is_none_is_an_error(master: Master, tmp_path: Path, seed: s
 def test_interrupt_ends_it(tmp_path: Path) -> None:
     with own_node(tmp_path, WORLD, rate=0) as node:
         node.process.send_signal(signal.SIGINT)
-        assert node.process.wait(60) == 0
+        assert node.process.wait(20) == 0
         assert not node.master.topics()
 
 

@@ -45,7 +45,7 @@ def test_it_ends_with_its_world_saved(master: Master, tmp_path: Path) -> None:
     restarted = killed_and_restarted(master, tmp_path)
     try:
         assert process.poll() is None, log.read_text()
-        assert process.wait(60) == 75, log.read_text()
+        assert process.wait(20) == 75, log.read_text()
         text = log.read_text()
         assert "does not answer; the simulation continues" in text
         assert "was restarted and does not know this node; the world as of" in text
@@ -69,7 +69,7 @@ def test_the_default_place_is_the_users_own(master: Master, tmp_path: Path) -> N
     process = master.node(world_file(HOUSE, tmp_path), tmp_path / "log")
     restarted = killed_and_restarted(master, tmp_path)
     try:
-        assert process.wait(60) == 75
+        assert process.wait(20) == 75
         saved = state / "angen" / "rescue.world"
         assert saved.is_file() and not saved.is_symlink() and kept.read_text() == "mine"
         assert saved.stat().st_mode & 0o777 == 0o600
@@ -83,7 +83,7 @@ def test_a_world_that_cannot_be_saved_is_an_error(master: Master, tmp_path: Path
     process = master.node(world_file(HOUSE, tmp_path), log, rescue=tmp_path / "none/saved.world")
     restarted = killed_and_restarted(master, tmp_path)
     try:
-        assert process.wait(60) == 1
+        assert process.wait(20) == 1
         assert "cannot be saved in" in log.read_text()
     finally:
         end(restarted.process)

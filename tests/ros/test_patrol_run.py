@@ -149,7 +149,7 @@ def test_a_kill_while_it_starts_leaves_nothing(tmp_path: Path, seed: int) -> Non
     time.sleep(random.Random(seed).uniform(0.0, 0.5))
     patrol.kill()
     patrol.communicate()
-    until(lambda: not running(tmp_path), 'all that it started ends')
+    until(lambda: not running(tmp_path), 'all that it started ends', 5.0)
 
 
 @without_sanitizer
@@ -162,7 +162,7 @@ def test_a_kill_while_it_drives_leaves_a_bag_that_can_be_read(tmp_path: Path) ->
     assert len(running(tmp_path)) > 2
     patrol.kill()
     patrol.communicate()
-    until(lambda: not running(tmp_path), 'all that it started ends')
+    until(lambda: not running(tmp_path), 'all that it started ends', 5.0)
     with rosbag.Bag(str(tmp_path / 'out/patrol.bag')) as bag:
         assert bag.get_message_count('/clock') > 10
     assert not (tmp_path / 'out/summary.csv').exists()
@@ -176,7 +176,7 @@ def test_a_bag_that_the_disk_has_no_room_for_ends_it_in_a_line(tmp_path: Path) -
     last = trouble.splitlines()[-1]
     assert last.startswith(f'angen: {tmp_path}/out/patrol.bag: cannot be written: ')
     assert 'rosbag reindex' in last and not (tmp_path / 'out/patrol.bag').exists()
-    until(lambda: not running(tmp_path), 'all that it started ends')
+    until(lambda: not running(tmp_path), 'all that it started ends', 5.0)
     with rosbag.Bag(str(tmp_path / 'out/patrol.bag.active'), 'a', allow_unindexed=True) as bag:
         for _ in bag.reindex():
             pass
