@@ -2,9 +2,15 @@
 # The commands ./angen wheel and ./angen package; `angen` sources this and has the functions that install and build.
 # shellcheck disable=SC2154 # root: of `angen`
 
-# A wheel for people without ROS, out of what ./angen build has built: the same programs.
-run_wheel() { # [--bare]
-  local tree=$root/build-wheel prefix package
+# A wheel for people without ROS, out of what ./angen build has built: the same programs. It is for Debian's Python, and
+# for each PROGRAM, another version.
+run_wheel() { # [--python PROGRAM ...] [--bare]
+  local tree=$root/build-wheel prefix package pythons=() modules=()
+  while [[ ${1-} == --python ]]; do
+    "${2-}" -m venv --help >/dev/null 2>&1 || die "--python needs the program of a Python with venv, such as python3.13"
+    pythons+=("$(command -v "$2")")
+    shift 2
+  done
   take_bare wheel "$@"
   cd "$root" || exit
   install package
@@ -16,8 +22,25 @@ run_wheel() { # [--bare]
   for package in angen_models angen_sim angen_tools angen_apps; do
     DESTDIR=$tree cmake -P "build/src/$package/cmake_install.cmake" >"$tree/log" 2>&1 || failed_by "$tree/log"
   done
-  python3 .ci/wheel.py "$tree$prefix" dist
+  build_modules "${pythons[@]}"
+  rm -f dist/angen-*.whl
+  if ((${#pythons[@]})); then modules=(build/pythons/*.so); fi
+  python3 .ci/wheel.py "$tree$prefix" dist "${modules[@]}"
   [[ ! $bare ]] || try_wheel
+}
+
+# The module angen for other versions of Python, in build/pythons; their pybind11 is PyPI's.
+build_modules() { # PROGRAM...
+  local program number=0 environments=()
+  rm -rf build/pythons build/angen/venv*
+  (($#)) || return 0
+  for program in "$@"; do
+    environments+=("$state/venv$((number += 1))")
+    "$program" -m venv "${environments[-1]}" && "${environments[-1]}/bin/pip" install -q pybind11==2.13.6 >&2 ||
+      die "pip could not install pybind11 for $program"
+  done
+  configure build "-DANGEN_PYTHONS=$(IFS=';' && printf %s "${environments[*]/%//bin/python}")"
+  compile build angen_pythons
 }
 
 # Debian packages of what is committed, in a build of their own.
@@ -54,18 +77,24 @@ as_root() { if ((EUID == 0)); then "$@"; else sudo "$@"; fi; }
 
 apt='DEBIAN_FRONTEND=noninteractive apt-get -q -y --no-install-recommends'
 
-# Homes and data of the wheel, in a Python without ROS, have the bytes of those of this checkout.
+# Homes and data of the wheel, in a Python without ROS, have the bytes of those of this checkout: on Debian 12, and on
+# Debian 13 if the wheel is for its Python.
 try_wheel() {
-  local made='generate --days 1 --seed 3 --out' expected
+  local made='generate --days 1 --seed 3 --out' expected debian
   expected=$(mktemp -d)
   angen $made "$expected/data" >/dev/null && angen world home --seed 3 -o "$expected/home.world" >/dev/null
-  as_root .ci/bare --with dist "apt-get -q update && $apt install python3-venv && python3 -m venv /opt/angen" \
-    '/opt/angen/bin/pip install ../with/angen-*.whl' \
-    "/opt/angen/bin/angen $made data && /opt/angen/bin/angen world home --seed 3 -o home.world" \
-    '/opt/angen/bin/angen plan home.world -o plan.png'
-  diff -r "$expected/data" build-bare/root/root/angen/data && cmp "$expected/home.world" build-bare/root/root/angen/home.world
+  for debian in bookworm trixie; do
+    [[ $debian == bookworm || -e $(echo dist/angen-*cp313*.whl) ]] || continue
+    as_root .ci/bare --debian $debian --with dist \
+      "apt-get -q update && $apt install python3-venv && python3 -m venv /opt/angen" \
+      '/opt/angen/bin/pip install ../with/angen-*.whl' \
+      "/opt/angen/bin/angen $made data && /opt/angen/bin/angen world home --seed 3 -o home.world" \
+      '/opt/angen/bin/angen plan home.world -o plan.png'
+    diff -r "$expected/data" build-bare/root/root/angen/data &&
+      cmp "$expected/home.world" build-bare/root/root/angen/home.world
+    say "the wheel makes the same home and data on Debian's $debian as this checkout"
+  done
   rm -r "$expected"
-  say "the wheel makes the same home and data as this checkout"
 }
 
 # apt install, a running building, and nothing that is left after purge.

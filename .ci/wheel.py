@@ -2,7 +2,10 @@
 """Packs an installation as a wheel for people without ROS: the module angen, the angen command,
 its applications, models and worlds, and the libraries that they need.
 
-    .ci/wheel.py PREFIX FOLDER     writes FOLDER/angen-VERSION-….whl, prints its name
+    .ci/wheel.py PREFIX FOLDER [MODULE ...]
+
+writes FOLDER/angen-VERSION-….whl and prints its name. Each MODULE is the module angen for a
+further version of Python.
 """
 from __future__ import annotations
 
@@ -16,6 +19,7 @@ import sys
 import tempfile
 import zipfile
 from pathlib import Path
+from typing import Sequence
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGES = ('angen_models', 'angen_tools', 'angen_apps')
@@ -24,8 +28,8 @@ ROS = re.compile(r'lib(roscpp|rosconsole|python3)')  # libraries of the node nee
 SYSTEM = re.compile(r'(ld-linux|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+|z)\.so)')
 FILES = ('share/angen_sim/worlds', 'share/angen_apps/config', 'lib/angen_sim/angen_mesh')
 # Names on PyPI of Debian's packages in dependencies.apt; those of ROS, of the page and of MQTT are
-# not needed without ROS. Arrays of NumPy 2 differ from those that pybind11 2.10 reads.
-PYPI = {'numpy': 'numpy<2', 'lxml': 'lxml', 'argcomplete': 'argcomplete', 'rich': 'rich',
+# not needed without ROS. Arrays of NumPy 2 differ from those that Debian's pybind11 reads.
+PYPI = {'numpy': 'numpy<2; python_version<"3.12"', 'lxml': 'lxml', 'argcomplete': 'argcomplete', 'rich': 'rich',
         'psutil': 'psutil', 'matplotlib': 'matplotlib', 'scipy': 'scipy', 'shapely': 'shapely',
         'yaml': 'pyyaml', 'pil': 'pillow'}
 
@@ -65,11 +69,11 @@ def own_libraries(folder: Path) -> list[Path]:
     return [path for name, path in sorted(files.items()) if not of_ros(name)]
 
 
-def copy_files(prefix: Path, to: Path) -> None:
+def copy_files(prefix: Path, modules: list[Path], to: Path) -> None:
     """All but the libraries of others."""
     python = prefix / 'lib/python3/dist-packages'
-    module = next(python.glob('angen.*.so'))
-    shutil.copy2(module, to)
+    for module in modules:
+        shutil.copy2(module, to)
     for name in (*PACKAGES, 'angen-stubs'):
         shutil.copytree(python / name, to / name, ignore=shutil.ignore_patterns('__pycache__'))
     bundle = to / 'angen_files'
@@ -127,20 +131,27 @@ def licenses(libraries: list[Path], to: Path) -> None:
             shutil.copy2(text, to / f'{owner}.txt')
 
 
-def tag() -> str:
-    """Of this Python and of this Linux, as PEP 425 and PEP 600 have it."""
-    python = f'cp{sys.version_info.major}{sys.version_info.minor}'
+def tags(modules: list[Path]) -> list[str]:
+    """The versions of Python that modules are for, such as cp311, ascending."""
+    found = (re.search(r'\.cpython-(3)(\d+)-', module.name) for module in modules)
+    return [f'cp3{minor}' for minor in sorted(int(each[2]) for each in found if each)]
+
+
+def platform_tag() -> str:
+    """The Linux of this machine, as PEP 600 has it."""
     glibc = platform.libc_ver()[1].replace('.', '_')
-    return f'{python}-{python}-manylinux_{glibc}_{platform.machine()}'
+    return f'manylinux_{glibc}_{platform.machine()}'
 
 
-def metadata() -> str:
+def metadata(pythons: list[str]) -> str:
     listed = re.findall(r'^python3-(\S+)', (ROOT / 'dependencies.apt').read_text(), re.MULTILINE)
     requires = ''.join(f'Requires-Dist: {PYPI[name]}\n' for name in listed if name in PYPI)
-    minor = sys.version_info.minor
+    if pythons[0] != pythons[-1]:
+        requires += 'Requires-Dist: numpy; python_version>="3.12"\n'
+    first, after = (int(python[3:]) for python in (pythons[0], pythons[-1]))
     return (f'Metadata-Version: 2.1\nName: angen\nVersion: {version()}\n'
             'Summary: A simulator of smart apartments with robots, people and sensors\n'
-            f'License: Apache-2.0\nRequires-Python: ==3.{minor}.*\n{requires}'
+            f'License: Apache-2.0\nRequires-Python: >=3.{first},<3.{after + 1}\n{requires}'
             'Description-Content-Type: text/markdown\n\n' + ABOUT)
 
 
@@ -163,28 +174,32 @@ def write(tree: Path, file: Path) -> None:
         wheel.writestr(entry, ''.join(record) + f'{info}/RECORD,,\n')
 
 
-def pack(prefix: Path, folder: Path) -> Path:
-    """The wheel of an installation."""
+def pack(prefix: Path, folder: Path, further: Sequence[Path] = ()) -> Path:
+    """The wheel of an installation, and of the module for further versions of Python."""
+    modules = [*prefix.glob('lib/python3/dist-packages/angen.*.so'), *further]
+    pythons = tags(modules)
     with tempfile.TemporaryDirectory() as made:
         tree = Path(made)
-        copy_files(prefix, tree)
+        copy_files(prefix, modules, tree)
         info = tree / f'angen-{version()}.dist-info'
         licenses(bundle_libraries(tree, prefix / 'lib'), info / 'licenses')
-        (info / 'METADATA').write_text(metadata())
+        (info / 'METADATA').write_text(metadata(pythons))
+        lines = ''.join(f'Tag: {each}-{each}-{platform_tag()}\n' for each in pythons)
         (info / 'WHEEL').write_text('Wheel-Version: 1.0\nGenerator: angen\n'
-                                    f'Root-Is-Purelib: false\nTag: {tag()}\n')
+                                    f'Root-Is-Purelib: false\n{lines}')
         scripts = tree / f'angen-{version()}.data/scripts'
         scripts.mkdir(parents=True)
         text = (ROOT / 'src/angen_tools/scripts/angen').read_text()
         (scripts / 'angen').write_text(text.replace('#!/usr/bin/env python3', '#!python'))
         (scripts / 'angen').chmod(0o755)
         folder.mkdir(parents=True, exist_ok=True)
-        wheel = folder / f'angen-{version()}-{tag()}.whl'
+        versions = '.'.join(pythons)
+        wheel = folder / f'angen-{version()}-{versions}-{versions}-{platform_tag()}.whl'
         write(tree, wheel)
     return wheel
 
 
 if __name__ == '__main__':
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3:
         raise SystemExit(__doc__)
-    print(pack(Path(sys.argv[1]), Path(sys.argv[2])))
+    print(pack(Path(sys.argv[1]), Path(sys.argv[2]), [Path(each) for each in sys.argv[3:]]))

@@ -95,7 +95,7 @@ def add_commands(commands: Any) -> None:
     add_out(sensors, 'the CSV files and figures')
     core = command(kinds, 'core', run_bench_core, 'measures the core without ROS: doors, rays, '
                    'PIRs, towers, an hour; some minutes', 'bench core',
-                   'bench core -o out --history')
+                   'bench core --out out --history')
     add_json(core)
     core.add_argument('--history', action='store_true',
                       help='adds the ratios of this version to bench/history.csv')

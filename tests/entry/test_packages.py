@@ -68,6 +68,15 @@ def test_the_wheel_is_for_this_python_and_has_no_ros(wheel: Path) -> None:
     assert 'Requires-Dist: numpy' in metadata and f'Version: {VERSION}' in metadata
 
 
+def test_a_wheel_for_several_pythons_names_each_and_its_numpy() -> None:
+    modules = [Path(f'angen.cpython-{version}-x86_64-linux-gnu.so') for version in (313, 311, 312)]
+    pythons = packer().tags(modules)
+    assert pythons == ['cp311', 'cp312', 'cp313']
+    metadata = packer().metadata(pythons)
+    assert 'Requires-Python: >=3.11,<3.14' in metadata
+    assert 'Requires-Dist: numpy; python_version>="3.12"' in metadata
+
+
 def test_the_unpacked_wheel_runs_alone(wheel: Path, tmp_path: Path) -> None:
     """Its libraries are found beside it, and none of this checkout."""
     with zipfile.ZipFile(wheel) as file:

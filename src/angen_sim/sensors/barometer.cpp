@@ -41,7 +41,7 @@ class Barometer : public Sensor {
 };
 
 ANGEN_REGISTER_SENSOR(Barometer,
-                      Kind("barometer", "A barometer, which tells storeys apart.")
+                      Kind("barometer", "A barometer, which tells floors apart.")
                           .rate(1.0)
                           .model("barometer")
                           .example("spawn barometer b1 --on elevator::cabin --pose \"0 0 1\"")

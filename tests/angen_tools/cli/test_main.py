@@ -9,21 +9,29 @@ import socket
 import subprocess
 import sys
 from pathlib import Path
-from typing import Callable
+from typing import Callable, Iterator
 
 import pytest
 
 from angen_tools.cli import main as cli
-from angen_tools.common.catalog import kinds
 
 ROOT = Path(__file__).resolve().parents[3]
 SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
-COMMANDS = ['spawn', 'spawn model', 'spawn sitter', 'delete', 'list', 'plugins', 'set', 'save',
-            'watch', 'top', 'run', 'drive', 'map', 'task', 'task patrol', 'task seek', 'check',
-            'luxcheck', 'pid', 'situations', 'completion',
-            *(f'spawn {kind}' for kind in kinds('sensor')),
-            *(f'set {name}' for name, kind in kinds('device').items()
-              if kind['verbs'] or kind['values'])]
+
+
+def subcommands(parser: argparse.ArgumentParser, name: str = ''
+                ) -> Iterator[tuple[str, argparse.ArgumentParser]]:
+    """Those that run something, by their words."""
+    groups = [action for action in parser._actions
+              if isinstance(action, argparse._SubParsersAction)]
+    if not groups:
+        yield name.strip(), parser
+    for group in groups:
+        for word, sub in group.choices.items():
+            yield from subcommands(sub, f'{name} {word}')
+
+
+COMMANDS = dict(subcommands(cli.make_parser()))
 
 
 @pytest.fixture
@@ -77,21 +85,17 @@ def test_help_has_an_example_that_parses(words: str, parser: argparse.ArgumentPa
         program, *given = shlex.split(example.split('>>')[0])
         assert program == 'angen' and example.strip().startswith(f'angen {words}')
         assert parser.parse_args(given).run
+        assert not capsys.readouterr().err  # a former spelling of an option
+        for word in given:
+            assert not word.startswith(('examples/', 'worlds/')) or (ROOT / word).exists()
 
 
 NO_RESULT = {'completion', 'mqtt'}  # a script; a bridge that runs until it is ended
 
 
 def test_every_command_that_prints_a_result_prints_json() -> None:
-    def without(parser: argparse.ArgumentParser, name: str) -> set[str]:
-        groups = [action for action in parser._actions
-                  if isinstance(action, argparse._SubParsersAction)]
-        if groups:
-            return set().union(*(without(sub, f'{name} {word}')
-                                 for word, sub in groups[0].choices.items()))
-        return set() if '--json' in parser._option_string_actions else {name.strip()}
-
-    assert without(cli.make_parser(), '') == NO_RESULT
+    assert {words for words, parser in COMMANDS.items()
+            if '--json' not in parser._option_string_actions} == NO_RESULT
 
 
 def test_help_needs_neither_ros_nor_lxml() -> None:

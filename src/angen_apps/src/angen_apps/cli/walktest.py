@@ -24,7 +24,7 @@ def add_walktest(commands: Any) -> None:
     test = command(commands, 'walktest', run_walktest,
                    'runs the walk test of a standard on a PIR; needs no simulator',
                    'walktest --profile nema-wd7',
-                   'walktest --profile iec63180 --model range_difference -o out')
+                   'walktest --profile iec63180 --model range_difference --out out')
     test.add_argument('--profile', choices=PROFILES, required=True, help='the standard')
     test.add_argument('--model', choices=MODELS, default='pyroelectric',
                       help='of the PIR (pyroelectric)')

@@ -25,7 +25,7 @@ def add_pid(commands: Any) -> None:
     """angen pid."""
     parser = command(commands, 'pid', run_pid,
                      'draws the step response of a door or an elevator with P, P + I, PID and its '
-                     'own controller; needs no simulator', 'pid door', 'pid elevator -o out')
+                     'own controller; needs no simulator', 'pid door', 'pid elevator --out out')
     parser.add_argument('kind', metavar='KIND', choices=('door', 'elevator'),
                         help='door or elevator')
     add_json(parser)
