@@ -58,3 +58,10 @@ def test_wrong_arguments_are_reported(capsys):
         assert end.value.code == 2
     assert cli.run(['walktest', '--profile', 'nema-wd7', '--set', 'colour=red']) == 1
     assert "no parameter 'colour'" in capsys.readouterr().err
+
+
+def test_an_error_of_its_world_is_one_line(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(walktest, 'room', lambda *_: '<sdf version="1.6"><world name="walktest"/>')
+    assert cli.run(['walktest', '--profile', 'nema-wd7', '--out', str(tmp_path)]) == 1
+    said = capsys.readouterr().err
+    assert said.startswith('angen: <text>:1: ') and said.count('\n') == 1

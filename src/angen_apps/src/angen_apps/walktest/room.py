@@ -14,7 +14,7 @@ def room(depth: float, half: float, ambient: float, step: float, content: str = 
         f'<collision name="{name}"><pose>{x} {y} {z} 0 0 0</pose><geometry><box>'
         f'<size>{a} {b} {c}</size></box></geometry></collision>'
         for name, (x, y, z, a, b, c) in boxes.items())
-    return f'''<sdf version="1.6"><world name="walktest">
+    return f'''<sdf version="1.6"><world name="walktest" angen:strict="true">
   <physics type="ode"><max_step_size>{step}</max_step_size></physics>
   <atmosphere type="adiabatic"><temperature>{ambient}</temperature></atmosphere>
   <model name="room"><static>true</static><link name="room">{walls}</link></model>

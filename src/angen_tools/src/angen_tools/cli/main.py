@@ -115,6 +115,12 @@ def run(arguments: Sequence[str]) -> int:
         what = f'{error.filename}: cannot be written' if error.filename else 'cannot write'
         print(f'angen: {what}: {error.strerror}', file=sys.stderr)
         return 1
+    except Exception as error:
+        angen = sys.modules.get('angen')
+        if angen is None or not isinstance(error, angen.Error):
+            raise
+        print(f'angen: {error}', file=sys.stderr)  # of a world that cannot be loaded
+        return 1
 
 
 def _run_building(words: Sequence[str]) -> None:
