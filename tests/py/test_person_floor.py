@@ -47,6 +47,7 @@ def test_a_goal_without_floor_is_given_up(world: Callable[..., angen.World], goa
     assert min(z for _, _, z in walk(w, 20)) > UP - 0.05
     state = w.device('person', 'ann')
     assert state['unreachable'] and state['mode'] == 'STANDING'
+    assert state['why'] == 'there is no floor'
 
 
 @pytest.mark.parametrize('speed', [0.5, 1.0, 1.5])

@@ -36,7 +36,7 @@ def corridor(world, aside: float):
 def test_a_person_who_cannot_pass_another_gives_up(world, aside):
     """He leaves less than the width of a body, 0.5 m."""
     state = corridor(world, aside).device('person', 'ann')
-    assert state['mode'] == 'STANDING' and state['unreachable']
+    assert state['mode'] == 'STANDING' and state['why'] == 'bob is in its way'
 
 
 @pytest.mark.parametrize('aside', [0.2, 0.25])

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 import angen
+from sdf_text import box
 
 WORLD = Path(__file__).resolve().parents[2] / 'worlds/angen.world'
 
@@ -85,6 +86,22 @@ def test_what_is_no_place_is_refused(w: angen.World) -> None:
         with pytest.raises(angen.Error, match=why):
             w.command('person', 'person', order)
         assert state(w) == before
+
+
+def test_an_elevator_that_is_out_of_order_is_given_up(w: angen.World) -> None:
+    w.command('elevator', 'elevator', 'Floor1')
+    w.run(30.0)
+    lift = next(e for e in w.home['elevators'] if e['name'] == 'elevator')
+    x, y = ((a + b) / 2 for a, b in zip(lift['pose'][:2], lift['landings'][1]['pose'][:2]))
+    crate = box('crate', '0 0 0 0 0 0', '0.5 0.5 0.5', mass=60.0)
+    w.spawn(f'<sdf version="1.6">{crate}</sdf>', 'crate',
+            (x, y, lift['landings'][1]['pose'][2] + 0.3, 0.0, 0.0, 0.0))
+    w.command('person', 'person', 'GoTo kitchen1')
+    end = w.time + 180.0
+    while w.time < end and not state(w)['unreachable']:
+        w.run(1.0)
+    assert state(w)['why'].startswith('elevator elevator has not come within 120 s; it is ')
+    assert state(w)['mode'] == 'STANDING'
 
 
 def test_without_the_elevator_it_stays_and_says_so(w: angen.World) -> None:

@@ -42,13 +42,13 @@ def events_of(w: angen.World) -> dict[str, list[str]]:
     return events
 
 
-@pytest.mark.parametrize('goal, told_within', [
-    ('3 0', 0.2),      # in a pillar
-    ('-4 4', 0.2),     # in a closet without a door
-    ('5 5', 0.2),      # in the top of a bar
-    ('8 -8', 60.0),    # in a wardrobe, which could be moved
+@pytest.mark.parametrize('goal, told_within, why', [
+    ('3 0', 0.2, 'pillar is there'),
+    ('-4 4', 0.2, 'no way leads there'),  # in a closet without a door
+    ('5 5', 0.2, 'bar is there'),  # in its top
+    ('8 -8', 60.0, 'wardrobe is in its way'),  # which could be moved
 ])
-def test_a_person_stops_and_reports_that_no_way_leads_there(world, goal, told_within):
+def test_a_person_stops_and_reports_why_it_does_not_get_there(world, goal, told_within, why):
     closet = (box('c1', '-4 3 1.2 0 0 0', '2.1 0.1 2.4', True)
               + box('c2', '-4 5 1.2 0 0 0', '2.1 0.1 2.4', True)
               + box('c3', '-5 4 1.2 0 0 0', '0.1 2.1 2.4', True)
@@ -69,10 +69,10 @@ def test_a_person_stops_and_reports_that_no_way_leads_there(world, goal, told_wi
         assert now['mode'] == 'STANDING' and now['unreachable']
         walked = max(walked, float(np.linalg.norm(place(w) - here)))
     assert walked < 0.1
-    assert events_of(w)['unreachable'] == [goal]
+    assert events_of(w)['unreachable'] == [f'{goal}: {why}'] and state(w)['why'] == why
     w.command('person', 'ann', 'GoTo -1 -1')
     for now in watch(w, 20.0):
-        assert not now['unreachable']
+        assert not now['unreachable'] and not now['why']
     assert np.linalg.norm(place(w) - (-1, -1)) < 0.1
 
 
@@ -175,15 +175,21 @@ def test_a_person_on_a_path_behind_a_shut_door_does_not_pace(world):
     assert state(w)['mode'] == 'WALKING'
 
 
-def test_a_door_that_does_not_open_is_given_up(world):
-    crate = box('crate', '0.5 -0.32 0.601 0 0 0', '0.9 0.5 1.2', mass=400.0)
-    w = world(WALL + DOOR + crate + person('0.5 2 0 0 0 0'), DOORS)
+@pytest.mark.parametrize('holder', [
+    box('crate', '0.5 -0.32 0.601 0 0 0', '0.9 0.5 1.2', mass=400.0),
+    person('0.6 -0.35 0 0 0 0', '<force_max>1000</force_max>', 'crate')])
+def test_a_door_that_another_holds_shut_is_given_up(world, holder):
+    # Walls to both sides: there is no other way.
+    ends = ''.join(box(f'end{x}', f'{x} 0 1.2 0 0 0', '0.1 19 2.4', True) for x in (-9.9, 9.9))
+    w = world(WALL + DOOR + ends + holder + person('0.5 2 0 0 0 0'), DOORS)
     w.run(0.5)
     w.command('person', 'ann', 'GoTo 0.5 -3')
     start = w.time
     while not state(w)['unreachable'] and w.time < start + 120:
         w.run(0.5)
     assert state(w)['unreachable'] and state(w)['mode'] == 'STANDING'
+    assert state(w)['why'] == ('door kitchen0 does not open: crate holds it, and it knows no other '
+                               'way')
 
 
 ROOM = '''<model name="hall" xmlns:angen="angen"><static>true</static><link name="l"/>

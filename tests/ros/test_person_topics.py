@@ -38,6 +38,14 @@ def test_a_person_goes_where_a_topic_sends_it(angen: Angen) -> None:
         arrives(person, -4.5, 3)
 
 
+def test_a_person_lies_down_and_gets_up_on_command(angen: Angen, cli: Cli) -> None:
+    with Inbox("/angen/person/bob", PersonState) as person:
+        cli.does("set", "person", "bob", "lie")
+        person.wait(lambda m: m.mode == PersonState.LYING, "it lies")
+        angen.send("/angen/command", Command(target="bob", text="Stand"))
+        person.wait(lambda m: m.mode == PersonState.STANDING, "it stands")
+
+
 def test_a_person_goes_where_the_command_line_sends_it(cli: Cli) -> None:
     with Inbox("/angen/person/bob", PersonState) as person:
         cli.does("set", "person", "bob", "goto", "-4", "-1")

@@ -12,19 +12,19 @@ namespace angen::people {
 
 namespace {
 
-constexpr double kUsualMass = 70.0;      // kg, of a body of 1.8 m^2
-constexpr double kMouth = 1.5;           // m above the floor: where its sound comes from
-constexpr double kMiddle = 0.9;          // m above its feet
-constexpr double kCelsiusZero = 273.15;  // K
-constexpr double kFelt = 0.02;           // K: smaller changes of the air are not felt
-constexpr double kFeltHumidity = 0.5;    // percent
-constexpr double kUsualHumidity = 50.0;  // percent, if the world has no climate
-constexpr double kRoomAir = 295.15;      // K, at which …
-constexpr double kSkinAtRest = 307.0;    // K … is that of head and hands
-constexpr double kSkinPerKelvin = 0.12;  // share of the air's
-constexpr double kCoveredSkin = 306.5;   // K, below clothing
-constexpr double kClothingShare = 0.35;  // share of the way from the air to the skin
-constexpr double kBareShare = 0.12;      // share of its surface: head and hands
+constexpr double kUsualMass = 70.0;             // kg, of a body of 1.8 m^2
+constexpr double kMouths[] = {1.5, 0.68, 0.2};  // m: where its sound comes from, by posture
+constexpr double kMiddle = 0.9;                 // m above its feet
+constexpr double kCelsiusZero = 273.15;         // K
+constexpr double kFelt = 0.02;                  // K: smaller changes of the air are not felt
+constexpr double kFeltHumidity = 0.5;           // percent
+constexpr double kUsualHumidity = 50.0;         // percent, if the world has no climate
+constexpr double kRoomAir = 295.15;             // K, at which …
+constexpr double kSkinAtRest = 307.0;           // K … is that of head and hands
+constexpr double kSkinPerKelvin = 0.12;         // share of the air's
+constexpr double kCoveredSkin = 306.5;          // K, below clothing
+constexpr double kClothingShare = 0.35;         // share of the way from the air to the skin
+constexpr double kBareShare = 0.12;             // share of its surface: head and hands
 constexpr Nanoseconds kAirPeriod = 10 * kSecond;
 constexpr Range kSoundPower{-100.0, 200.0};
 
@@ -84,9 +84,11 @@ void Body::pose_limbs(std::vector<Pose>& limbs) const {
 void Body::report(const View& view, std::optional<double> speed, Reading& state) const {
   state.set("speaking", speaks_);
   state.set("sound_power_level", sound(speed.has_value()));
-  state.set("position", std::vector<double>{0.0, 0.0, kMouth});
+  state.set("position", std::vector<double>{0.0, 0.0, kMouths[static_cast<int>(posture_)]});
   const double air = air_ > 0.0 ? air_ : view.ambient_temperature();
-  const double rate = metabolic_rate(speed.value_or(0.0));
+  const double rate = posture_ == Posture::kSit   ? kSeated
+                      : posture_ == Posture::kLie ? kReclining
+                                                  : metabolic_rate(speed.value_or(0.0));
   const Metabolism given = metabolism(rate, air - kCelsiusZero, humidity_);
   state.set("heat", surface_ * given.heat);
   state.set("vapor", surface_ * given.vapor);

@@ -16,6 +16,7 @@ class Body {
   void speak(bool speaks) { speaks_ = speaks; }
   /// `link` is the body as it is now.
   void update(const View& view, const LinkView& link, Outputs& outputs);
+  void take(Posture posture) { gait_.take(posture_ = posture); }
   /// `speed` is that of its walk (m/s), none while it does not walk.
   void report(const View& view, std::optional<double> speed, Reading& state) const;
   void save(SavedParams& params) const { params.flag("speaking", speaks_); }
@@ -28,6 +29,7 @@ class Body {
   double sound(bool walks) const;
 
   Gait gait_;
+  Posture posture_ = Posture::kStand;
   std::vector<SurfaceRef> surfaces_;
   double skin_ = 0.0;      // K, of head and hands
   double clothing_ = 0.0;  // K, of the rest

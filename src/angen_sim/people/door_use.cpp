@@ -25,6 +25,7 @@ constexpr double kLeafSkin = 0.1;                   // m, from the line of a shu
 constexpr double kBothStand = 0.5;                  // m, between two people
 constexpr double kBehind = 0.4;                     // m past a door, to close it
 constexpr double kForgets = 4.0;                    // m
+constexpr double kNearby = 2.5;                     // m: doors that may be in the way
 constexpr double kSeesDoor = 2.0;                   // m, before the leaf
 constexpr double kPassesBeside = 0.35;              // m, from a leaf to a person's middle
 constexpr Nanoseconds kNearEnough = 3 * kSecond;    // then it opens from where it can reach
@@ -111,6 +112,24 @@ bool is_swing_taken(const View& view, const Vec3& feet, const DoorSeen& door, Wh
   });
 }
 
+/// The model that its leaf meets first as it opens; empty if none is there.
+std::string in_the_way(const View& view, const Vec3& feet, const DoorSeen& door) {
+  for (double away = kLeafSkin; away < door.width; away += kLeafSkin) {
+    for (const double height : {0.2, 0.6, 1.2}) {
+      const auto at = [&](double along) {
+        const Surroundings::Vec2 place = door.hinge + along * door.along + away * door.into;
+        return Vec3(place.x(), place.y(), feet.z() + height);
+      };
+      for (const rays::Crossing& c : view.crossings(at(kLeafSkin), at(door.width - kLeafSkin))) {
+        const std::string model = view.model_of(c.shape);
+        const std::vector<std::uint32_t> own = view.own_shapes();
+        if (model != door.model && std::count(own.begin(), own.end(), c.shape) == 0) return model;
+      }
+    }
+  }
+  return "";
+}
+
 /// Where its leaf turns or slides; false where that is not known.
 bool place(const Reading& state, const HomeDoor* home, DoorSeen& door) {
   door.slides = state.find("opens") == nullptr;
@@ -152,6 +171,7 @@ std::vector<DoorSeen> doors_seen(const View& view, double z) {
     if (device.kind != "door") continue;
     DoorSeen door;
     door.name = std::string(device.name);
+    door.model = std::string(device.model);
     door.mode = device.state.get<std::string>("mode");
     door.width = device.state.get<double>("width");
     door.gap = device.state.get<double>("gap");
@@ -277,7 +297,7 @@ DoorUse::Advice DoorUse::update(const View& view, const Vec3& feet, const Vec2& 
       if (looks && is_in_swing(at) && is_taken(view, feet, spot_)) spot_ = free_spot(view, feet);
       return approach(view, feet, outputs);
     case Phase::kOpening:
-      return wait_until_open(view.time());
+      return wait_until_open(view, feet);
     case Phase::kWaiting:
       if (door_.is_passable()) {
         enter(Phase::kPassing, view.time());
@@ -313,7 +333,7 @@ DoorUse::Advice DoorUse::approach(const View& view, const Vec3& feet, Outputs& o
   const Nanoseconds time = now - since_;
   const bool reaches = time > kNearEnough && (at - handle()).norm() < kReach;
   if (!opens && ((at - spot_).norm() < kAtSpot || reaches)) return open(view, feet, outputs);
-  if (time > kLongest) return fail(now);
+  if (time > kLongest) return fail(view, feet, "is out of its reach");
   return {Advice::Step::kGo, spot_};
 }
 
@@ -325,7 +345,7 @@ DoorUse::Advice DoorUse::open(const View& view, const Vec3& feet, Outputs& outpu
     return {Advice::Step::kWait, handle()};
   }
   if (!door_.slides && is_swing_taken(view, feet, door_, Whose::kRobots)) {
-    if (now - since_ > kRobotLeaves) return fail(now);
+    if (now - since_ > kRobotLeaves) return fail(view, feet, "does not open");
     return {Advice::Step::kStand, handle()};
   }
   outputs.event("opens", door_.name);
@@ -344,18 +364,24 @@ bool DoorUse::is_in_swing(const Vec2& at) const {
   return of_other || (at - door_.hinge).norm() < reach;
 }
 
-DoorUse::Advice DoorUse::wait_until_open(Nanoseconds now) {
+DoorUse::Advice DoorUse::wait_until_open(const View& view, const Vec3& feet) {
+  const Nanoseconds now = view.time();
   const Nanoseconds time = now - since_;
   if (door_.is_passable() && (!moves() || time > kLongest)) {
     failures_ = 0;
     enter(Phase::kPassing, now);
     return {};
   }
-  if (time > kLongest || (time > kStarts && !moves())) return fail(now);
+  if (time > kLongest || (time > kStarts && !moves())) {
+    return fail(view, feet, "does not open");
+  }
   return {Advice::Step::kStand, handle()};
 }
 
-DoorUse::Advice DoorUse::fail(Nanoseconds now) {
+DoorUse::Advice DoorUse::fail(const View& view, const Vec3& feet, const std::string& why) {
+  const Nanoseconds now = view.time();
+  const std::string holds = in_the_way(view, feet, door_);
+  why_ = "door " + door_.name + " " + why + (holds.empty() ? "" : ": " + holds + " holds it");
   tries_at_ = now + (kRests << std::min(failures_++, kRestDoublings));
   enter(Phase::kWaiting, now);
   return {Advice::Step::kFailed, handle()};
@@ -385,8 +411,28 @@ DoorUse::Advice DoorUse::pass(const View& view, const Vec3& feet, Outputs& outpu
   outputs.event("closes", door_.name);
   outputs.command("door", door_.name, "CloseByHand");
   if (!door_.partner.empty()) outputs.command("door", door_.partner, "CloseByHand");
+  if (!*closes_off_) {  // it goes on while the leaf shuts
+    reset();
+    return {};
+  }
   enter(Phase::kClosing, view.time());
   return {Advice::Step::kStand, handle()};
+}
+
+bool DoorUse::shut_nearby(const View& view, const Vec3& feet, Outputs& outputs) const {
+  bool any = false;
+  for (const DoorSeen& door : doors_seen(view, feet.z())) {
+    const double away = (feet.head<2>() - door.hinge).norm();
+    if (!opens_ || door.slides || door.mode != "OPEN" || away > kNearby ||
+        away < door.width + kOutOfSwing - kAtSpot ||
+        is_swing_taken(view, feet, door, Whose::kAll)) {
+      continue;
+    }
+    outputs.event("closes", door.name);
+    outputs.command("door", door.name, "CloseByHand");
+    any = true;
+  }
+  return any;
 }
 
 // Whether nobody gets past its open leaf to a place behind it.

@@ -14,6 +14,7 @@ struct DoorSeen {
   using Vec2 = Surroundings::Vec2;
 
   std::string name;
+  std::string model;
   std::string mode;
   Vec2 hinge = Vec2::Zero();   // m
   Vec2 along = Vec2::UnitX();  // unit, from the hinge along the shut leaf
@@ -62,6 +63,9 @@ class DoorUse {
   /// `looks`. Commands doors.
   Advice update(const View& view, const Vec3& feet, const Vec2& to, bool looks, Outputs& outputs);
   void reset() { phase_ = Phase::kNone; }
+  /// Shuts open doors nearby that nobody is at: their leaves may close off its way. Returns whether
+  /// there are any.
+  bool shut_nearby(const View& view, const Vec3& feet, Outputs& outputs) const;
   /// Whether it shuts the doors that it walks through.
   void close(bool closes) { closes_ = closes; }
   bool closes() const { return closes_; }
@@ -69,6 +73,8 @@ class DoorUse {
   bool is_busy() const { return phase_ != Phase::kNone && phase_ != Phase::kPassing; }
   /// The door that it is at.
   const DoorSeen& door() const { return door_; }
+  /// Why that did not open.
+  const std::string& why() const { return why_; }
 
  private:
   enum class Phase { kNone, kApproach, kOpening, kWaiting, kPassing, kClosing };
@@ -76,8 +82,8 @@ class DoorUse {
   void look(const View& view, const Vec3& feet, const Vec2& to);
   Advice approach(const View& view, const Vec3& feet, Outputs& outputs);
   Advice open(const View& view, const Vec3& feet, Outputs& outputs);
-  Advice wait_until_open(Nanoseconds now);
-  Advice fail(Nanoseconds now);
+  Advice wait_until_open(const View& view, const Vec3& feet);
+  Advice fail(const View& view, const Vec3& feet, const std::string& why);
   Advice pass(const View& view, const Vec3& feet, Outputs& outputs);
   bool closes_off(const View& view, const Vec3& feet) const;
   bool is_in_swing(const Vec2& at) const;
@@ -102,7 +108,8 @@ class DoorUse {
   Nanoseconds since_ = 0;           // start of this phase
   std::optional<bool> closes_off_;  // while passing: whether nobody gets past the open leaf
   int failures_ = 0;                // one after the other
-  Nanoseconds tries_at_ = 0;        // again, after those
+  std::string why_;
+  Nanoseconds tries_at_ = 0;  // again, after those
 };
 
 }  // namespace angen::people

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "core/time.h"
 #include "people/surroundings.h"
@@ -30,7 +32,12 @@ class Errand {
   void arrive() { phase_ = Phase::kArrived; }
   /// It stands here from now on, unless it is pushed away.
   void stop_at(const Vec2& at);
-  void give_up() { phase_ = Phase::kGaveUp; }
+  void give_up(std::string why) {
+    phase_ = Phase::kGaveUp;
+    why_ = std::move(why);
+  }
+  /// Why it gave up; empty if it has not.
+  const std::string& why() const { return why_; }
   bool stays(const Vec2& at) const { return phase_ == Phase::kArrived && away(at) < stays_within_; }
   /// Whether it has been in one small circle for too long; not while it `waits` at a door, and not
   /// while it `rests` there. `speed` in m/s.
@@ -48,6 +55,7 @@ class Errand {
   Vec2 to_;  // m, world
   bool pushes_;
   Phase phase_ = Phase::kGoes;
+  std::string why_;
   bool begun_ = false;
   double stays_within_ = 0.1;   // m of the goal, once it has arrived
   Vec2 circle_ = Vec2::Zero();  // middle of the one that it is in

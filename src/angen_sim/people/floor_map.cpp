@@ -15,10 +15,10 @@ namespace angen::people {
 namespace {
 
 constexpr rays::Mobilities kStatic = rays::only(rays::Mobility::kStatic);
-constexpr double kScanHeights[] = {0.15, 0.5, 0.738, 1.2};  // m, as a person sees
-constexpr double kProbeStep = 0.2;                          // m
-constexpr double kDetour = 20.0;                            // m around both places
-constexpr double kBorder = 1.0;                             // m around the static shapes
+constexpr double kScanHeights[] = {0.15, 0.45, 0.738, 1.2};  // m, as a person sees
+constexpr double kProbeStep = 0.2;                           // m
+constexpr double kDetour = 20.0;                             // m around both places
+constexpr double kBorder = 1.0;                              // m around the static shapes
 constexpr double kMaxMapCells = 4e6;
 constexpr double kTightMap = 3.0;    // per meter nearer to something than kRoomyMap
 constexpr double kInside = 0.3;      // m from the surface: deeper places need no distances

@@ -31,10 +31,16 @@ constexpr std::array<Limb, Gait::kLimbs> kLimb{{{"thigh_left", -1, 1.0, 0.90},
                                                 {"upper_arm_left", -1, 1.0, 1.42},
                                                 {"upper_arm_right", -1, -1.0, 1.42},
                                                 {"forearm_left", 4, 1.0, 1.12},
-                                                {"forearm_right", 5, -1.0, 1.12}}};
+                                                {"forearm_right", 5, -1.0, 1.12},
+                                                {"trunk", -1, 0.0, 1.15}}};
 constexpr int kShank = 2;  // the first of each pair
 constexpr int kUpperArm = 4;
 constexpr int kForearm = 6;
+constexpr int kTrunk = 8;
+
+constexpr double kSeatedLimbs[] = {-1.57, 1.53, -0.3, -1.2, 0.0};  // rad, of each pair
+constexpr double kHips = -0.82;                                    // m, from standing to the seat
+const Vec3 kLies(-0.97, 0.0, 0.17);                                // m, of the feet
 
 /// A turn about the y axis at a height.
 Pose turned(double height, double angle) {
@@ -50,6 +56,7 @@ std::vector<Anatomy::Names> Gait::visuals() {
   for (const Limb& limb : kLimb) visuals.push_back({limb.name});
   visuals[kShank].emplace_back("foot_left");
   visuals[kShank + 1].emplace_back("foot_right");
+  for (const char* name : {"neck", "head", "hair", "nose"}) visuals[kTrunk].emplace_back(name);
   return visuals;
 }
 
@@ -64,19 +71,25 @@ void Gait::advance(const Pose& pose, double speed) {
   swing_ = kWidest * std::min(speed / kFull, 1.0);
 }
 
+double Gait::angle(int number) const {
+  if (posture_ == Posture::kSit) return kSeatedLimbs[number / 2];
+  const double ahead = kLimb.at(static_cast<std::size_t>(number)).side * std::sin(phase_);
+  if (posture_ == Posture::kLie || number == kTrunk) return 0.0;
+  if (number >= kForearm) return -kElbow * swing_;
+  if (number >= kUpperArm) return kArm * swing_ * ahead;
+  if (number < kShank) return -swing_ * ahead;  // ahead is a turn below 0 about y
+  const double side = kLimb.at(static_cast<std::size_t>(number)).side;
+  return kKnee * swing_ * std::max(0.0, side * std::cos(phase_));
+}
+
 Pose Gait::limb(int number) const {
   const Limb& limb = kLimb.at(static_cast<std::size_t>(number));
-  const double ahead = limb.side * std::sin(phase_);  // -1 to 1
-  double angle = -swing_ * ahead;                     // ahead is a turn below 0 about y
-  if (number >= kForearm) {
-    angle = -kElbow * swing_;
-  } else if (number >= kUpperArm) {
-    angle = kArm * swing_ * ahead;
-  } else if (number >= kShank) {
-    angle = kKnee * swing_ * std::max(0.0, limb.side * std::cos(phase_));
-  }
-  const Pose own = turned(limb.height, angle);
-  return limb.parent < 0 ? own : this->limb(limb.parent) * own;
+  const Pose own = turned(limb.height, angle(number));
+  if (limb.parent >= 0) return this->limb(limb.parent) * own;
+  if (posture_ == Posture::kSit) return Pose{{0.0, 0.0, kHips}, Quat::Identity()} * own;
+  // On its back, head ahead.
+  const Quat back(Eigen::AngleAxisd(M_PI, Vec3(1.0, 0.0, 1.0).normalized()));
+  return posture_ == Posture::kLie ? Pose{kLies, back} * own : own;
 }
 
 }  // namespace angen::people

@@ -11,6 +11,8 @@ struct Metabolism {
 /// W of heat for each m^2 of the body, of a person who stands relaxed, or walks on level ground at
 /// that speed (m/s): ISO 8996 and the table of ISO 7730, annex B.
 double metabolic_rate(double speed);
+constexpr double kSeated = 58.0;     // W/m^2, of the same tables
+constexpr double kReclining = 46.0;  // W/m^2
 
 /// Its division in air of that temperature (degrees Celsius) and relative humidity (percent), for a
 /// body of 1.8 m^2: ISO 7730, 4.1.

@@ -85,11 +85,35 @@ void Navigator::learn(const View& view, const Vec3& feet, const Surroundings& se
   }
 }
 
-void Navigator::note_failed(const DoorSeen& door) {
+std::string Navigator::why_not(const View& view, const Vec3& feet, const Vec2& to) const {
+  if (!failed_.empty()) return why_failed_ + ", and it knows no other way";
+  const Vec3 there(to.x(), to.y(), feet.z());
+  const std::string own = view.model_of(view.own_shapes().at(0));
+  const auto model_at = [&](const Vec3& from, const Vec3& end, double near) -> std::string {
+    const double length = (end - from).norm();
+    for (const rays::Crossing& c : view.crossings(from, end)) {
+      const std::string model = view.model_of(c.shape);
+      if (model != own && length - c.leave < near) return model;
+    }
+    return "";
+  };
+  const Vec3 knee = 0.5 * kHead * Vec3::UnitZ();
+  std::string model = model_at(feet + knee, there + knee, FloorMap::kClearance);
+  if (model.empty())
+    model = model_at(there + kHead * Vec3::UnitZ(), there + kLow * Vec3::UnitZ(), kHead);
+  if (!model.empty()) return model + " is there";
+  const FloorMap map(view, there, to, FloorMap::Extent::kStraight);
+  if (!map.is_free(to)) return "there is no room for a person";
+  if (!map.has_floor(view, to, to)) return "there is no floor";
+  return "no way leads there";
+}
+
+void Navigator::note_failed(const DoorSeen& door, std::string why) {
   for (double at = 0.0; at < door.width; at += kSeenCell) {
     seen_.push_back(door.hinge + at * door.along);
   }
   failed_.push_back(door.name);
+  why_failed_ = std::move(why);
 }
 
 }  // namespace angen::people

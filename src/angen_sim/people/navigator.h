@@ -44,7 +44,9 @@ class Navigator {
   void learn(const View& view, const Vec3& feet, const Surroundings& seen);
   void note_obstacle(const Vec2& point) { seen_.push_back(point); }
   /// A door that does not open is a wall until the goal changes.
-  void note_failed(const DoorSeen& door);
+  void note_failed(const DoorSeen& door, std::string why);
+  /// Why plan() found no way for a person at `feet`.
+  std::string why_not(const View& view, const Vec3& feet, const Vec2& to) const;
   /// The narrow parts of the way, between what cannot move.
   const std::vector<Passage>& passages() const { return passages_; }
   bool knows_obstacles() const { return !seen_.empty(); }
@@ -55,6 +57,7 @@ class Navigator {
   std::optional<Route> route_;  // none: straight
   std::vector<Vec2> seen_;
   std::vector<std::string> failed_;
+  std::string why_failed_;  // the last of these
   std::vector<Passage> passages_;
   std::optional<Vec2> target_;
 };

@@ -18,6 +18,7 @@ namespace {
 
 // N/m, of chest and pelvis: ISO/TS 15066:2016, table A.3, effective spring constant.
 constexpr double kSideStiffness = 25e3;
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kNoFloor = std::numeric_limits<int>::min();
 
 Path read_path(Params& params) {
@@ -55,6 +56,18 @@ std::optional<Errand> read_errand(Params& params) {
   return errand;
 }
 
+// The pose is that of its model.
+std::optional<Seat> read_seat(Params& params) {
+  const std::string word = params.choice(
+      "posture", kPostures[0], {std::begin(kPostures), std::end(kPostures)}, "at the start");
+  const std::vector<std::vector<double>> stands =
+      params.rows("stands_at", 3, "m", "x y z where it gets up to, of one who sits or lies");
+  if (word == kPostures[0]) return std::nullopt;
+  Seat seat{word == kPostures[1] ? Posture::kSit : Posture::kLie, {}, Vec3::Constant(kUnknown)};
+  if (!stands.empty()) seat.stand = Vec3(stands.back()[0], stands.back()[1], stands.back()[2]);
+  return seat;
+}
+
 }  // namespace
 
 Nanoseconds Person::Step::now() const { return view.time(); }
@@ -83,7 +96,17 @@ void Person::configure(Params& params, Wiring& wiring) {
   link_ = wiring.link("body");
   walker_ = Walker(link_, force);
   behave();
-  wiring.anatomy(link_, {true, kSideStiffness, Gait::visuals(), {}});
+  seat_ = read_seat(params);
+  if (seat_) paused_ = true;
+  std::vector<Anatomy::Names> postures(3);
+  for (const std::string& name : wiring.collision_names(link_)) {
+    const bool sits = name.rfind("sit_", 0) == 0;
+    const bool lies = name.rfind("lie_", 0) == 0;
+    can_sit_ = can_sit_ || sits || lies;
+    postures[sits ? 1 : lies ? 2 : 0].push_back(name);
+  }
+  if (!can_sit_) postures.clear();
+  wiring.anatomy(link_, {true, kSideStiffness, Gait::visuals(), postures});
 }
 
 Verdict Person::command(const Command& command, const View& view) {
@@ -93,8 +116,11 @@ Verdict Person::command(const Command& command, const View& view) {
   if (command.verb == "CloseDoors" || command.verb == "LeaveDoors") {
     return Verdict::accept([this, closes = command.verb == "CloseDoors"] { doors_.close(closes); });
   }
+  if (command.verb == "Sit" || command.verb == "Lie" || command.verb == "Stand") {
+    return command_posture(command, view);
+  }
   if (command.verb == "GoTo" || command.verb == "PushTo") {
-    Found found = find_goal(command, view, view.link(link_).pose.position);
+    Found found = find_goal(command, view, stands_at(view).position);
     if (!found.why_not.empty()) return Verdict::reject(std::move(found.why_not));
     return Verdict::accept([this, goal = found.goal, pushes = command.verb == "PushTo"] {
       floor_ = goal.floor;
@@ -103,9 +129,14 @@ Verdict Person::command(const Command& command, const View& view) {
       walk_to(goal.to, pushes);
     });
   }
-  return Verdict::accept([this, stop = command.verb == "Stop"] {
-    paused_ = stop;
-    if (stop || ride_ || !errand_ || !errand_->is_over()) return;
+  return Verdict::accept([this, verb = command.verb] {
+    paused_ = verb == "Stop";
+    if (verb == "Follow") {
+      ride_.reset();
+      floor_.reset();
+    }
+    const bool goes_on = ride_ || !errand_ || !errand_->is_over();
+    if (paused_ || (verb == "Go" && goes_on)) return;
     errand_.reset();
     start_anew();
   });
@@ -139,6 +170,7 @@ void Person::update(const View& view, Outputs& outputs) {
   const Step step{view, view.link(link_), outputs, renew};
   if (!started_) start(step.body);
   gives_.update(view, step.body, outputs);
+  if (seat_ && sits(step)) return;
   if (paused_) {
     if (!walker_.rests()) stand(outputs);
     if (renew) show(Mode::kStanding, step);
@@ -159,6 +191,9 @@ void Person::start(const LinkView& body) {
   progress_.count_from(body.pose.position.head<2>());
   shown_ = body;
   if (!stroll_.has_path()) stroll_.stay_at(body.pose);
+  if (!seat_) return;
+  seat_->at = body.pose;
+  if (std::isnan(seat_->stand.x())) seat_->stand = body.pose.position;
 }
 
 void Person::stand(Outputs& outputs) {
@@ -180,16 +215,17 @@ Nanoseconds Person::idle_until(const View& view) const {
 }
 
 Nanoseconds Person::rests_until(const View& view) const {
-  if (!walker_.rests()) return 0;
+  if (!walker_.rests() || (seat_ && !settled_)) return 0;
   const auto* wait = std::get_if<Progress::Wait>(&state_);
   if (wait != nullptr && view.time() < wait->away_until) return 0;
   const bool waits = !is<Walks>();
-  if (mode_ != Mode::kStanding && !waits) return 0;
+  if (!seat_ && mode_ != Mode::kStanding && !waits) return 0;
   const LinkView body = view.link(link_);
   if (body.pose != shown_.pose || body.linear_velocity != shown_.linear_velocity) {
     return refresh_.next(view.time());
   }
-  if (paused_) return kForever;
+  if (paused_ && !stands_up_) return kForever;
+  if (seat_) return rises_at_;
   if (is<StandsAside>()) return view.time() + kScanPeriod;
   if (waits || ride_) return (view.time() / kSecond + 1) * kSecond;
   const Vec2 at = body.pose.position.head<2>();
@@ -207,6 +243,13 @@ void Person::save(SavedParams& params) const {
   params.flag("stopped", paused_);
   params.flag("closes_doors", doors_.closes());
   gives_.save(params);
+  params.unset("stands_at");
+  params.text("posture", kPostures[seat_ ? static_cast<int>(seat_->posture) : 0]);
+  if (seat_ && started_) {
+    const Vec3& at = seat_->stand;
+    params.text("stands_at",
+                number_text(at.x()) + " " + number_text(at.y()) + " " + number_text(at.z()));
+  }
   params.unset("go_to");
   params.unset("push_to");
   params.unset("go_floor");
@@ -218,7 +261,7 @@ void Person::save(SavedParams& params) const {
 }
 
 void Person::skip(Nanoseconds time) {
-  if (!paused_ && !errand_ && is<Walks>()) stroll_.advance(time);
+  if (!paused_ && !seat_ && !errand_ && is<Walks>()) stroll_.advance(time);
 }
 
 void Person::report(const View& view, Reading& state) const {
@@ -230,7 +273,9 @@ void Person::report(const View& view, Reading& state) const {
   state.set("yaw", yaw_of(body.pose.rotation));
   state.set("speed", body.linear_velocity.head<2>().norm());
   state.set("going", is_going());
-  state.set("unreachable", !ride_ && errand_ && errand_->phase() == Errand::Phase::kGaveUp);
+  const bool gave_up = !ride_ && errand_ && errand_->phase() == Errand::Phase::kGaveUp;
+  state.set("unreachable", gave_up);
+  state.set("why", gave_up ? errand_->why() : std::string());
   const double speed = shown_.linear_velocity.head<2>().norm();
   gives_.report(view, mode_ == Mode::kWalking ? std::optional(speed) : std::nullopt, state);
 }

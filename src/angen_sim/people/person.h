@@ -15,6 +15,7 @@
 #include "people/places.h"
 #include "people/progress.h"
 #include "people/ride.h"
+#include "people/seat.h"
 #include "people/stroll.h"
 #include "people/walker.h"
 #include "plugin/plugin.h"
@@ -82,6 +83,12 @@ class Person : public Device {
   void begin_ride(const Step& step);
   bool follow_ride(const Step& step);
 
+  // Sitting and lying.
+  Verdict command_posture(const Command& command, const View& view);
+  Pose stands_at(const View& view) const;
+  bool sits(const Step& step);
+  void rise(const Step& step);
+
   // Where it was sent.
   void walk_to(const Vec2& to, bool pushes);
   void run_errand(const Step& step);
@@ -89,7 +96,9 @@ class Person : public Device {
   bool finds_new_way(const Step& step);
   void begin_new_way(const Vec2& at);
   void arrive(Outputs& outputs);
-  void give_up(Outputs& outputs);
+  void give_up(std::string why, Outputs& outputs);
+  std::string why_no_way(const Step& step) const;
+  std::string what_holds(const Step& step) const;
   bool is_going() const;
   void explore(const Step& step);
   void take_other_way(const Step& step);
@@ -120,10 +129,16 @@ class Person : public Device {
   std::optional<Errand> errand_;  // instead of its path
   std::optional<Ride> ride_;      // the errand is a part of it
   std::optional<int> floor_;      // the floor of an errand that has not begun
-  double speed_ = 1.0;            // m/s, on an errand
+  std::optional<Seat> seat_;      // while it sits or lies
+  bool settled_ = false;          // its body has taken the posture
+  bool stands_up_ = false;        // after Stand
+  Nanoseconds rises_at_ = 0;      // when it tries to get up next
+  int rise_tries_ = 0;
+  double speed_ = 1.0;  // m/s, on an errand
   bool avoids_ = true;
   bool paused_ = false;
   bool started_ = false;
+  bool can_sit_ = false;  // its body has the postures
   Mode mode_ = Mode::kStanding;
   LinkView shown_;
 };

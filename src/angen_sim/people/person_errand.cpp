@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "people/person.h"
+#include "people/places.h"
 #include "people/right_of_way.h"
 #include "plugin/outputs.h"
 #include "plugin/view.h"
@@ -30,12 +31,12 @@ void Person::begin_ride(const Step& step) {
   if (floor == here) return;
   ride_ = Ride::between(home, here, floor, errand_->to());
   if (ride_) ride_->start_at(step.at(), step.now());
-  if (!ride_) give_up(step.outputs);
+  if (!ride_) give_up(unserved(floor, home, step.feet()), step.outputs);
 }
 
 // Returns whether it walks.
 bool Person::follow_ride(const Step& step) {
-  const Ride::Advice next = ride_->update(step.view, errand_->phase(), step.outputs);
+  const Ride::Advice next = ride_->update(step.view, *errand_, step.outputs);
   switch (next.step) {
     case Ride::Advice::Step::kStand:
       if (!walker_.rests()) stand(step.outputs);
@@ -52,7 +53,7 @@ bool Person::follow_ride(const Step& step) {
       const Vec2 goal = ride_->goal();
       ride_.reset();
       walk_to(goal, false);
-      give_up(step.outputs);
+      give_up(next.why, step.outputs);
       return true;
   }
   return true;
@@ -66,12 +67,12 @@ void Person::run_errand(const Step& step) {
   const auto gave_up = [&] { return errand.phase() == Errand::Phase::kGaveUp; };
   if (!there && !gave_up() && errand.begin(at, step.now())) {
     progress_.restart(step.now());
-    if (!plan(step, false)) give_up(step.outputs);
+    if (!plan(step, false)) give_up(why_no_way(step), step.outputs);
   }
   const bool waits = is<WaitsAtDoor>() || is<StandsAside>() ||
                      (is<Progress::Wait>() && have_others_to_go(step.view, step.feet()));
   const bool lingers = !there && errand.lingers(at, step.now(), waits, rests, speed_);
-  if (lingers && !gave_up()) give_up(step.outputs);
+  if (lingers && !gave_up()) give_up(what_holds(step), step.outputs);
   if (there || gave_up()) {
     if (!rests) errand.stop_at(at);
     if (!gave_up()) arrive(step.outputs);
@@ -110,10 +111,23 @@ void Person::arrive(Outputs& outputs) {
   if (!ride_ && !is_over) outputs.event("arrived", place_text(errand_->to()));
 }
 
-void Person::give_up(Outputs& outputs) {
-  errand_->give_up();
+void Person::give_up(std::string why, Outputs& outputs) {
   if (is<Progress::Wait>()) state_ = Walks{};
-  if (!ride_) outputs.event("unreachable", place_text(errand_->to()));  // else it tries again
+  if (!ride_) outputs.event("unreachable", place_text(errand_->to()) + ": " + why);
+  errand_->give_up(std::move(why));  // on a ride it tries again
+}
+
+std::string Person::why_no_way(const Step& step) const {
+  return navigator_.why_not(step.view, step.feet(), errand_->to());
+}
+
+// What is before one who does not come on.
+std::string Person::what_holds(const Step& step) const {
+  const Vec2 way = navigator_.target().value_or(errand_->to()) - step.at();
+  const std::string model = Surroundings::model_ahead(step.view, step.feet(), way.normalized());
+  if (!model.empty()) return model + " is in its way";
+  if (have_others_to_go(step.view, step.feet())) return "others are in its way";
+  return why_no_way(step);
 }
 
 bool Person::is_going() const { return ride_ || floor_ || (errand_ && !errand_->is_over()); }
@@ -128,14 +142,14 @@ void Person::explore(const Step& step) {
 
 // Instead of the way through a door that does not open.
 void Person::take_other_way(const Step& step) {
-  navigator_.note_failed(doors_.door());
+  navigator_.note_failed(doors_.door(), doors_.why());
   doors_.reset();
   state_ = Walks{};
   navigator_.drop_target();
   if (plan(step, true)) {
     errand_->set_left(navigator_.left(step.at(), errand_->to()));
   } else {
-    give_up(step.outputs);
+    give_up(why_no_way(step), step.outputs);
   }
 }
 

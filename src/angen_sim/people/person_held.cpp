@@ -98,8 +98,11 @@ bool Person::gives_way(const Step& step) {
     const bool crowded = have_others_to_go(step.view, step.feet());
     const Nanoseconds patience = crowded ? kGivesUpInCrowd : kGivesUp;
     if (walker_.manner().rounds && errand_ && step.now() - wait->since > patience) {
-      give_up(step.outputs);
-      return false;
+      if (!doors_.shut_nearby(step.view, step.feet(), step.outputs)) {
+        give_up(what_holds(step), step.outputs);
+        return false;
+      }
+      wait->since = step.now();
     }
   }
   if (!walker_.rests()) stand(step.outputs);

@@ -17,6 +17,12 @@ const Kind& PersonPlugin::kind() const {
                       "walks there, through doors and round obstacles; to another floor by "
                       "an elevator")
           .pair_verb("PushTo", "x y", "m", {}, "walks there straight, and pushes obstacles")
+          .verb("Follow", "walks on along its path")
+          .place_verb("Sit", "sits down on the seat there, at most 1.4 m away")
+          .optional()
+          .place_verb("Lie", "lies down on the bed there, at most 2.2 m away, or on the floor")
+          .optional()
+          .verb("Stand", "gets up, and stays")
           .verb("CloseDoors", "from now on shuts the doors that it walks through")
           .verb("LeaveDoors", "from now on leaves them open")
           .verb("Speak", "speaks until Quiet")
@@ -33,7 +39,8 @@ const Kind& PersonPlugin::kind() const {
           .number("speed", "m/s", "horizontal")
           .shown(2)
           .flag("going", "whether it is on its way to where it was sent")
-          .flag("unreachable", "whether it has given up where it was sent: no way leads there")
+          .flag("unreachable", "whether it has given up where it was sent")
+          .text("why", "why it has given up; empty otherwise")
           .flag("speaking", "whether the person speaks")
           .number("sound_power_level", "dB",
                   "of steps and speech, over 1 pW; minus infinity: silent")

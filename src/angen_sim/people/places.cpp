@@ -26,12 +26,6 @@ constexpr std::size_t kNamed = 8;  // names that an error lists
 
 Found none(std::string why) { return {{}, std::move(why)}; }
 
-bool is_same(const std::string& a, const std::string& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
-    return std::tolower(x) == std::tolower(y);
-  });
-}
-
 template <typename T>
 const T* named(const std::vector<T>& all, const std::string& name) {
   const auto found =
@@ -54,25 +48,6 @@ std::string outside(const Vec2& place, const Home& home) {
       << " to " << std::round(high.x()) << ", y " << std::round(low.y()) << " to "
       << std::round(high.y()) << " m";
   return why.str();
-}
-
-// Places of a box on a floor where a person fits, the first of those that `rate` likes best.
-std::optional<Vec2> best_place(const View& view, const Eigen::AlignedBox2d& box, double floor,
-                               const std::function<double(const Vec2&)>& rate) {
-  const Vec3 corner(box.min().x(), box.min().y(), floor);
-  const FloorMap map(view, corner, box.max(), FloorMap::Extent::kStraight);
-  std::optional<Vec2> best;
-  double most = 0.0;
-  for (double y = box.min().y(); y <= box.max().y(); y += kRoomStep) {
-    for (double x = box.min().x(); x <= box.max().x(); x += kRoomStep) {
-      const Vec2 at(x, y);
-      const double rating = rate(at);
-      if (rating <= most || !map.is_free(at) || !map.has_floor(view, at, at)) continue;
-      most = rating;
-      best = at;
-    }
-  }
-  return best;
 }
 
 // In the open, away from walls.
@@ -114,7 +89,33 @@ Found by_name(const std::string& name, const View& view) {
               (rooms.empty() ? "; this world describes no rooms" : "; rooms are " + rooms));
 }
 
-// Whether there is such a floor, and a way to it from the one that the person is on.
+}  // namespace
+
+bool is_same(const std::string& a, const std::string& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
+    return std::tolower(x) == std::tolower(y);
+  });
+}
+
+std::optional<Surroundings::Vec2> best_place(const View& view, const Eigen::AlignedBox2d& box,
+                                             double floor,
+                                             const std::function<double(const Vec2&)>& rate) {
+  const Vec3 corner(box.min().x(), box.min().y(), floor);
+  const FloorMap map(view, corner, box.max(), FloorMap::Extent::kStraight);
+  std::optional<Surroundings::Vec2> best;
+  double most = 0.0;
+  for (double y = box.min().y(); y <= box.max().y(); y += kRoomStep) {
+    for (double x = box.min().x(); x <= box.max().x(); x += kRoomStep) {
+      const Vec2 at(x, y);
+      const double rating = rate(at);
+      if (rating <= most || !map.is_free(at) || !map.has_floor(view, at, at)) continue;
+      most = rating;
+      best = at;
+    }
+  }
+  return best;
+}
+
 std::string unserved(int floor, const Home& home, const Vec3& feet) {
   const auto is_it = [&](const Storey& storey) { return storey.number == floor; };
   if (std::none_of(home.storeys.begin(), home.storeys.end(), is_it)) {
@@ -128,8 +129,6 @@ std::string unserved(int floor, const Home& home, const Vec3& feet) {
   return "no elevator goes from floor " + std::to_string(here) + " to floor " +
          std::to_string(floor);
 }
-
-}  // namespace
 
 Found find_goal(const Command& command, const View& view, const Vec3& feet) {
   Found found;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -21,6 +22,17 @@ struct Found {
   Goal goal;
   std::string why_not;  // empty: there is a goal
 };
+/// Why a person at `feet` cannot get to a floor: it does not exist, or no elevator serves it.
+std::string unserved(int floor, const Home& home, const Vec3& feet);
 Found find_goal(const Command& command, const View& view, const Vec3& feet);
+
+/// Whether two names differ at most in upper and lower case.
+bool is_same(const std::string& a, const std::string& b);
+
+/// Of the places of a box on a floor where a person fits, the first of those that `rate` likes
+/// best; it likes none at 0.
+std::optional<Surroundings::Vec2> best_place(
+    const View& view, const Eigen::AlignedBox2d& box, double floor,
+    const std::function<double(const Surroundings::Vec2&)>& rate);
 
 }  // namespace angen::people

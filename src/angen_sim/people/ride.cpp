@@ -48,14 +48,14 @@ void Ride::enter(Phase phase, Nanoseconds now) {
   called_at_ = -1;
 }
 
-Ride::Advice Ride::update(const View& view, Errand::Phase errand, Outputs& outputs) {
+Ride::Advice Ride::update(const View& view, const Errand& errand, Outputs& outputs) {
   using Step = Advice::Step;
   if (!std::exchange(begun_, true)) return {Step::kWalk, from_.wait};
-  const bool arrived = errand == Errand::Phase::kArrived;
-  const bool gave_up = errand == Errand::Phase::kGaveUp;
+  const bool arrived = errand.phase() == Errand::Phase::kArrived;
+  const bool gave_up = errand.phase() == Errand::Phase::kGaveUp;
   switch (phase_) {
     case Phase::kToLanding:
-      if (gave_up) return {Step::kFailed};
+      if (gave_up) return {Step::kFailed, {}, errand.why()};
       if (!arrived) return {Step::kWalk, from_.wait};
       enter(Phase::kCalls, view.time());
       return {};
@@ -67,27 +67,41 @@ Ride::Advice Ride::update(const View& view, Errand::Phase errand, Outputs& outpu
         return {};
       }
       if (!gave_up) return {Step::kWalk, cabin_};
-      if (++tries_ == kBoardings) return {Step::kFailed};
+      if (++tries_ == kBoardings) {
+        return {Step::kFailed, {}, "it does not get into elevator " + elevator_};
+      }
       enter(Phase::kToLanding, view.time());  // its doors were shut before
       return {Step::kWalk, from_.wait};
     case Phase::kRides:
       return wait_for(to_, to_.wait, Phase::kLeaves, view, outputs);
     case Phase::kLeaves:
-      if (gave_up) return {Step::kFailed};
+      if (gave_up) return {Step::kFailed, {}, errand.why()};
       return arrived ? Advice{Step::kLeft, goal_} : Advice{Step::kWalk, to_.wait};
   }
-  return {Step::kFailed};
+  return {};
 }
 
 // Calls the elevator until it stands there with open doors.
 Ride::Advice Ride::wait_for(const Stop& stop, const Vec2& then, Phase next, const View& view,
                             Outputs& outputs) {
   const Nanoseconds now = view.time();
-  if (is_open_at(stop, view)) {
+  const Reading* lift = state(view);
+  if (lift == nullptr) {
+    if (now - since_ < kSecond) return {};  // it has reported nothing at the start
+    return {Advice::Step::kFailed, {}, "elevator " + elevator_ + " is gone"};
+  }
+  const auto& doors = lift->get<std::string>("door_mode");
+  if (lift->get<std::int64_t>("floor") == stop.number && doors == "OPEN") {
     enter(next, now);
     return {Advice::Step::kWalk, then};
   }
-  if (now - since_ > kLiftLate) return {Advice::Step::kFailed};
+  if (now - since_ > kLiftLate) {
+    return {Advice::Step::kFailed,
+            {},
+            "elevator " + elevator_ + " has not come within " +
+                std::to_string(kLiftLate / kSecond) + " s; it is " +
+                lift->get<std::string>("mode") + ", its doors are " + doors};
+  }
   if (called_at_ < 0 || now - called_at_ > kCallsAgain) {
     called_at_ = now;
     outputs.command("elevator", elevator_, "Floor" + std::to_string(stop.number));
@@ -95,13 +109,11 @@ Ride::Advice Ride::wait_for(const Stop& stop, const Vec2& then, Phase next, cons
   return {};
 }
 
-bool Ride::is_open_at(const Stop& stop, const View& view) const {
+const Reading* Ride::state(const View& view) const {
   for (const DeviceView& device : view.devices("door_mode")) {
-    if (device.kind != "elevator" || device.name != elevator_) continue;
-    return device.state.get<std::int64_t>("floor") == stop.number &&
-           device.state.get<std::string>("door_mode") == "OPEN";
+    if (device.kind == "elevator" && device.name == elevator_) return &device.state;
   }
-  return false;
+  return nullptr;
 }
 
 }  // namespace angen::people

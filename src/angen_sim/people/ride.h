@@ -25,9 +25,10 @@ class Ride {
   struct Advice {
     enum class Step { kWalk, kStand, kLeft, kFailed } step = Step::kStand;
     Vec2 to = Vec2::Zero();  // where it walks next: of kWalk and kLeft
+    std::string why = {};    // of kFailed
   };
-  /// The next step; `errand` is how far the walk of the last one is.
-  Advice update(const View& view, Errand::Phase errand, Outputs& outputs);
+  /// The next step; `errand` is the walk of the last one.
+  Advice update(const View& view, const Errand& errand, Outputs& outputs);
   const Vec2& goal() const { return goal_; }
   int floor() const { return to_.floor; }
 
@@ -40,7 +41,7 @@ class Ride {
   };
 
   void enter(Phase phase, Nanoseconds now);
-  bool is_open_at(const Stop& stop, const View& view) const;
+  const Reading* state(const View& view) const;
   Advice wait_for(const Stop& stop, const Vec2& then, Phase next, const View& view,
                   Outputs& outputs);
 

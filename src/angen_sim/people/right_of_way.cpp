@@ -41,10 +41,11 @@ std::vector<Other> others_near(const View& view, const Vec3& feet) {
   std::vector<Other> others;
   for (const DeviceView& person : Surroundings::other_people(view, feet)) {
     const double yaw = person.state.get<double>("yaw");
+    const auto& mode = person.state.get<std::string>("mode");
     others.push_back({{person.state.get<double>("x"), person.state.get<double>("y")},
                       {std::cos(yaw), std::sin(yaw)},
                       person.state.get<double>("speed") > kWalkSpeed,
-                      person.state.get<std::string>("mode") == kModes[0]});
+                      mode != kModes[1] && mode != kModes[2]});
   }
   return others;
 }

@@ -19,14 +19,14 @@ namespace {
 using Vec2 = Surroundings::Vec2;
 
 constexpr int kDirections = 48;
-constexpr double kKneeHeight = 0.5;  // m
-constexpr double kChest = 1.2;       // m
+constexpr double kKneeHeight = 0.45;  // m, as the seats of chairs
+constexpr double kChest = 1.2;        // m
 constexpr double kHeights[] = {0.15, kKneeHeight, 0.738,
                                kChest};  // m; one is in the tops of tables
 constexpr double kBeyond = 0.1;          // m
 constexpr double kGraze = 1e-3;          // m
 constexpr double kOwn = 0.255;           // m, up to the person's own surface
-constexpr double kOwnPlace = 0.1;        // m: who is nearer is the person itself
+constexpr double kHolds = 4.2;           // m to what holds one who saw it and has stepped back
 constexpr double kSameStorey = 1.0;      // m, between the feet of two people
 
 // m around: where it looks for the end of the floor, by turns; who runs needs the way to stop.
@@ -215,14 +215,30 @@ void Surroundings::find_edges(const View& view, const Vec3& feet, std::vector<Ve
 
 std::vector<DeviceView> Surroundings::other_people(const View& view, const Vec3& feet) {
   std::vector<DeviceView> others;
+  const Vec3 own = view.pose().position;
   for (const DeviceView& person : view.devices("unreachable")) {
-    const Vec3 away = Vec3(person.state.get<double>("x"), person.state.get<double>("y"),
-                           person.state.get<double>("z")) -
-                      feet;
-    const bool is_self = away.head<2>().norm() < kOwnPlace;
-    if (!is_self && std::abs(away.z()) <= kSameStorey) others.push_back(person);
+    if (person.pose.position == own) continue;
+    const double up = person.state.get<double>("z") - feet.z();
+    if (std::abs(up) <= kSameStorey) others.push_back(person);
   }
   return others;
+}
+
+std::string Surroundings::model_ahead(const View& view, const Vec3& feet, const Vec2& direction) {
+  const Vec3 ahead(direction.x(), direction.y(), 0.0);
+  std::vector<rays::Ray> ways;
+  for (const double aside : {0.0, -0.15, 0.15, -0.3, 0.3}) {  // rad
+    for (const double height : kHeights) {
+      ways.push_back(
+          {feet + height * Vec3::UnitZ(), from_rpy(0.0, 0.0, aside) * ahead, kOwn, kHolds});
+    }
+  }
+  std::vector<rays::Hit> hits;
+  view.cast(ways, hits, rays::kAll & ~rays::only(rays::Mobility::kStatic));
+  const auto nearest =
+      std::min_element(hits.begin(), hits.end(),
+                       [](const rays::Hit& a, const rays::Hit& b) { return a.range < b.range; });
+  return nearest->hit() ? view.model_of(nearest->shape) : "";
 }
 
 void Surroundings::remove_gone(const View& view, const Vec3& feet, std::vector<Vec2>& points) {

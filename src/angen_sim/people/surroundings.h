@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "plugin/plugin.h"
@@ -52,6 +53,10 @@ class Surroundings {
 
   /// Where the other people are who walk at about that height, with their states.
   static std::vector<DeviceView> other_people(const View& view, const Vec3& feet);
+
+  /// The model that can move and is nearest before a person at `feet` who looks along a unit
+  /// direction; empty if it sees none.
+  static std::string model_ahead(const View& view, const Vec3& feet, const Vec2& direction);
 
   /// Removes the points that rays of a person at `feet` now pass.
   static void remove_gone(const View& view, const Vec3& feet, std::vector<Vec2>& points);

@@ -124,6 +124,7 @@ std::string forms_of(const Kind& kind) {
       at += 3;
     }
     if (verb.is_place) number += " [<floor>] or <name of a room or thing>";
+    if (verb.is_optional) forms.push_back(verb.name);
     forms.push_back(verb.name + (number.empty() || verb.whole ? "" : " ") + number);
   }
   std::string values;
@@ -157,7 +158,7 @@ std::string parse_command(const Kind& kind, Command& command) {
   if (verb == nullptr) return "unknown verb '" + printable(words[0]) + "'; " + right;
   command.verb = verb->name;
   if (verb->is_place) command.place = place_in(trimmed(text), words);
-  if (!command.place.empty()) return "";
+  if (!command.place.empty() || (verb->is_optional && words.size() == 1)) return "";
   const bool has_floor = verb->is_place && words.size() == verb->count + 2;
   const std::size_t expected =
       verb->argument.empty() ? 1 : 1 + verb->count + static_cast<std::size_t>(has_floor);

@@ -69,7 +69,7 @@ std::string object(const Verb& v) {
                  json(type), "unit", json(v.unit), "min", json(v.range.min), "max",
                  json(v.range.max), "count",
                  json(static_cast<int>(v.argument.empty() ? 0 : v.count)), "place",
-                 json(v.is_place)) +
+                 json(v.is_place), "optional", json(v.is_optional)) +
          "}";
 }
 

@@ -89,6 +89,11 @@ Kind& Kind::place_verb(std::string verb_name, std::string verb_doc) {
   return *this;
 }
 
+Kind& Kind::optional() {
+  verbs.back().is_optional = true;
+  return *this;
+}
+
 Kind& Kind::counted_verb(std::string verb_name, std::string argument, Range range,
                          std::string verb_doc) {
   verbs.push_back(

@@ -10,14 +10,15 @@ namespace angen {
 
 /// A word that commands take, with a number or without one.
 struct Verb {
-  std::string name;       // "Dim", as commands write it; upper and lower case are the same
-  std::string doc;        // one line
-  std::string argument;   // meaning of the number: "percent"; empty if the verb has none
-  std::string unit;       // unit of the number
-  Range range;            // limits of the number
-  bool whole = false;     // the number is an integer; it may follow the verb without a blank
-  std::size_t count = 1;  // how many numbers it takes, where it takes any; `argument` names each
-  bool is_place = false;  // it also takes a third number, a floor, or a name instead of all
+  std::string name;          // "Dim", as commands write it; upper and lower case are the same
+  std::string doc;           // one line
+  std::string argument;      // meaning of the number: "percent"; empty if the verb has none
+  std::string unit;          // unit of the number
+  Range range;               // limits of the number
+  bool whole = false;        // the number is an integer; it may follow the verb without a blank
+  std::size_t count = 1;     // how many numbers it takes, where it takes any; `argument` names each
+  bool is_optional = false;  // it may have none
+  bool is_place = false;     // it also takes a third number, a floor, or a name instead of all
 };
 
 /// A field of a sensor's reading or a device's state.
@@ -100,6 +101,8 @@ class Kind {
                   std::string doc);
   /// A verb that takes a place: x and y in m, maybe the number of a floor, or a name.
   Kind& place_verb(std::string name, std::string doc);
+  /// The place of the verb that was added last may be left out.
+  Kind& optional();
   /// A verb whose number is an integer.
   Kind& counted_verb(std::string name, std::string argument, Range range, std::string doc);
 

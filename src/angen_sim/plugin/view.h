@@ -69,6 +69,8 @@ class View {
   virtual std::vector<std::uint32_t> own_shapes() const = 0;
   /// For many rays from one point (world, m) to one shape; see rays::Scene::shaft.
   virtual rays::Shaft shaft(const Vec3& from, double near, std::uint32_t shape) const = 0;
+  /// The name of the model that a shape belongs to.
+  virtual std::string model_of(std::uint32_t) const { return ""; }
   /// The albedo, r g b, 0 to 1, of a shape that a ray hit.
   virtual Eigen::Vector3f reflectance(std::uint32_t shape) const = 0;
   /// Light at a place; see light::Lighting::measure. The first query in a world finds the light of

@@ -224,6 +224,10 @@ void Scene::show(ShapeId shape, bool shown) {
   impl_->warm_dirty = true;
 }
 
+bool Scene::is_hidden(ShapeId shape) const {
+  return !impl_->hidden.empty() && impl_->hidden.count(shape.index) != 0;
+}
+
 void Scene::remove(ShapeId shape) {
   show(shape, true);
   const Entry entry = impl_->entries.at(shape);

@@ -88,6 +88,7 @@ class Scene {
   void set_anchored(ShapeId shape, bool anchored);
   /// Whether casts may hit a shape from now on; a hidden one is as an empty one.
   void show(ShapeId shape, bool shown);
+  bool is_hidden(ShapeId shape) const;
   void remove(ShapeId shape);
 
   /// Makes additions, moves and removals visible to casts. Cheap when nothing changed.

@@ -23,6 +23,21 @@ constexpr char kPerson[] = R"(
       <!-- the person's motor moves it, not its soles -->
       <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface>
     </collision>
+    <!-- when it sits or lies: from the seat or the bed up, x ahead -->
+    <collision name="sit_thighs"><pose>0.15 0 0.07 0 0 0</pose><geometry><box><size>0.54 0.34 0.14</size></box></geometry>
+      <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision>
+    <collision name="sit_trunk"><pose>-0.02 0 0.38 0 0 0</pose><geometry><box><size>0.2 0.48 0.48</size></box></geometry>
+      <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision>
+    <collision name="sit_shanks"><pose>0.37 0 -0.19 0 0 0</pose><geometry><box><size>0.1 0.31 0.38</size></box></geometry>
+      <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision>
+    <collision name="lie_legs"><pose>-0.44 0 0.07 0 0 0</pose><geometry><box><size>0.82 0.3 0.14</size></box></geometry>
+      <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision>
+    <collision name="lie_trunk"><pose>0.24 0 0.09 0 0 0</pose><geometry><box><size>0.54 0.48 0.18</size></box></geometry>
+      <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision>
+    <collision name="sit_head"><pose>-0.02 0 0.75 0 0 0</pose><geometry><sphere><radius>0.11</radius></sphere></geometry>
+      <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision>
+    <collision name="lie_head"><pose>0.64 0 0.2 0 0 0</pose><geometry><sphere><radius>0.11</radius></sphere></geometry>
+      <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision>
     <visual name="thigh_left">
       <pose>0 0.09 0.685 0 0 0</pose>
       <geometry><capsule><radius>0.08</radius><length>0.43</length></capsule></geometry>

@@ -220,7 +220,6 @@ void Engines::set_standing(Resting::Body body, bool standing) {
 void Engines::take_posture(const Parts& parts, std::uint32_t link, int posture, const Pose& pose) {
   physics.move(parts.links[link], pose * physics.pose(parts.links[link]).inverse());
   note_change();
-  follow(parts, link);
   for (std::uint32_t i = parts.first_shape[link]; i < parts.first_shape[link + 1]; ++i) {
     const Parts::Shape& shape = parts.shapes[i];
     if (shape.posture < 0) continue;
@@ -229,6 +228,7 @@ void Engines::take_posture(const Parts& parts, std::uint32_t link, int posture, 
     if (shape.collision.valid()) physics.set_touches(shape.collision, counts);
     show(parts, shape);
   }
+  follow(parts, link);
 }
 
 void Engines::note_rest(Nanoseconds now) {
@@ -260,6 +260,7 @@ void Engines::follow(const Parts& parts, std::uint32_t link) {
   }
   for (std::uint32_t i = parts.first_shape[link]; i < parts.first_shape[link + 1]; ++i) {
     const Parts::Shape& shape = parts.shapes[i];
+    if (rays.is_hidden(shape.id)) continue;
     if (parts.is_static) movers.change_static(rays.bounds(shape.id));
     rays.move(shape.id, pose * shape.offset);
     show(parts, shape);

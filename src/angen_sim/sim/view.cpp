@@ -89,6 +89,16 @@ std::vector<std::uint32_t> InstanceView::own_shapes() const {
   return shapes;
 }
 
+std::string InstanceView::model_of(std::uint32_t shape) const {
+  queried_.other = true;
+  for (const std::unique_ptr<LiveModel>& live : building_.models()) {
+    for (const Parts::Shape& each : live->parts.shapes) {
+      if (each.id.index == shape) return live->desc->name;
+    }
+  }
+  return "";
+}
+
 rays::Shaft InstanceView::shaft(const Vec3& from, double near, std::uint32_t shape) const {
   queried_.other = queried_.other || !watches();
   engines_.rays.commit();

@@ -43,6 +43,7 @@ class InstanceView : public View {
     return engines_.rays.cast_at(shape, ray);
   }
   std::vector<std::uint32_t> own_shapes() const override;
+  std::string model_of(std::uint32_t shape) const override;
   rays::Shaft shaft(const Vec3& from, double near, std::uint32_t shape) const override;
   Eigen::Vector3f reflectance(std::uint32_t shape) const override {
     return engines_.rays.reflectance(shape);

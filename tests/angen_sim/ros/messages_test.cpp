@@ -176,6 +176,7 @@ TEST(Messages, PersonAndOdometryStandWhereTheyAre) {
   state.set("speed", 0.0);
   state.set("going", true);
   state.set("unreachable", false);
+  state.set("why", std::string("no floor"));
   state.set("v", 0.5);
   state.set("w", -1.0);
   state.set("covariance", Numbers{0.1, 0.2, 0.3, 0.2, 0.4, 0.5, 0.3, 0.5, 0.6});
@@ -185,6 +186,7 @@ TEST(Messages, PersonAndOdometryStandWhereTheyAre) {
   EXPECT_EQ(person.pose.position.z, 4.9);
   EXPECT_TRUE(person.going);
   EXPECT_FALSE(person.unreachable);
+  EXPECT_EQ(person.why, "no floor");
   EXPECT_NEAR(person.pose.orientation.z, M_SQRT1_2, 1e-12);
   nav_msgs::Odometry odometry;
   fill("drive", state, {"base_footprint", "odom"}, odometry);

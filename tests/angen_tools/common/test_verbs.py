@@ -14,7 +14,9 @@ from angen_tools.common.catalog import kind_of
     ('lamp', '40%', 'Dim 40'), ('lamp', 'dim 40', 'Dim 40'), ('lamp', '40 %', 'Dim 40'),
     ('heater', '0', 'Set 0'), ('drive', '0.2 -0.1', '0.2 -0.1'), ('drive', '0.2, -0.1', '0.2 -0.1'),
     ('drive', 'stop', 'Stop'), ('person', 'go', 'Go'),
-    ('person', 'goto 1.5, -2', 'GoTo 1.5 -2'), ('door', 'unlatch', 'Unlatch'),
+    ('person', 'goto 1.5, -2', 'GoTo 1.5 -2'), ('person', 'goto 1 2 1', 'GoTo 1 2 1'),
+    ('person', 'goto kitchen0', 'GoTo kitchen0'), ('person', 'sit', 'Sit'),
+    ('person', 'lie bed0', 'Lie bed0'), ('door', 'unlatch', 'Unlatch'),
     ('climate', 'outside -5', 'Outside -5'), ('door', '-90deg', 'Set -1.57079633'),
     ('drive', '0.2 -90deg', '0.2 -1.57079633'), ('drive', '90deg 0', None),
     ('door', 'set -45°', 'Set -0.785398163'), ('lamp', '40deg', None), ('door', '90degrees', None)])

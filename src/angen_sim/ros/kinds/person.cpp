@@ -15,6 +15,7 @@ void fill(const Reading& state, const Label& label, angen_msgs::PersonState& mes
   message.speed = state.get<double>("speed");
   message.going = state.get<bool>("going");
   message.unreachable = state.get<bool>("unreachable");
+  message.why = state.get<std::string>("why");
 }
 
 ANGEN_REGISTER_ROS_KIND(

@@ -3,13 +3,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from angen_apps.residents.figures import figure, walker
+from angen_apps.residents.figures import walker
 from angen_apps.residents.interface import Body, Rejected
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.geometry import yaw as yaw_of
-from angen_tools.common.home import Home, Place
-
-ABOVE = 0.002  # m between the support and a placed figure
+from angen_tools.common.home import Home
 
 
 class Simulated:
@@ -46,18 +44,11 @@ class Simulated:
         except self._error as error:
             raise Rejected(str(error)) from None
 
-    def appear(self, name: str, x: float, y: float, z: float, yaw: float, speed: float, body: str
-               ) -> None:
-        self._put(name, walker(name, speed, body), (x, y, z, 0.0, 0.0, yaw))
-
-    def settle(self, name: str, place: Place) -> None:
-        x, y, z, yaw = place.pose
-        self._put(name, figure(name, place.posture), (x, y, z + ABOVE, 0.0, 0.0, yaw))
-
-    def _put(self, name: str, sdf: str, pose: tuple[float, ...]) -> None:
+    def appear(self, name: str, x: float, y: float, z: float, yaw: float, speed: float, body: str,
+               posture: str = 'stand') -> None:
         self.vanish(name)
         try:
-            self.world.spawn(sdf, name, pose)
+            self.world.spawn(walker(name, speed, body, posture), name, (x, y, z, 0.0, 0.0, yaw))
         except self._error as error:
             raise Rejected(str(error)) from None
 

@@ -73,8 +73,11 @@ def _with_verb(kind: Plugin, verb: dict[str, Any], rest: Sequence[str]) -> Order
             raise ValueError(f"'{' '.join(rest)}' is unexpected after {verb['name'].lower()}; "
                              f'{takes}')
         return Order(verb['name'], verb)
+    named = bool(rest) and math.isnan(number(rest[0]))
+    if verb.get('place') and (named or (not rest and verb['optional'])):
+        return Order(' '.join([verb['name'], *rest]), verb)
     count = verb.get('count', 1)
-    if len(rest) != count:
+    if len(rest) != count and not (verb.get('place') and len(rest) == count + 1):
         numbers_of = 'one number of' if count == 1 else f'{count} numbers,'
         raise ValueError(f'{verb["name"].lower()} takes {numbers_of} {verb["argument"]}; {takes}')
     words = [_plain(verb['unit'], word) for word in rest]
@@ -121,7 +124,7 @@ def comma_hint(text: str) -> str:
 
 def argument(verb: dict[str, Any]) -> str:
     """Describes the number of a verb: "0 to 100 percent", "radians (rad)"."""
-    text: str = verb['argument']
+    text: str = verb['argument'] + (' or a name' if verb.get('place') else '')
     if verb['min'] is not None and verb['max'] is not None:
         text = f'{verb["min"]:g} to {verb["max"]:g} {text}'
     elif verb['min'] is not None:

@@ -1,0 +1,158 @@
+#include "people/seat.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <vector>
+
+#include "core/text.h"
+#include "people/places.h"
+#include "plugin/view.h"
+
+namespace angen::people {
+
+namespace {
+
+using Vec2 = Surroundings::Vec2;
+
+constexpr double kReaches[] = {0.0, 1.4, 2.2};  // m from its feet to a seat or bed, by posture
+constexpr double kThatPlace = 0.3;              // m: the place at x y
+constexpr double kTaken = 0.35;                 // m between two who sit or lie
+constexpr double kLooksFrom = 0.45;             // m above a place: where its surface is looked for
+constexpr double kCovered = 0.12;               // m: higher than this a table covers the place
+constexpr double kLiesOn = 0.002;               // m between the surface and the body
+constexpr double kApartStanding = 0.5;          // m between the middles of two who stand
+constexpr int kTurns = 8;
+
+bool is_own(const View& view, std::uint32_t shape) {
+  const std::vector<std::uint32_t> own = view.own_shapes();
+  return std::count(own.begin(), own.end(), shape) != 0;
+}
+
+// The name of who is there.
+std::string occupant(const View& view, const Vec3& feet, const Vec2& place, double within) {
+  for (const DeviceView& other : Surroundings::other_people(view, feet)) {
+    const Vec2 at(other.state.get<double>("x"), other.state.get<double>("y"));
+    if ((at - place).norm() < within) return std::string(other.name);
+  }
+  return "";
+}
+
+// z of the highest surface under a body, m.
+double support(const View& view, const FloorPose& place, Posture posture) {
+  const bool lies = posture == Posture::kLie;
+  const Pose pose{place.position, from_rpy(0.0, 0.0, place.yaw)};
+  double highest = -std::numeric_limits<double>::infinity();
+  for (double along = lies ? -0.7 : -0.1; along < (lies ? 0.45 : 0.15); along += 0.1) {
+    for (const double across : {-0.15, -0.05, 0.05, 0.15}) {
+      const Vec3 from = pose * Vec3(along, across, kLooksFrom);
+      for (const rays::Crossing& c :
+           view.crossings(from, from - 2.0 * kLooksFrom * Vec3::UnitZ())) {
+        if (!is_own(view, c.shape)) highest = std::max(highest, from.z() - c.enter);
+      }
+    }
+  }
+  return highest;
+}
+
+// The direction in which there is room to lie on the floor, the present one first.
+std::optional<Quat> direction_to_lie(const View& view, const Pose& body) {
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const Quat to = from_rpy(0.0, 0.0, yaw_of(body.rotation) + 2.0 * M_PI * turn / kTurns);
+    const Pose lies{body.position, to};
+    bool is_free = true;
+    for (const double across : {-0.2, 0.0, 0.2}) {
+      const auto met =
+          view.crossings(lies * Vec3(-0.95, across, 0.15), lies * Vec3(0.8, across, 0.15));
+      is_free = is_free && std::all_of(met.begin(), met.end(), [&](const rays::Crossing& c) {
+                  return is_own(view, c.shape);
+                });
+    }
+    if (is_free) return to;
+  }
+  return std::nullopt;
+}
+
+struct Wanted {
+  Posture posture;
+  std::string thing;         // empty: any
+  std::optional<Vec2> near;  // none: any
+};
+
+FoundSeat at_place(const Wanted& wanted, const View& view, const Vec3& feet) {
+  const std::string posture = kPostures[static_cast<int>(wanted.posture)];
+  const Home& home = view.home();
+  double least = std::numeric_limits<double>::infinity();
+  FoundSeat found;
+  for (const Thing& thing : home.things) {
+    if (!wanted.thing.empty() && !is_same(thing.name, wanted.thing)) continue;
+    for (const Place& place : thing.places) {
+      const Vec2 at = place.pose.position.head<2>();
+      const double away = (at - feet.head<2>()).norm();
+      const double rating = wanted.near ? (at - *wanted.near).norm() : away;
+      if (place.posture != posture || away > kReaches[static_cast<int>(wanted.posture)] ||
+          rating >= least || (wanted.near && rating > kThatPlace) ||
+          floor_at(home.storeys, place.pose.position.z()) != floor_at(home.storeys, feet.z())) {
+        continue;
+      }
+      const std::string other = occupant(view, feet, at, kTaken);
+      const double z = support(view, place.pose, wanted.posture);
+      if (!other.empty() || !std::isfinite(z) || z > place.pose.position.z() + kCovered) {
+        found.why_not = (other.empty() ? "something" : other) + " is on " + thing.name;
+        continue;
+      }
+      least = rating;
+      found.seat = Seat{wanted.posture,
+                        {{at.x(), at.y(), z + kLiesOn}, from_rpy(0.0, 0.0, place.pose.yaw)},
+                        feet};
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+FoundSeat find_seat(const Command& command, const View& view, const Pose& body) {
+  const Vec3& feet = body.position;
+  const bool lies = command.verb == "Lie";
+  Wanted wanted{lies ? Posture::kLie : Posture::kSit, command.place, std::nullopt};
+  if (!command.values.empty()) wanted.near = Vec2(command.values[0], command.values[1]);
+  FoundSeat found = at_place(wanted, view, feet);
+  if (found.seat) return found;
+  const bool is_here = !wanted.near || (*wanted.near - feet.head<2>()).norm() < kThatPlace;
+  if (lies && wanted.thing.empty() && is_here) {
+    const std::optional<Quat> to = direction_to_lie(view, body);
+    if (!to) return {{}, "there is no room to lie on the floor"};
+    return {Seat{Posture::kLie, {feet + kLiesOn * Vec3::UnitZ(), *to}, feet}, ""};
+  }
+  if (!found.why_not.empty()) return found;
+  std::ostringstream why;
+  why << "no " << (lies ? "bed" : "seat");
+  if (!wanted.thing.empty()) why << " of " << printable(wanted.thing);
+  if (wanted.near) why << " at " << wanted.near->x() << ' ' << wanted.near->y();
+  why << " is within " << kReaches[lies ? 2 : 1] << " m of it; send it there by GoTo first";
+  return {{}, why.str()};
+}
+
+std::optional<Vec3> place_to_stand(const View& view, const Seat& seat) {
+  const auto is_free = [&](const Vec2& at) {
+    return occupant(view, seat.stand, at, kApartStanding).empty();
+  };
+  const Vec2 stand = seat.stand.head<2>();
+  if (is_free(stand)) return seat.stand;
+  const Vec2 reach = Vec2::Constant(1.0);
+  const auto is_behind_wall = [&](const Vec2& at) {
+    const Vec3 end(at.x(), at.y(), seat.stand.z() + 1.0);
+    return !view.crossings(seat.stand + Vec3::UnitZ(), end, rays::only(rays::Mobility::kStatic))
+                .empty();
+  };
+  const auto place =
+      best_place(view, {stand - reach, stand + reach}, seat.stand.z(), [&](const Vec2& at) {
+        return is_free(at) && !is_behind_wall(at) ? 1.0 - (at - stand).norm() : 0.0;
+      });
+  if (!place) return std::nullopt;
+  return Vec3(place->x(), place->y(), seat.stand.z());
+}
+
+}  // namespace angen::people
