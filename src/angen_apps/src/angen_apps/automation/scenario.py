@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import datetime
+import math
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -53,12 +54,13 @@ class Person:
 
 @dataclass(frozen=True)
 class Program:
-    """What is tested, if it is not an automation: a command line with {broker} in it."""
+    """What is tested, if it is not an automation: a command line with {port} in it."""
 
     command: str
-    answers: str
-    quiet: float
     line: int
+    answers: str = ANSWERS[0]
+    quiet: float = 0.05    # s
+    rate: float = math.inf  # simulated s in one of wall time, at most
 
 
 @dataclass(frozen=True)
@@ -208,11 +210,15 @@ class _Reader(YamlFile):
         return Order(time, self.text(parts['do'], 'do'), line_of(node))
 
     def _program(self, node: Any) -> Program:
-        parts = self.entries(node, 'a program', ('run', 'answers', 'quiet'), ('run',))
-        answers = self.choice(parts['answers'], 'answers', ANSWERS) if 'answers' in parts \
-            else ANSWERS[0]
-        quiet = self._said(parts['quiet'], 'quiet', duration) if 'quiet' in parts else 0.05
-        return Program(self.text(parts['run'], 'run'), answers, quiet, line_of(node))
+        parts = self.entries(node, 'a program', ('run', 'answers', 'quiet', 'rate'), ('run',))
+        given: dict[str, Any] = {}
+        if 'answers' in parts:
+            given['answers'] = self.choice(parts['answers'], 'answers', ANSWERS)
+        if 'quiet' in parts:
+            given['quiet'] = self._said(parts['quiet'], 'quiet', duration)
+        if 'rate' in parts:
+            given['rate'] = self.number(parts['rate'], 'rate', 0.01, 1e6)
+        return Program(self.text(parts['run'], 'run'), line_of(node), **given)
 
     # --- expectations
 
