@@ -78,7 +78,7 @@ def test(paths: Sequence[Path], automations: Sequence[Path], out: Path, json: bo
             for line in lines_of(record, verdicts):
                 print(f'  {line}')
         if record.cut:
-            print(f'angen: {scenario.path}: {record.cut}', file=sys.stderr)
+            print(f'angen: {record.cut}', file=sys.stderr)
             break
     junit(out / 'junit.xml', [suite(*each) for each in done])
     if json:
@@ -119,7 +119,7 @@ def compare(path: Path, automations: Sequence[Path], out: Path, json: bool) -> i
     junit(out / 'junit.xml', [cases for _, cases, _, _ in done])
     cut = next((cut for *_, cut in done if cut), '')
     if cut:
-        raise WrongWords(f'{path}: not compared: {cut}')
+        raise WrongWords(f'{cut}; not compared')
     scores, days = [one for one, *_ in done], done[0][2]
     side.draw(scores, days, out / 'compare.png')
     if json:

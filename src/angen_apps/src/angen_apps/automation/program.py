@@ -38,6 +38,13 @@ AGAIN = 0.3     # the same, until it is asked again
 TAKE = 50       # messages at a time
 
 
+class Silent(Log):
+    """The end of a connection is told as the reason of the cut."""
+
+    def say(self, text: str, again: bool = False) -> None:
+        pass
+
+
 class MqttProgram:
     """See bench.Subject. After all that one moment changes, a barrier is published; it has been
     read by the program when that has answered, or when nothing has come for a while."""
@@ -61,7 +68,7 @@ class MqttProgram:
         self._bench = bench
         self._folder = tempfile.TemporaryDirectory(prefix='angen_')
         port = self._start_broker()
-        self._broker = Broker(Access('127.0.0.1', port), Log(), self._wakes.set)
+        self._broker = Broker(Access('127.0.0.1', port), Silent(), self._wakes.set)
         self._broker.start((f'{BASE}/bridge/state', self._style.offline))
         self._until(lambda: bool(self._broker and self._broker.connected), START,
                     'there is no connection to the broker')

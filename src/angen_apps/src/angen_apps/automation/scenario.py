@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Callable
 
-from angen_apps.automation.claims import ANYONE, NOBODY, Claim, parsed
+from angen_apps.automation.claims import (ANYONE, NOBODY, Claim, contradiction, day_spans,
+                                          parsed)
 from angen_apps.residents.profiles import is_file
 from angen_tools.common.clock import DAY, duration, time_of_day
 from angen_tools.common.yaml_file import YamlFile, is_list, is_text, line_of
@@ -223,7 +224,15 @@ class _Reader(YamlFile):
     # --- expectations
 
     def _claim(self, node: Any, what: str) -> Claim:
+        """One that can hold within the scenario."""
         found: Claim = self._said(node, what, parsed)
+        if contradiction(found):
+            raise self.fail(node, f'{what}: {contradiction(found)}: it can never be judged')
+        if self._has_start and any(part.window and not day_spans(*part.window, self._since,
+                                                                 self._lasts)
+                                   for part in found.parts):
+            raise self.fail(node, f"{what}: '{found.text}' is never within the scenario: it can "
+                            'never be judged')
         return found
 
     def _expectation(self, node: Any) -> Expectation:
