@@ -101,7 +101,7 @@ def entities(python: Path) -> int:
 
 def picture(python: Path) -> int:
     """The plan as a card, with some entities beside it."""
-    from browser import Page
+    from browser import LIMIT, Page
     with tempfile.TemporaryDirectory(prefix='angen_home_assistant_') as name:
         folder = Path(name)
         (folder / 'www').mkdir()
@@ -118,7 +118,7 @@ def picture(python: Path) -> int:
                 page.driver.get(f'http://127.0.0.1:{found["http"]}/lovelace')
                 page.until(LOADED)
                 time.sleep(ICONS)
-                until(lambda: saved(page), 'the picture', 120.0)
+                until(lambda: saved(page), 'the picture', LIMIT)
             finally:
                 page.close()
     return 0
