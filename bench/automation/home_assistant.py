@@ -59,8 +59,9 @@ def installed(folder: Path) -> Path:
 
 
 @contextmanager
-def beside_bridge(python: Path, folder: Path) -> Iterator[dict[str, Any]]:
-    """Home Assistant beside the bridge of the built-in building; what it says."""
+def beside_bridge(python: Path, folder: Path) -> Iterator[tuple[dict[str, Any], Client]]:
+    """Home Assistant beside the bridge of the built-in building: what it says, and the broker's
+    client."""
     mosquitto, master = Mosquitto(folder), Master(folder)
     os.environ.update(master.environment)
     node = master.node(ROOT / 'worlds/angen.world', folder / 'log')
@@ -78,7 +79,7 @@ def beside_bridge(python: Path, folder: Path) -> Iterator[dict[str, Any]]:
             assert assistant.stdout is not None
             found = json.loads(assistant.stdout.readline())
             client.has('angen/lamp/kitchen0/brightness', '40')
-            yield {**found, 'messages': len(client.configs()), 'http': http}
+            yield {**found, 'messages': len(client.configs()), 'http': http}, client
             assistant.communicate()
     finally:
         end(bridge)
@@ -94,7 +95,7 @@ def plain_environment() -> dict[str, str]:
 
 def entities(python: Path) -> int:
     with tempfile.TemporaryDirectory(prefix='angen_home_assistant_') as name, \
-            beside_bridge(python, Path(name)) as found:
+            beside_bridge(python, Path(name)) as (found, _):
         print(json.dumps(found, indent=1))
         return len(found['complaints']) + len(found['unavailable'])
 
@@ -112,11 +113,12 @@ def picture(python: Path) -> int:
             'title: Angen\nviews:\n- title: Home\n  panel: true\n  cards:\n'
             f'  - type: vertical-stack\n    cards:\n    - {card.strip()}\n'
             f'    - type: glance\n      columns: {len(SHOWN)}\n      entities: {list(SHOWN)}\n')
-        with beside_bridge(python, folder) as found:
+        with beside_bridge(python, folder) as (found, client):
             page = Page(folder, 1280, 900)
             try:
                 page.driver.get(f'http://127.0.0.1:{found["http"]}/lovelace')
                 page.until(LOADED)
+                client.send('angen/simulation/simulation/paused/set', 'ON')  # it is drawn in peace
                 time.sleep(ICONS)
                 until(lambda: saved(page), 'the picture', LIMIT)
             finally:
