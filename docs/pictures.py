@@ -36,6 +36,14 @@ PICTURES = {
                    {'locate.png': 'locate.png'}),
     'situations': Made('angen situations --only furniture --plan OUT/situations.png',
                        {'situations.png': 'situations.png'}),
+    'automation': Made('angen automation-test examples/automation/reading_light.yaml --automation '
+                       'examples/automation/reading_light_naive.yaml --out OUT || [ $? = 1 ]',
+                       {'automation.png': 'automation.png'}),
+    'month': Made("sed 's/lasts: 24 h/lasts: 30 d/' examples/automation/two_people.yaml "
+                  '> OUT/month.yaml && angen automation-test OUT/month.yaml --compare '
+                  'examples/automation/lights_naive.yaml examples/automation/lights_good.yaml '
+                  '--out OUT', {'compare.png': 'automation_compare.png'}),
+    'home_assistant': Made('python3 bench/automation/home_assistant.py picture'),
     'task': Made('angen task patrol --out OUT', {'floor_0.png': 'patrol_floor_0.png',
                                                  'floor_1.png': 'patrol_floor_1.png'}),
     'controllers': Made('angen pid door --out OUT && angen pid elevator --out OUT',

@@ -17,12 +17,20 @@ import textwrap
 from pathlib import Path
 from typing import Any
 
+from angen_apps.mqtt.discovery import Discovery
+from angen_apps.mqtt.styles import Plain
+from angen_apps.mqtt.table import components, is_shown
+from angen_apps.mqtt.things import Thing, noun
+
 DOCS = Path(__file__).resolve().parent
 README = DOCS.parent / 'README.md'
 REFERENCE = DOCS / 'reference'
 CATALOG = DOCS.parent / 'devel/lib'
 WITH = re.compile(r'with (\w+ \w+): (.*)')  # a parameter that exists only with a value of another
 NOTE = '<!-- docs/tables.py writes this file. Its text is in the C++ source of the kind. -->\n\n'
+
+ANY = 'VERSION'
+FINITE = {'heating': 21.0}  # a home with heating has all entities of its kind
 
 Kind = dict[str, Any]
 
@@ -120,6 +128,25 @@ def host(kind: Kind, catalog: dict[str, Kind]) -> Kind | None:
     return hosts[0] if hosts else None
 
 
+def discovery(kind: Kind) -> str:
+    """The messages by which angen mqtt shows a thing of the kind to Home Assistant."""
+    if not is_shown(kind, truth=True):
+        return ''
+    thing = Thing(kind['kind'], 'kitchen0', 'kitchen0', '', 'Kitchen',
+                  components(kind, 'kitchen0', range(2), FINITE))
+    thing.label = f'Kitchen {noun(thing).lower()}'
+    made = Discovery(Plain('angen'), False, ANY).messages(thing)
+    text = ''.join(f'`{topic}`\n\n```json\n{wrapped(payload)}\n```\n\n'
+                   for topic, payload in made.items())
+    return f'\n## On MQTT\n\nOf one in the kitchen, by `angen mqtt`:\n\n{text}'.rstrip() + '\n' \
+        if made else ''
+
+
+def wrapped(payload: str) -> str:
+    return textwrap.fill(json.dumps(json.loads(payload), ensure_ascii=False), 118,
+                         subsequent_indent=' ', break_long_words=False, break_on_hyphens=False)
+
+
 def page(kind: Kind, catalog: dict[str, Kind], described_in: str) -> str:
     name, shared = kind['kind'], host(kind, catalog)
     text = f'# {name}\n\n{NOTE}{plain(kind["doc"])} Library: `{kind["library"]}`.'
@@ -132,7 +159,7 @@ def page(kind: Kind, catalog: dict[str, Kind], described_in: str) -> str:
     if any('/' in param['path'] for param in kind['params']):
         text += ('\nA parameter with a path, such as `a/b`, is an element `<a><b>` of `<sensor>`;'
                  ' the others are elements of `<plugin>`.\n')
-    return text + parameters(kind, beside) + commands(kind) + fields(kind)
+    return text + parameters(kind, beside) + commands(kind) + fields(kind) + discovery(kind)
 
 
 def index(catalog: dict[str, Kind]) -> str:

@@ -4,7 +4,8 @@ in an environment that has Home Assistant.
     python3 in_home_assistant.py FOLDER BROKER_PORT HTTP_PORT
 
 It prints, as JSON, the number of its entities by domain, those that it has not made, and the states
-of the kitchen's lamp and door after it has switched and opened them.
+of the kitchen's lamp and door after it has switched and opened them. If the folder has a dashboard,
+ui-lovelace.yaml, it serves that until its input ends.
 """
 from __future__ import annotations
 
@@ -46,16 +47,36 @@ async def until(holds: Callable[[], bool]) -> float:
     return time.monotonic() - began
 
 
+def onboarded(folder: Path) -> None:
+    """Home Assistant asks nothing at its first start."""
+    (folder / '.storage').mkdir(exist_ok=True)
+    (folder / '.storage/onboarding').write_text(json.dumps({
+        'version': 4, 'minor_version': 1, 'key': 'onboarding',
+        'data': {'done': ['user', 'core_config', 'analytics', 'integration']}}))
+
+
 async def started(folder: str, broker: int, http: int) -> Any:
+    """Its core with MQTT, and its pages if there is a dashboard, which this machine sees without a
+    password."""
     (Path(folder) / 'configuration.yaml').touch()
+    has_pages = (Path(folder) / 'ui-lovelace.yaml').exists()
+    if has_pages:
+        onboarded(Path(folder))
     hass = core.HomeAssistant(folder)
     hass.config.skip_pip = True
     loader.async_setup(hass)
     hass.config_entries = config_entries.ConfigEntries(hass, {})
     await bootstrap.async_load_base_functionality(hass)
-    hass.auth = await auth.auth_manager_from_config(hass, [{'type': 'homeassistant'}], [])
-    for component, config in (('homeassistant', {}), ('http', {'server_port': http})):
-        await async_setup_component(hass, component, {component: config})
+    hass.auth = await auth.auth_manager_from_config(hass, [
+        {'type': 'trusted_networks', 'trusted_networks': ['127.0.0.1'],
+         'allow_bypass_login': True}], [])
+    pages = {'lovelace': {'mode': 'yaml'}, 'frontend': {}} if has_pages else {}
+    config = {'homeassistant': {}, 'http': {'server_port': http}, **pages}
+    for component in config:
+        if not await async_setup_component(hass, component, config):
+            raise RuntimeError(f'Home Assistant has not set up {component}')
+    if has_pages:
+        await hass.auth.async_create_user('Anna', group_ids=['system-admin'])
     entry = config_entries.ConfigEntry(
         version=1, minor_version=1, domain='mqtt', title='mqtt', source='user', options={},
         data={'broker': '127.0.0.1', 'port': broker, 'discovery': True,
@@ -94,8 +115,11 @@ async def main() -> None:
         'unavailable': unknown, 'appeared after s': round(appeared, 2),
         'lamp on after ms': round(1000 * lit), 'door moved after s': round(opened, 1),
         'brightness': hass.states.get(LAMP).attributes.get('brightness'),
-        'complaints': complaints.lines[:20]}, indent=1))
+        'complaints': complaints.lines[:20]}), flush=True)
+    if (Path(sys.argv[1]) / 'ui-lovelace.yaml').exists():
+        await asyncio.get_running_loop().run_in_executor(None, sys.stdin.read)
     await hass.async_stop(force=True)
 
 
-asyncio.run(main())
+if __name__ == '__main__':
+    asyncio.run(main())

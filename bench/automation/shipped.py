@@ -9,10 +9,20 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
+from typing import Iterator
 
 from angen_apps.automation.command import test
 
 EXAMPLES = Path(__file__).resolve().parents[2] / 'examples/automation'
+
+
+def each_variant() -> Iterator[tuple[str, str, int]]:
+    """Scenario, variant, and the exit code that is right."""
+    for naive in sorted(EXAMPLES.glob('*_naive.yaml')):
+        name = naive.stem.removesuffix('_naive')
+        if (EXAMPLES / f'{name}.yaml').exists():
+            yield name, 'naive', 1
+            yield name, 'good', 0
 
 
 def main() -> None:
@@ -20,14 +30,10 @@ def main() -> None:
     parser.add_argument('--out', type=Path, default=Path('out'))
     args = parser.parse_args()
     wrong = 0
-    for naive in sorted(EXAMPLES.glob('*_naive.yaml')):
-        name = naive.stem.removesuffix('_naive')
-        scenario = EXAMPLES / f'{name}.yaml'
-        if scenario.exists():
-            for variant, expected in (('naive', 1), ('good', 0)):
-                out = args.out / f'{name}_{variant}'
-                code = test([scenario], [EXAMPLES / f'{name}_{variant}.yaml'], out, False)
-                wrong += code != expected
+    for name, variant, expected in each_variant():
+        code = test([EXAMPLES / f'{name}.yaml'], [EXAMPLES / f'{name}_{variant}.yaml'],
+                    args.out / f'{name}_{variant}', False)
+        wrong += code != expected
     print('all as they should be' if not wrong else f'{wrong} are not as they should be')
     sys.exit(wrong > 0)
 

@@ -36,7 +36,7 @@ LEFT_OUT = re.compile('|'.join((
     r'sudo', r'apt-get', r'docker', r'rosdep', r'cd ~/catkin_ws',  # root, network
     r'angen run$', r'python3 -m venv', r'~/angen/bin',  # of a package or a wheel
     r'/usr/bin/python3 -m venv', r'~/mcap/bin', r'mkdir -p ~/bridge', r'git clone', r'cd ~/bridge',
-    r'source ~/bridge', r'colcon', r'export ROS_MASTER_URI',  # network, another machine
+    r'source ~/bridge', r'colcon', r'export ROS_MASTER_URI', r'.*node-red',  # network, others
     r'cmake --build build', r'python3 (bench/physics|worlds/make_|-m pytest|docs/tables)',
     r'\./angen shell -c "python3 (-m pytest|examples)',  # minutes, or they write into the checkout
     r'.*(\bNAME\b|\bKIND\b)',  # usage

@@ -52,11 +52,47 @@ def test_a_forgotten_stove(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
 
 def test_a_program_on_mqtt(tmp_path: Path) -> None:
     """Time waits for its answers: what it does is exact to its tick of a second."""
-    record, verdicts = run_scenario(read_scenario(FOLDER / 'motion_light.yaml'))
+    record, verdicts = run_scenario(read_scenario(FOLDER / 'hall_light.yaml'))
     assert {each.outcome for each in verdicts} == {PASSED}
     motion = record.lines.values['binary_sensor.hall_motion_sensor', '']
     on = [time for time, state in motion if state == 'on']
     assert [done.time for done in record.done if 'ON' in done.what] == [on[0], on[-1]]
+
+
+PROGRAM = """
+import sys
+import paho.mqtt.client as mqtt
+
+def receive(client, _, message):
+    payload = message.payload.decode()
+    if message.topic.endswith('barrier'):
+        client.publish(message.topic + '/done', payload + ' 100.5')
+    else:
+        client.publish('angen/notify', sys.argv[2] + ' ' + payload)
+
+client = mqtt.Client()
+client.on_message = receive
+client.on_connect = lambda *_: client.subscribe([('angen/bridge/barrier', 0),
+                                                 ('angen/simulation/simulation/time', 0)])
+client.connect('127.0.0.1', int(sys.argv[1]))
+client.loop_forever()
+"""
+
+
+def test_a_program_that_says_when_it_needs_the_time(tmp_path: Path) -> None:
+    """It is not sent for its own sake before, and each second afterwards. Its words are messages
+    to people."""
+    (tmp_path / 'program.py').write_text(PROGRAM)
+    (tmp_path / 's.yaml').write_text(
+        'start: 2026-03-23 21:00\nlasts: 103 s\n'
+        f'program: {{run: "{sys.executable} {{folder}}/program.py {{port}} {{start}}"}}\n'
+        'expect: [{at_least: 3, notes: "21:00:00"}]\n')
+    record, (verdict,) = run_scenario(read_scenario(tmp_path / 's.yaml'))
+    assert verdict.outcome == PASSED
+    times = [done.what.split()[1] for done in record.done]
+    assert [each for each in times if not each.endswith('0.011')] == [  # numbers are read then
+        '100.500', '101.000', '102.000', '103.000']
+    assert record.done[0].what.startswith('2026-03-23T21:00:00 ')
 
 
 @pytest.mark.parametrize('program, why', [

@@ -144,6 +144,8 @@ class _Reader(YamlFile):
         below = self.number(parts['below'], 'below') if 'below' in parts else math.inf
         if 'above' not in parts and 'below' not in parts:
             raise self.fail(node, 'numeric_state needs above or below')
+        if above >= below:
+            raise self.fail(node, f'no number is above {above:g} and below {below:g}')
         return above, below
 
     def _attribute(self, parts: dict[str, Any], entities: tuple[str, ...]) -> str:

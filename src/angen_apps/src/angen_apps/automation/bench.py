@@ -203,7 +203,7 @@ class Bench:
                 self.house.live(min(self.now + SLICE, self.scenario.lasts))
                 self._progress(self.now / self.scenario.lasts)
         except KeyboardInterrupt:
-            cut = 'it was interrupted'
+            cut = f'{self.scenario.path}: it was interrupted'
         except Cut as why:
             cut = str(why)
         finally:
@@ -265,7 +265,8 @@ class Bench:
                 self.subject.observe(changes, self.now)
             elif not self.subject.advance(self.now):
                 return
-        raise Cut(f'at {self.now:g} s what is tested has acted {ROUNDS} times, and goes on')
+        raise Cut(f'{self.scenario.path}: at {self.now:g} s what is tested has acted {ROUNDS} '
+                  'times, and goes on')
 
     def _changes(self) -> list[Change]:
         changes, now = [], self.now

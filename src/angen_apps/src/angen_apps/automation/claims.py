@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Callable, Iterable, Mapping, Sequence
 
 from angen_tools.common.clock import DAY, time_of_day
@@ -87,6 +88,17 @@ def _part(text: str) -> Part:
     raise ValueError(f"'{text}' is no claim; write it as {FORMS}")
 
 
+def contradiction(claim: Claim) -> str:
+    """Why its parts never hold together, '' if they can."""
+    for one, other in combinations(claim.parts, 2):
+        if one.source and one.key == other.key and not one.who and (
+                (one.value and other.value and not one.negated and not other.negated
+                 and one.value != other.value) or max(one.above, other.above) >= min(
+                     one.below, other.below)):
+            return f"'{claim.text}' is a contradiction"
+    return ''
+
+
 # --- over time
 
 def spans_of(line: Line, holds: Callable[[str], bool], end: float) -> Spans:
@@ -155,7 +167,7 @@ class Lines:
 
     def _of(self, part: Part) -> Spans:
         if part.window is not None:
-            return self._of_day(*part.window)
+            return day_spans(*part.window, self.since, self.end)
         if not part.who:
             return spans_of(self.values.get(part.key, []), part.holds, self.end)
         names = self.people if part.who in (ANYONE, NOBODY) else [part.who]
@@ -163,13 +175,13 @@ class Lines:
                       for name in names)
         return inverse(found, self.end) if part.who == NOBODY else found
 
-    def _of_day(self, low: float, high: float) -> Spans:
-        """A time of day on each day."""
-        lasts = (high - low) % DAY or DAY
-        first = [low + days * DAY - self.since
-                 for days in range(-1, int((self.since + self.end) / DAY) + 1)]
-        return [(max(begin, 0.0), min(begin + lasts, self.end)) for begin in first
-                if begin + lasts > 0.0 and begin < self.end]
+
+def day_spans(low: float, high: float, since: float, end: float) -> Spans:
+    """A time of day on each day of a run."""
+    lasts = (high - low) % DAY or DAY
+    first = [low + days * DAY - since for days in range(-1, int((since + end) / DAY) + 1)]
+    return [(max(begin, 0.0), min(begin + lasts, end)) for begin in first
+            if begin + lasts > 0.0 and begin < end]
 
 
 def power_used(lines: Mapping[str, Line], end: float) -> float:

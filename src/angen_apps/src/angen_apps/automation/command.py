@@ -1,23 +1,30 @@
 """angen automation-test: automations over scenarios, judged."""
 from __future__ import annotations
 
+import multiprocessing
+import os
 import sys
 import tempfile
 import time
+from dataclasses import replace
 from pathlib import Path
-from typing import Callable, Sequence
+from typing import TYPE_CHECKING, Callable, Sequence
 
 from angen_apps.automation.automations import Where
 from angen_apps.automation.bench import Bench, HomeAssistant, Record, Subject
 from angen_apps.automation.entities import Entities
 from angen_apps.automation.home import House
 from angen_apps.automation.judge import Verdict, judge
-from angen_apps.automation.report import as_dict, code_of, junit, lines_of, tables
-from angen_apps.automation.scenario import Scenario, read_scenario
+from angen_apps.automation.report import as_dict, code_of, junit, lines_of, suite, tables
+from angen_apps.automation.scenario import Program, Scenario, read_scenario
 from angen_tools.common.clock import show_duration
 from angen_tools.common.failure import Failure, WrongWords
 from angen_tools.common.output import as_json
 from angen_tools.common.progress import Progress
+from angen_tools.common.watchdog import end_with_parent
+
+if TYPE_CHECKING:
+    from angen_apps.automation.compare import Score
 
 Judged = tuple[Record, list[Verdict]]
 
@@ -25,7 +32,7 @@ Judged = tuple[Record, list[Verdict]]
 def run_scenario(scenario: Scenario, automations: Sequence[Path] = ()) -> Judged:
     """Runs and judges a scenario, with its own automations or with others. A mistake in what
     somebody wrote is WrongWords."""
-    paths = tuple(automations) or scenario.automations
+    paths = tuple(automations) or (() if scenario.program else scenario.automations)
     subject, read = _subject(scenario, paths)
     try:
         with Progress('bench', 0.1) as progress:
@@ -47,13 +54,16 @@ def _subject(scenario: Scenario, paths: Sequence[Path]
     return subject, subject.read
 
 
-def test(paths: Sequence[Path], automations: Sequence[Path], out: Path, json: bool) -> int:
+def test(paths: Sequence[Path], automations: Sequence[Path], out: Path, json: bool,
+         program: str = '') -> int:
     """Runs scenarios; writes junit.xml, and of each a picture and tables."""
     from angen_apps.automation.figure import draw
     try:
         scenarios = [read_scenario(path) for path in paths]
     except Failure as error:
         raise WrongWords(str(error)) from None
+    if program:
+        scenarios = [replace(one, program=Program(program, 1)) for one in scenarios]
     done: list[Judged] = []
     for scenario in scenarios:
         began = time.monotonic()
@@ -68,9 +78,9 @@ def test(paths: Sequence[Path], automations: Sequence[Path], out: Path, json: bo
             for line in lines_of(record, verdicts):
                 print(f'  {line}')
         if record.cut:
-            print(f'angen: {scenario.path}: {record.cut}', file=sys.stderr)
+            print(f'angen: {record.cut}', file=sys.stderr)
             break
-    junit(out / 'junit.xml', done)
+    junit(out / 'junit.xml', [suite(*each) for each in done])
     if json:
         print(as_json([as_dict(*each) for each in done]))
     else:
@@ -96,20 +106,21 @@ def list_entities(path: Path, json: bool) -> int:
 
 
 def compare(path: Path, automations: Sequence[Path], out: Path, json: bool) -> int:
-    """Runs two automations over the same days; prints and draws them side by side."""
+    """Runs two automations over the same days, at once; prints and draws them side by side."""
     from angen_apps.automation import compare as side
     from angen_tools.common.output import show, table
     try:
         scenario = read_scenario(path)
     except Failure as error:
         raise WrongWords(str(error)) from None
-    done = [run_scenario(scenario, [automation]) for automation in automations]
-    junit(out / 'junit.xml', done)
-    cut = next((record.cut for record, _ in done if record.cut), '')
+    # By processes: this one, which they are made from, has no world and no threads.
+    with multiprocessing.get_context('fork').Pool(2, end_with_parent, (os.getpid(),)) as pool:
+        done = pool.starmap(_scored, [(scenario, automation) for automation in automations])
+    junit(out / 'junit.xml', [cases for _, cases, _, _ in done])
+    cut = next((cut for *_, cut in done if cut), '')
     if cut:
-        raise WrongWords(f'{path}: not compared: {cut}')
-    scores = [side.score(*each) for each in done]
-    days = side.days_of(done[0][0])
+        raise WrongWords(f'{cut}; not compared')
+    scores, days = [one for one, *_ in done], done[0][2]
     side.draw(scores, days, out / 'compare.png')
     if json:
         print(as_json(side.as_dict(scores, days)))
@@ -119,3 +130,10 @@ def compare(path: Path, automations: Sequence[Path], out: Path, json: bool) -> i
                                   in zip(*rows)], names))
         print(f'see {out}/compare.png, junit.xml')
     return 0
+
+
+def _scored(scenario: Scenario, automation: Path) -> tuple[Score, str, float, str]:
+    """Of a run: its score, its cases for JUnit, its days, and why it was cut."""
+    from angen_apps.automation import compare as side
+    record, verdicts = run_scenario(scenario, [automation])
+    return side.score(record, verdicts), suite(record, verdicts), side.days_of(record), record.cut

@@ -30,11 +30,19 @@ if TYPE_CHECKING:
     from angen_apps.automation.bench import Bench, Change
 
 BASE = 'angen'
+NOTIFY = f'{BASE}/notify'  # messages to people
 TICK = 1.0      # s of simulated time between two messages of it
 ANSWER = 10.0   # s of wall time in which a program answers
 START = 60.0    # the same, for its first answer
 AGAIN = 0.3     # the same, until it is asked again
 TAKE = 50       # messages at a time
+
+
+class Silent(Log):
+    """The end of a connection is told as the reason of the cut."""
+
+    def say(self, text: str, again: bool = False) -> None:
+        pass
 
 
 class MqttProgram:
@@ -46,8 +54,9 @@ class MqttProgram:
         self.needs: set[str] = set()
         self._style = Plain(BASE)
         self._wakes = threading.Event()
+        self._sent: dict[str, str] = {}  # states by topic
         self._barriers = 0
-        self._next = 0.0
+        self._next = 0.0  # when simulated time is published again
         self._processes: list[subprocess.Popen[bytes]] = []
         self._broker: Broker | None = None
 
@@ -59,18 +68,19 @@ class MqttProgram:
         self._bench = bench
         self._folder = tempfile.TemporaryDirectory(prefix='angen_')
         port = self._start_broker()
-        self._broker = Broker(Access('127.0.0.1', port), Log(), self._wakes.set)
+        self._broker = Broker(Access('127.0.0.1', port), Silent(), self._wakes.set)
         self._broker.start((f'{BASE}/bridge/state', self._style.offline))
         self._until(lambda: bool(self._broker and self._broker.connected), START,
                     'there is no connection to the broker')
         self._broker.subscribe([*self._style.filters, self._topic('barrier'),
-                                self._topic('barrier/done')])
+                                self._topic('barrier/done'), NOTIFY])
         self._publish_all()
         self._log = Path(self._folder.name) / 'program.log'
         with self._log.open('wb') as log:
             text = self._program.command
             for word, value in (('host', '127.0.0.1'), ('port', str(port)),
-                                ('folder', str(self._where.path.parent))):
+                                ('folder', str(self._where.path.parent)),
+                                ('start', bench.house.start.isoformat())):
                 text = text.replace(f'{{{word}}}', value)
             try:
                 self._processes.append(subprocess.Popen(
@@ -78,8 +88,9 @@ class MqttProgram:
                     start_new_session=True))
             except OSError as error:
                 raise WrongWords(f'{self._where}: {text}: {error.strerror}') from None
-        self._barrier(START)
         self._next = bench.now
+        self._barrier(START)
+        self._began = time.monotonic() - bench.now / self._program.rate
 
     def _start_broker(self) -> int:
         found = shutil.which('mosquitto', path=os.environ.get('PATH', '') + ':/usr/sbin')
@@ -112,20 +123,24 @@ class MqttProgram:
         assert self._broker is not None
         discovery = Discovery(self._style, False, angen_module().__version__)
         for thing in self._bench.entities.things.values():
-            for topic, payload in {**discovery.messages(thing), **self._states(thing)}.items():
+            for topic, payload in discovery.messages(thing).items():
                 self._broker.publish(topic, payload)
+            self._send_states(thing)
         self._broker.publish(self._topic('state'), self._style.online)
 
-    def _states(self, thing: Thing) -> dict[str, str]:
-        return self._style.states(thing, thing.shown)
+    def _send_states(self, thing: Thing) -> None:
+        """Those that have changed."""
+        assert self._broker is not None
+        for topic, payload in self._style.states(thing, thing.shown).items():
+            if self._sent.get(topic) != payload:
+                self._sent[topic] = payload
+                self._broker.publish(topic, payload)
 
     def observe(self, changes: Sequence[Change], now: float) -> None:
         assert self._broker is not None
         self._send_time(now)
         for key in dict.fromkeys(entity.thing.key for entity, _, _ in changes):
-            thing = self._bench.entities.things[key]
-            for topic, payload in self._states(thing).items():
-                self._broker.publish(topic, payload)
+            self._send_states(self._bench.entities.things[key])
         self._barrier(ANSWER)
 
     def advance(self, now: float) -> bool:
@@ -138,6 +153,7 @@ class MqttProgram:
 
     def _send_time(self, now: float) -> None:
         assert self._broker is not None
+        time.sleep(max(0.0, self._began + now / self._program.rate - time.monotonic()))
         self._broker.publish(f'{BASE}/simulation/simulation/time', f'{now:.3f}')
 
     def _barrier(self, limit: float) -> None:
@@ -160,19 +176,35 @@ class MqttProgram:
             while messages := self._broker.take(TAKE):
                 for message in messages:
                     heard = time.monotonic()
-                    if message.topic == waits and message.payload.decode() == number:
-                        came = True
+                    if message.topic == waits:
+                        came |= self._is_answer(message.payload, number)
+                    elif message.topic == NOTIFY:
+                        self._note(message.payload.decode(errors='replace'))
                     elif message.topic.endswith('/set') and not message.retained:
                         self._execute(message)
             self._check()
+
+    def _is_answer(self, payload: bytes, number: str) -> bool:
+        """Whether a message answers a barrier; it may say after it when the program needs the
+        next message of the time."""
+        answered, _, due = payload.decode(errors='replace').partition(' ')
+        if answered != number:
+            return False
+        with suppress(ValueError):  # none is said
+            if float(due) > self._bench.now:
+                self._next = float(due)
+        return True
 
     @property
     def _quiet(self) -> float:
         return self._program.quiet if self._program.answers == 'quiet' else 0.0
 
-    def _execute(self, message: Message) -> None:
+    def _note(self, what: str, entity: str = '', error: str = '') -> None:
         from angen_apps.automation.bench import Done
-        entities, now = self._bench.entities, self._bench.now
+        self._bench.done.append(Done(self._bench.now, 'program', what, entity, error))
+
+    def _execute(self, message: Message) -> None:
+        entities = self._bench.entities
         try:
             payload = message.payload.decode()
             for thing, part, text in self._style.find(message.topic, payload,
@@ -184,10 +216,9 @@ class MqttProgram:
                     entities.command(entity, part, text)
                 except Failure as why:
                     error = str(why)
-                self._bench.done.append(Done(now, 'program', f'{part.key} {text}', entity.id,
-                                             error))
+                self._note(f'{part.key} {text}', entity.id, error)
         except ValueError as why:
-            self._bench.done.append(Done(now, 'program', message.topic, '', str(why)))
+            self._note('rejected', message.topic, str(why))
 
     def _check(self) -> None:
         """Whether all run."""

@@ -10,14 +10,14 @@ from lxml import etree
 from angen_apps.automation.bench import Record
 from angen_apps.automation.judge import FAILED, OPEN, Verdict
 from angen_tools.common.clock import show_time
-from angen_tools.common.files import write_csv, writing
+from angen_tools.common.files import write_csv, write_text
 
 UNPRINTABLE = re.compile('[^\t\n\r -\ud7ff\ue000-\ufffd]')  # what XML cannot have
 
 
 def clock(record: Record, time: float) -> str:
     """The time of day, after the first day with the number of days."""
-    return show_time(record.house.since + time)
+    return show_time(record.lines.since + time)
 
 
 def lines_of(record: Record, verdicts: Sequence[Verdict]) -> list[str]:
@@ -47,27 +47,29 @@ def code_of(records: Sequence[tuple[Record, Sequence[Verdict]]]) -> int:
     return 1 if FAILED in outcomes else 2 if OPEN in outcomes else 0
 
 
-def junit(path: Path, records: Sequence[tuple[Record, Sequence[Verdict]]]) -> None:
-    """Writes JUnit XML: a suite for each scenario, a case for each expectation."""
-    root = etree.Element('testsuites')
-    for record, verdicts in records:
-        outcomes = [verdict.outcome for verdict in verdicts]
-        suite = etree.SubElement(root, 'testsuite', name=_clean(str(record.scenario.path)),
-                                 tests=str(len(verdicts)), failures=str(outcomes.count(FAILED)),
-                                 errors='0', skipped=str(outcomes.count(OPEN)),
-                                 time=f'{record.lines.end:.3f}')
-        for verdict in verdicts:
-            case = etree.SubElement(suite, 'testcase', name=_clean(verdict.expectation.name),
-                                    classname=_clean(record.tested or record.scenario.path.stem))
-            if verdict.outcome == FAILED:
-                node = etree.SubElement(case, 'failure', message=_clean(verdict.detail))
-                node.text = '\n'.join(f'{clock(record, low)} to {clock(record, high)}'
-                                      for low, high in verdict.wrong[:100])
-            elif verdict.outcome == OPEN:
-                etree.SubElement(case, 'skipped', message=_clean(verdict.detail))
-    with writing(path, binary=True) as file:
-        file.write(etree.tostring(root, xml_declaration=True, encoding='UTF-8',
-                                  pretty_print=True))
+def suite(record: Record, verdicts: Sequence[Verdict]) -> str:
+    """The XML of a run: a case for each expectation."""
+    outcomes = [verdict.outcome for verdict in verdicts]
+    found = etree.Element('testsuite', name=_clean(str(record.scenario.path)),
+                          tests=str(len(verdicts)), failures=str(outcomes.count(FAILED)),
+                          errors='0', skipped=str(outcomes.count(OPEN)),
+                          time=f'{record.lines.end:.3f}')
+    for verdict in verdicts:
+        case = etree.SubElement(found, 'testcase', name=_clean(verdict.expectation.name),
+                                classname=_clean(record.tested or record.scenario.path.stem))
+        if verdict.outcome == FAILED:
+            node = etree.SubElement(case, 'failure', message=_clean(verdict.detail))
+            node.text = '\n'.join(f'{clock(record, low)} to {clock(record, high)}'
+                                  for low, high in verdict.wrong[:100])
+        elif verdict.outcome == OPEN:
+            etree.SubElement(case, 'skipped', message=_clean(verdict.detail))
+    return str(etree.tostring(found, encoding='unicode', pretty_print=True))
+
+
+def junit(path: Path, suites: Sequence[str]) -> None:
+    """Writes JUnit XML."""
+    write_text(path, "<?xml version='1.0' encoding='UTF-8'?>\n<testsuites>\n"
+               f'{"".join(suites)}</testsuites>\n')
 
 
 def _clean(text: str) -> str:

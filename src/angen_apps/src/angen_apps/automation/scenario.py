@@ -2,12 +2,14 @@
 from __future__ import annotations
 
 import datetime
+import math
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Callable
 
-from angen_apps.automation.claims import ANYONE, NOBODY, Claim, parsed
+from angen_apps.automation.claims import (ANYONE, NOBODY, Claim, contradiction, day_spans,
+                                          parsed)
 from angen_apps.residents.profiles import is_file
 from angen_tools.common.clock import DAY, duration, time_of_day
 from angen_tools.common.yaml_file import YamlFile, is_list, is_text, line_of
@@ -53,12 +55,13 @@ class Person:
 
 @dataclass(frozen=True)
 class Program:
-    """What is tested, if it is not an automation: a command line with {broker} in it."""
+    """What is tested, if it is not an automation: a command line with {port} in it."""
 
     command: str
-    answers: str
-    quiet: float
     line: int
+    answers: str = ANSWERS[0]
+    quiet: float = 0.05    # s
+    rate: float = math.inf  # simulated s in one of wall time, at most
 
 
 @dataclass(frozen=True)
@@ -208,16 +211,28 @@ class _Reader(YamlFile):
         return Order(time, self.text(parts['do'], 'do'), line_of(node))
 
     def _program(self, node: Any) -> Program:
-        parts = self.entries(node, 'a program', ('run', 'answers', 'quiet'), ('run',))
-        answers = self.choice(parts['answers'], 'answers', ANSWERS) if 'answers' in parts \
-            else ANSWERS[0]
-        quiet = self._said(parts['quiet'], 'quiet', duration) if 'quiet' in parts else 0.05
-        return Program(self.text(parts['run'], 'run'), answers, quiet, line_of(node))
+        parts = self.entries(node, 'a program', ('run', 'answers', 'quiet', 'rate'), ('run',))
+        given: dict[str, Any] = {}
+        if 'answers' in parts:
+            given['answers'] = self.choice(parts['answers'], 'answers', ANSWERS)
+        if 'quiet' in parts:
+            given['quiet'] = self._said(parts['quiet'], 'quiet', duration)
+        if 'rate' in parts:
+            given['rate'] = self.number(parts['rate'], 'rate', 0.01, 1e6)
+        return Program(self.text(parts['run'], 'run'), line_of(node), **given)
 
     # --- expectations
 
     def _claim(self, node: Any, what: str) -> Claim:
+        """One that can hold within the scenario."""
         found: Claim = self._said(node, what, parsed)
+        if contradiction(found):
+            raise self.fail(node, f'{what}: {contradiction(found)}: it can never be judged')
+        if self._has_start and any(part.window and not day_spans(*part.window, self._since,
+                                                                 self._lasts)
+                                   for part in found.parts):
+            raise self.fail(node, f"{what}: '{found.text}' is never within the scenario: it can "
+                            'never be judged')
         return found
 
     def _expectation(self, node: Any) -> Expectation:

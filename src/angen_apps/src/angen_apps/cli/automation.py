@@ -14,13 +14,13 @@ def run_test(args: argparse.Namespace) -> int:
     if args.entities:
         return list_entities(args.scenario[0], args.json)
     check_folder(args.out)
+    if bool(args.automation) + bool(args.compare) + bool(args.program) > 1:
+        args.parser.error('--automation, --program and --compare exclude one another')
     if args.compare:
-        if args.automation:
-            args.parser.error('--automation and --compare exclude each other')
         if len(args.scenario) > 1:
             args.parser.error('--compare takes one scenario')
         return compare(args.scenario[0], args.compare, args.out, args.json)
-    return test(args.scenario, args.automation, args.out, args.json)
+    return test(args.scenario, args.automation, args.out, args.json, args.program)
 
 
 def add_automation_test(commands: Any) -> None:
@@ -38,6 +38,8 @@ def add_automation_test(commands: Any) -> None:
                       help='a YAML file, as docs/automation.md describes it')
     made.add_argument('--automation', metavar='FILE', type=Path, nargs='+', default=(),
                       help="automations of Home Assistant instead of the scenario's")
+    made.add_argument('--program', metavar='COMMAND', default='',
+                      help="a program on MQTT instead of the scenario's automation")
     made.add_argument('--compare', metavar='FILE', type=Path, nargs=2,
                       help='two automations over the same days: comfort, energy, false alarms')
     made.add_argument('--entities', action='store_true',

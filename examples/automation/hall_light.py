@@ -1,6 +1,6 @@
 """A motion light as a program on MQTT: works beside angen mqtt, and in angen automation-test.
 
-    python3 motion_light.py HOST PORT
+    python3 hall_light.py HOST PORT
 
 Times are simulated, of the topic angen/simulation/simulation/time.
 """
