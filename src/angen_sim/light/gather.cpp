@@ -80,7 +80,7 @@ Gather::Surface Gather::surface(const rays::Ray& ray, const rays::Hit& hit) cons
 
 void Gather::locate(Surface& surface) const {
   surface.patch = field_.patch_at(surface.shape, surface.position, surface.normal);
-  surface.serial = surface.patch == kNoPatch ? 0 : field_.serial(surface.patch);
+  surface.serial = surface.patch == kNoPatch ? 0 : field_[surface.patch].serial;
 }
 
 /// Looks up patches again that the field has replaced, and lists all.
@@ -89,8 +89,8 @@ void Gather::relocate() {
   located_ = field_.revision();
   const auto check = [&](Surface& seen) {
     if (seen.shape == UINT32_MAX) return;
-    const bool holds = seen.patch != kNoPatch && field_.alive(seen.patch) &&
-                       field_.serial(seen.patch) == seen.serial;
+    const bool holds = seen.patch != kNoPatch && field_[seen.patch].alive &&
+                       field_[seen.patch].serial == seen.serial;
     if (!holds) locate(seen);
   };
   if (movers_known()) {
@@ -205,28 +205,6 @@ bool Gather::shaded(const Lamp& lamp, const Surface& surface, std::size_t i) con
   return !sees_one(scene_, lamp, surface.position, surface.normal, i, kMovable);
 }
 
-std::size_t Gather::lacking(const Source& source) {
-  if (source.stale || !may_see(source.solution.bounds)) return 0;
-  relocate();
-  return static_cast<std::size_t>(std::count_if(
-      patches_.begin(), patches_.end(), [&](std::uint32_t patch) { return lacks(patch, source); }));
-}
-
-bool Gather::lacks(std::uint32_t patch, const Source& source) const {
-  return !field_.reaches(source.solution, patch, false) && !field_.counted(patch);
-}
-
-bool Gather::prepare(const Source& source, std::int64_t& rays) {
-  if (source.stale || !may_see(source.solution.bounds)) return true;
-  relocate();
-  for (const std::uint32_t patch : patches_) {
-    if (!lacks(patch, source)) continue;
-    if (rays <= 0) return false;
-    rays -= field_.cost_of(patch);
-  }
-  return true;
-}
-
 void Gather::find_direct(const Source& source) {
   const Lamp& lamp = source.lamp;
   Received& from = received_[source.id];
@@ -259,7 +237,7 @@ const Gather::Received& Gather::received(const Source& source) {
   std::vector<Rgb> by_patch;
   from.any = from.lit;
   for (const std::uint32_t patch : patches_) {
-    by_patch.push_back(field_.reflected(source.solution, patch, source.stale));
+    by_patch.push_back(reflected_on(field_, source.solution, patch, source.stale));
     from.any = from.any || (by_patch.back() > 0.0F).any();
   }
   from.reflected.clear();
@@ -278,14 +256,15 @@ Rgb Gather::on_mover(const Mover& mover, const Source& source, std::size_t i, bo
     in_play = true;
     if (!shaded(lamp, seen, i)) direct += static_cast<float>(lux);
   }
-  if (mover.anchored) return direct + left_ * field_.reflected(solution, seen.patch, source.stale);
+  if (mover.anchored)
+    return direct + left_ * reflected_on(field_, solution, seen.patch, source.stale);
   for (std::size_t k = mover.around; k < mover.around + ways_; ++k) {
     const Surface& from = around_[k];
     if (from.patch == kNoPatch) continue;
-    const float first = field_.direct(solution, from.patch, source.stale);
+    const float first = direct_on(field_, solution, from.patch);
     in_play = in_play || first > 0.0F;
     if (first > 0.0F && !shaded(lamp, from, i + k)) reflected += from.albedo * first;
-    reflected += left_ * from.albedo * field_.reflected(solution, from.patch, source.stale);
+    reflected += left_ * from.albedo * reflected_on(field_, solution, from.patch, source.stale);
   }
   return direct + reflected / static_cast<float>(ways_);
 }
@@ -302,7 +281,7 @@ Rgb Gather::leaving(const rays::Ray& ray, const Source& source, std::size_t i, c
   const bool lit =
       lux > 0.0 && sees_one(scene_, source.lamp, seen.position, seen.normal, i, rays::kAll);
   return seen.albedo * ((lit ? static_cast<float>(lux) : 0.0F) +
-                        left_ * field_.reflected(source.solution, seen.patch, source.stale));
+                        left_ * reflected_on(field_, source.solution, seen.patch, source.stale));
 }
 
 /// Replaces the light of a direction by the mean of finer ones where it varies strongly, as at the
