@@ -158,15 +158,19 @@ def test_a_cabinet_that_could_move_lights_the_room_as_one_that_cannot():
     assert without.sensor('luminosity', 'l')['illuminance'] > 1.1 * readings['true'][0]
 
 
-def test_a_lamp_that_was_never_lit_gives_all_of_its_light_in_the_next_tick():
+def test_a_lamp_that_was_never_lit_gives_none_and_then_all_of_its_light():
     w = world_of(room() + LAMP.replace('<level>100', '<level>0') + lux('l', '0.05 2 1.5 0 0 0'))
-    w.run(0.099)
+    w.run(0.15)
     w.command('lamp', 'hall0', 'On')
-    w.step(1)
-    seen = w.sensor('luminosity', 'l')['illuminance']
+    seen = []
+    for _ in range(4):
+        w.run(0.1)
+        seen.append(w.sensor('luminosity', 'l')['illuminance'])
     lit = world_of(room() + LAMP + lux('l', '0.05 2 1.5 0 0 0'))
     lit.step(1)
-    assert seen == lit.sensor('luminosity', 'l')['illuminance'] > 10.0
+    right = lit.sensor('luminosity', 'l')['illuminance']
+    assert seen == [0.0, right, right, right]
+    assert right > 10.0
 
 
 def readings_of(building, pieces):

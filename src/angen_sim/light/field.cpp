@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 #include "light/field_rays.h"
@@ -15,6 +15,7 @@ namespace {
 constexpr double kNear = 1e-3;         // m, closer counts as touching
 constexpr double kStill = 5e-5;        // m: smaller motion is ignored; a ray's margin is larger
 constexpr double kLargestPatch = 1.5;  // m across
+constexpr float kRare = 0.1F;          // tried: 0.3 leaves more noise behind doors ajar
 
 using Box = Eigen::AlignedBox3d;
 
@@ -22,7 +23,9 @@ Box grown(const Box& box, double by) {
   return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
 }
 
-/// Slab test of the segment of that range from the ray's origin.
+}  // namespace
+
+/// Slab test.
 bool passes(const Box& box, const rays::Ray& ray, double range) {
   double enter = 0.0, leave = range;
   for (int axis = 0; axis < 3; ++axis) {
@@ -36,6 +39,8 @@ bool passes(const Box& box, const rays::Ray& ray, double range) {
   return enter <= leave;
 }
 
+namespace {
+
 /// Whether the shape is the same and has not moved by kStill. An infinite box, a plane's, shows no
 /// motion.
 bool stays(const std::optional<rays::Standing>& before, const std::optional<rays::Standing>& now) {
@@ -44,6 +49,28 @@ bool stays(const std::optional<rays::Standing>& before, const std::optional<rays
   const Box &a = before->box, &b = now->box;
   return !b.diagonal().allFinite() || ((a.min() - b.min()).cwiseAbs().maxCoeff() < kStill &&
                                        (a.max() - b.max()).cwiseAbs().maxCoeff() < kStill);
+}
+
+struct Sampling {        // how a patch samples what it sees
+  float density = 0.0F;  // links per m^2
+  float extent = 0.0F;   // m, root of its links times its area
+};
+
+Sampling sampling_of(const Patch& patch) {
+  const auto count = static_cast<double>(links_of(patch));
+  return {static_cast<float>(count / patch.area),
+          static_cast<float>(std::sqrt(count * patch.area))};
+}
+
+/// As light goes both ways, links to a patch and those back are samples of the same exchange, form
+/// factor times area, and rare ones count for both. Of many links the evenly spread ones of one
+/// patch are more accurate. Few are to be expected between patches that are far apart for their
+/// size; in narrow gaps parts of cells see each other by many.
+void set_exchange(const Patch& from, const Patch& to, Field::Link& link) {
+  const Sampling own = sampling_of(from), other = sampling_of(to);
+  link.is_rare = !(from.is_part() && to.is_part()) &&
+                 link.range * link.range > kRare * own.extent * other.extent;
+  link.exchange = 1.0F / (link.is_rare ? own.density + other.density : own.density);
 }
 
 double area_of(const Box& box) {
@@ -64,14 +91,14 @@ void add_box(const Box& box, std::vector<Box>& boxes) {
 
 }  // namespace
 
-Rgb Field::albedo(std::uint32_t shape) const {
+Rgb albedo(const rays::Scene& scene, std::uint32_t shape) {
   Rgb out = Rgb::Zero();
-  out.head<3>() = scene_.reflectance(shape).array().max(0.0F).min(kLargestAlbedo);
+  out.head<3>() = scene.reflectance(shape).array().max(0.0F).min(kLargestAlbedo);
   return out;
 }
 
 Rgb Field::albedo_of(std::uint32_t patch) const {
-  return albedo(static_cast<std::uint32_t>(surfaces_[patch].key[0]));
+  return albedo(scene(), static_cast<std::uint32_t>(surfaces_[patch].key[0]));
 }
 
 Field::Link Field::link_of(const rays::Ray& ray, const rays::Hit& hit) {
@@ -80,27 +107,31 @@ Field::Link Field::link_of(const rays::Ray& ray, const rays::Hit& hit) {
           static_cast<float>(hit.range)};
 }
 
-const std::vector<Field::Link>& Field::links(std::uint32_t patch) {
-  static_assert(std::is_nothrow_move_constructible_v<Sight>,
-                "a growing vector would copy all lists");
-  if (sights_.size() <= patch) sights_.resize(std::max<std::size_t>(patch + 1, surfaces_.size()));
-  if (!sights_[patch].links.empty()) return sights_[patch].links;
-  const std::vector<rays::Ray> rays = link_rays(surfaces_[patch]);
-  std::array<rays::Hit, kLinks> hits;
-  scene_.cast(rays.data(), hits.data(), rays.size(), kStanding);
-  Sight& own = sights_[patch];
-  own.reach.setEmpty();
-  own.links.reserve(rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    own.links.push_back(link_of(rays[i], hits[i]));
-    own.reach.extend(rays[i].origin);
-    own.reach.extend(end_of(rays[i], hits[i].range));
-  }
-  return own.links;
+/// Of the patch's own links.
+void Field::weigh(std::uint32_t patch, Link& link) const {
+  if (link.patch != kNoPatch) set_exchange(surfaces_[patch], surfaces_[link.patch], link);
 }
 
-void Field::note(std::uint32_t shape, const Box& box, bool is_static,
-                 std::vector<Change>& changes) {
+const std::vector<Field::Link>& Field::links(std::uint32_t patch) {
+  if (sights_.size() <= patch) sights_.resize(std::max<std::size_t>(patch + 1, surfaces_.size()));
+  if (sights_[patch]) return sights_[patch]->links;
+  const std::vector<rays::Ray> rays = link_rays(surfaces_[patch]);
+  std::array<rays::Hit, kLinks> hits;
+  scene().cast(rays.data(), hits.data(), rays.size(), kStanding);
+  auto own = std::make_shared<Sight>();
+  own->links.reserve(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    own->links.push_back(link_of(rays[i], hits[i]));
+    weigh(patch, own->links.back());
+    own->reach.extend(rays[i].origin);
+    own->reach.extend(end_of(rays[i], hits[i].range));
+  }
+  sights_[patch] = std::move(own);
+  return sights_[patch]->links;
+}
+
+void Changes::note(std::uint32_t shape, const Box& box, bool is_static,
+                   std::vector<Change>& changes) {
   changes.push_back({box, is_static});
   if (been_.size() <= shape) been_.resize(shape + 1);
   if (been_[shape].isEmpty()) outdated_.push_back(shape);
@@ -108,8 +139,8 @@ void Field::note(std::uint32_t shape, const Box& box, bool is_static,
 }
 
 /// Notes the change of a shape among static ones, or among those that are not static.
-void Field::compare(std::uint32_t shape, const Known& now, bool is_static,
-                    std::vector<Change>& changes) {
+void Changes::compare(std::uint32_t shape, const Known& now, bool is_static,
+                      std::vector<Change>& changes) {
   const Known& before = known_[shape];
   const bool was = before && before->is_static == is_static;
   const bool is = now && now->is_static == is_static;
@@ -122,12 +153,12 @@ void Field::compare(std::uint32_t shape, const Known& now, bool is_static,
   }
 }
 
-std::vector<Field::Change> Field::follow() {
+std::vector<Changes::Change> Changes::follow(const rays::Scene& scene) {
   const bool first = followed_ == 0;  // no shape is known that could have changed
   std::vector<Change> statics, anchored;
-  for (const std::uint32_t shape : scene_.standing_changes(followed_)) {
+  for (const std::uint32_t shape : scene.standing_changes(followed_)) {
     if (known_.size() <= shape) known_.resize(shape + 1);
-    Known now = scene_.standing(shape);
+    Known now = scene.standing(shape);
     if (stays(known_[shape], now)) continue;  // known_ keeps the old box, so that creeping adds up
     if (!first) {
       compare(shape, now, true, statics);
@@ -139,37 +170,43 @@ std::vector<Field::Change> Field::follow() {
   return statics;
 }
 
-bool Field::outdated_in(const Box& box) const {
+bool Changes::any_in(const Box& box) const {
   return std::any_of(outdated_.begin(), outdated_.end(),
                      [&](std::uint32_t shape) { return box.intersects(been_[shape]); });
+}
+
+std::vector<Changes::Moved> Changes::take() {
+  std::sort(outdated_.begin(), outdated_.end());
+  std::vector<Moved> taken;
+  for (const std::uint32_t shape : std::exchange(outdated_, {})) {
+    taken.push_back({shape, std::exchange(been_[shape], Box())});
+  }
+  return taken;
 }
 
 /// A shape near a surface may cover or divide its patches.
 void Field::forget_near(const Box& box, std::vector<std::uint32_t>& gone) {
   const Box near = grown(box, kFacing);
-  for (const bool is_static : {true, false}) {
-    for (const Known& shape : known_) {
-      if (!shape || shape->is_static != is_static || !near.intersects(shape->box)) continue;
-      surfaces_.forget_near(shape->id.index, near, gone);
-    }
-  }
+  surfaces_.each_known([&](std::uint32_t shape) {
+    const std::optional<rays::Standing> standing = scene().standing(shape);
+    if (standing && near.intersects(standing->box)) surfaces_.forget_near(shape, near, gone);
+  });
 }
 
-void Field::update() {
-  if (outdated_.empty()) return;
-  ++revision_;
+void Field::update(std::shared_ptr<const rays::Scene> scene,
+                   const std::vector<Changes::Moved>& moved) {
+  static std::atomic<std::uint64_t> updates{0};
+  revision_ = ++updates;
+  surfaces_.set_scene(std::move(scene));
   std::vector<Box> changed;
   std::vector<std::uint32_t> gone;
-  std::sort(outdated_.begin(), outdated_.end());
-  for (const std::uint32_t shape : outdated_) {
-    const Box box = std::exchange(been_[shape], Box());
-    add_box(grown(box, kNear), changed);
-    surfaces_.forget(shape, gone);
-    forget_near(box, gone);
+  for (const Changes::Moved& each : moved) {
+    add_box(grown(each.box, kNear), changed);
+    surfaces_.forget(each.shape, gone);
+    forget_near(each.box, gone);
   }
-  outdated_.clear();
   for (const std::uint32_t patch : gone) {
-    if (patch < sights_.size()) sights_[patch] = {};
+    if (patch < sights_.size()) sights_[patch] = nullptr;
   }
   for (std::uint32_t patch = 0; patch < sights_.size(); ++patch) cast_again(patch, changed);
   surfaces_.release(gone);
@@ -177,33 +214,38 @@ void Field::update() {
 
 /// Casts those links again that pass the boxes.
 void Field::cast_again(std::uint32_t patch, const std::vector<Box>& changed) {
-  Sight& own = sights_[patch];
-  if (own.links.empty()) return;
+  if (!sights_[patch]) return;
+  const Sight& before = *sights_[patch];
   std::vector<Box> near;
   for (const Box& box : changed) {
     // The patch at a link's end may extend beyond that point.
-    if (own.reach.intersects(grown(box, kLargestPatch))) near.push_back(box);
+    if (before.reach.intersects(grown(box, kLargestPatch))) near.push_back(box);
   }
   if (near.empty()) return;
+  std::shared_ptr<Sight> own;  // a copy, from the first change on
   const std::vector<rays::Ray> rays = link_rays(surfaces_[patch]);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    Link& link = own.links[i];
+    const Link& link = before.links[i];
     const auto passed = [&](const Box& box) { return passes(box, rays[i], link.range + kNear); };
     const bool misses = link.patch == kNoPatch && !std::isfinite(link.range);
-    const bool holds = misses || (link.patch != kNoPatch && surfaces_[link.patch].alive);
+    const bool holds = misses || surfaces_.alive(link.patch);
     if (holds && std::none_of(near.begin(), near.end(), passed)) continue;
+    if (!own) own = std::make_shared<Sight>(before);
     rays::Hit hit;
-    scene_.cast(&rays[i], &hit, 1, kStanding);
-    link = link_of(rays[i], hit);
-    own.reach.extend(end_of(rays[i], hit.range));
+    scene().cast(&rays[i], &hit, 1, kStanding);
+    own->links[i] = link_of(rays[i], hit);
+    weigh(patch, own->links[i]);
+    own->reach.extend(end_of(rays[i], hit.range));
   }
+  if (own) sights_[patch] = std::move(own);
 }
 
 std::vector<ReflectedLight::Piece> Field::pieces(const std::vector<Rgb>& light) const {
   std::vector<ReflectedLight::Piece> all;
   for (std::uint32_t i = 0; i < light.size(); ++i) {
+    if (!surfaces_.alive(i)) continue;
     const Patch& patch = surfaces_[i];
-    if (!patch.alive || patch.sites.empty() || !(light[i].head<3>().maxCoeff() > 0.0F)) continue;
+    if (!(light[i].head<3>().maxCoeff() > 0.0F)) continue;
     Vec3 position = Vec3::Zero(), normal = Vec3::Zero();
     for (const Site& site : patch.sites) {
       position += site.position;

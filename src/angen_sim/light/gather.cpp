@@ -72,9 +72,14 @@ Gather::Surface Gather::surface(const rays::Ray& ray, const rays::Hit& hit) cons
   if (!hit.hit()) return out;
   out.position = ray.origin + hit.range * ray.direction;
   out.normal = hit.normal.cast<double>().normalized();
-  out.albedo = field_.albedo(hit.shape);
+  out.albedo = albedo(scene_, hit.shape);
   out.shape = hit.shape;
-  if (scene_.mobility(hit.shape) != rays::Mobility::kMoving) locate(out);
+  return out;
+}
+
+Gather::Surface Gather::located(const rays::Ray& ray, const rays::Hit& hit) const {
+  Surface out = surface(ray, hit);
+  if (hit.hit() && scene_.mobility(hit.shape) != rays::Mobility::kMoving) locate(out);
   return out;
 }
 
@@ -89,9 +94,7 @@ void Gather::relocate() {
   located_ = field_.revision();
   const auto check = [&](Surface& seen) {
     if (seen.shape == UINT32_MAX) return;
-    const bool holds = seen.patch != kNoPatch && field_[seen.patch].alive &&
-                       field_[seen.patch].serial == seen.serial;
-    if (!holds) locate(seen);
+    if (!field_.holds(seen.patch, seen.serial)) locate(seen);
   };
   if (movers_known()) {
     for (Mover& mover : movers_) {
@@ -132,7 +135,7 @@ void Gather::find_movers() {
     if (!hits[i].hit()) continue;
     before_[i] = static_cast<std::uint32_t>(movers_.size());
     movers_.push_back(
-        {surface(rays[i], hits[i]), scene_.mobility(hits[i].shape) == rays::Mobility::kAnchored});
+        {located(rays[i], hits[i]), scene_.mobility(hits[i].shape) == rays::Mobility::kAnchored});
   }
   find_between();
   find_around();
@@ -147,7 +150,7 @@ void Gather::find_between() {
     ray.max = next_ranges_[i];
     rays::Hit hit;
     scene_.cast(&ray, &hit, 1, rays::only(rays::Mobility::kMoving));
-    if (hit.hit()) between_[i] = field_.albedo(hit.shape);
+    if (hit.hit()) between_[i] = albedo(scene_, hit.shape);
   }
 }
 
@@ -171,7 +174,7 @@ void Gather::find_around() {
       rays::Hit hit;
       scene_.cast(&ray, &hit, 1, kStanding);
       extend(reach_, ray, hit.range);
-      around_.push_back(surface(ray, hit));
+      around_.push_back(located(ray, hit));
     }
   }
 }
@@ -275,7 +278,7 @@ Rgb Gather::leaving(const rays::Ray& ray, const Source& source, std::size_t i, c
   scene_.cast(&ray, &hit, 1, rays::kAll);
   if (hit.hit() && scene_.mobility(hit.shape) == rays::Mobility::kMoving) return coarse;
   extend(reach_, ray, hit.range);
-  const Surface seen = surface(ray, hit);
+  const Surface seen = located(ray, hit);
   if ((seen.albedo == 0.0F).all()) return Rgb::Zero();
   const double lux = illuminance(source.lamp, seen.position, seen.normal);
   const bool lit =

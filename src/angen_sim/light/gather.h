@@ -66,7 +66,8 @@ class Gather {
     std::vector<float> direct;        // lx, without movers
     std::vector<Rgb> reflected;       // lx
   };
-  Surface surface(const rays::Ray& ray, const rays::Hit& hit) const;
+  Surface surface(const rays::Ray& ray, const rays::Hit& hit) const;  // without its patch
+  Surface located(const rays::Ray& ray, const rays::Hit& hit) const;
   rays::Ray next(std::size_t i) const;
   void find_direct(const Source& source);
   void find_movers();

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <future>
 #include <limits>
+#include <numeric>
+#include <thread>
 #include <utility>
 
 #include "light/beam.h"
@@ -17,9 +20,10 @@ namespace {
 constexpr double kReach = 15.0;       // m around an 800 lm lamp, in which its light is followed
 constexpr float kDark = 1e-3F;        // lx: less reflected light is not followed
 constexpr double kBeyondSites = 0.5;  // m
+constexpr double kBeside = 1e-2;      // m: beside a shadow ray
 constexpr double kSettled = 1e-4;     // share of the mean: a change that ends the bounces
 constexpr int kMaxBounces = 200;
-constexpr float kRare = 0.1F;  // tried: 0.3 leaves more noise behind doors ajar
+constexpr std::size_t kThreads = 8;
 
 double reach_of(const Lamp& lamp) {
   return kReach * std::max(1.0, std::sqrt(lamp.luminous_flux / 800.0));
@@ -30,15 +34,26 @@ std::uint64_t next_stamp() {
   return ++stamps;
 }
 
+std::uint32_t place_in(const Field& field, const Solution& solution, std::uint32_t patch) {
+  const std::uint32_t number = patch - solution.first_patch;  // wraps around below the first
+  if (number >= solution.places.size()) return kNoPatch;
+  const std::uint32_t at = solution.places[number];
+  return at != kNoPatch && field.holds(patch, solution.serials[at]) ? at : kNoPatch;
+}
+
 class Solver {
  public:
-  Solver(const Lamp& lamp, Field& field)
-      : lamp_(lamp), field_(field), world_(field.scene().static_bounds()) {}
+  Solver(const Unsolved& of, Field& field)
+      : of_(of), lamp_(of.lamp), field_(field), world_(field.scene().static_bounds()) {}
 
-  Solution solve() {
+  /// Adds patches and links to the field.
+  void find_patches() {
     light_first();
     for (std::size_t i = 0; i < out_.patches.size(); ++i) follow(i);
-    list_samplings();
+  }
+
+  /// After find_patches(); reads the field only.
+  Solution solve() {
     list_arrivals();
     list_exchanges();
     for (int i = 0; i < kMaxBounces && !out_.patches.empty() && bounce(); ++i) {
@@ -48,14 +63,9 @@ class Solver {
   }
 
  private:
-  struct Sampling {        // how a patch samples what it sees
-    float density = 0.0F;  // links per m^2
-    float extent = 0.0F;   // m, root of its links times its area
-    bool is_part = false;  // part of a divided cell
-  };
   struct Arrival {  // a link to a patch that counts as one from it
     std::uint32_t from = 0;
-    std::uint32_t before = kNoPatch;  // the arrival before this one at the same patch
+    float exchange = 0.0F;  // m^2
   };
 
   std::uint32_t place_of(std::uint32_t patch) const {
@@ -85,8 +95,29 @@ class Solver {
                : (at - lamp_.pose.position).norm() < reach_of(lamp_);
   }
 
+  /// Whether no shape has moved between the patch and the lamp since the known solution.
+  bool is_free(const Patch& on) const {
+    if (lamp_.type == Lamp::Type::kDirectional) return false;
+    Eigen::AlignedBox3d sites;
+    for (const Site& site : on.sites) sites.extend(site.position);
+    const double size = std::max(
+        {lamp_.radius, std::hypot(lamp_.width, lamp_.height) / 2, lamp_.length / 2 + lamp_.radius});
+    const Vec3 beside = Vec3::Constant(std::max(size, sites.diagonal().norm() / 2) + kBeside);
+    rays::Ray ray;
+    ray.origin = sites.center();
+    const Vec3 way = lamp_.pose.position - ray.origin;
+    ray.direction = way.normalized();
+    return std::none_of(of_.moved.begin(), of_.moved.end(), [&](const auto& moved) {
+      return passes({moved.box.min() - beside, moved.box.max() + beside}, ray, way.norm());
+    });
+  }
+
   float direct(std::uint32_t patch) const {
     const Patch& on = field_[patch];
+    if (of_.known != nullptr) {
+      const std::uint32_t before = place_in(field_, *of_.known, patch);
+      if (before != kNoPatch && is_free(on)) return of_.known->direct[before];
+    }
     double sum = 0.0;
     for (std::size_t i = 0; i < on.sites.size(); ++i) {
       const Site& site = on.sites[i];
@@ -104,6 +135,7 @@ class Solver {
   void follow(std::size_t i) {
     const std::uint32_t patch = out_.patches[i];
     const std::vector<Field::Link>& seen = field_.links(patch);
+    links_.push_back(&seen);
     Rgb sum = Rgb::Zero();
     for (const Field::Link& link : seen) {
       const std::uint32_t place = place_of(link.patch);
@@ -119,42 +151,35 @@ class Solver {
     }
   }
 
-  void list_samplings() {
-    for (const std::uint32_t number : out_.patches) {
-      const Patch& patch = field_[number];
-      const double count = static_cast<double>(field_.links(number).size());
-      samplings_.push_back({static_cast<float>(count / patch.area),
-                            static_cast<float>(std::sqrt(count * patch.area)), patch.is_part()});
-    }
-  }
-
-  /// Whether few links are to be expected between two patches that far apart, m. In narrow gaps
-  /// parts of cells see each other by many.
-  static bool are_rare(const Sampling& a, const Sampling& b, float range) {
-    return !(a.is_part && b.is_part) && range * range > kRare * a.extent * b.extent;
-  }
-
-  /// Lists the rare links by the patches that they hit.
-  void list_arrivals() {
-    last_arrivals_.resize(out_.patches.size(), kNoPatch);
+  /// Calls visit(from, to, link) for each rare link between patches of the solution.
+  template <class F>
+  void each_rare(F&& visit) const {
     for (std::uint32_t i = 0; i < out_.patches.size(); ++i) {
-      for (const Field::Link& link : field_.links(out_.patches[i])) {
-        const std::uint32_t to = place_of(link.patch);
-        if (to == kNoPatch || !are_rare(samplings_[i], samplings_[to], link.range)) continue;
-        const auto number = static_cast<std::uint32_t>(arrivals_.size());
-        arrivals_.push_back({i, std::exchange(last_arrivals_[to], number)});
+      for (const Field::Link& link : *links_[i]) {
+        const std::uint32_t to = link.is_rare ? place_of(link.patch) : kNoPatch;
+        if (to != kNoPatch) visit(i, to, link);
       }
     }
   }
 
-  /// Lists form factors. As light goes both ways, links to a patch and those back are samples of
-  /// the same exchange, form factor times area, and rare ones count for both. Of many links the
-  /// evenly spread ones of one patch are more accurate.
+  /// Lists the rare links by the patches that they hit.
+  void list_arrivals() {
+    first_arrivals_.assign(out_.patches.size() + 1, 0);
+    each_rare(
+        [&](std::uint32_t, std::uint32_t to, const Field::Link&) { ++first_arrivals_[to + 1]; });
+    std::partial_sum(first_arrivals_.begin(), first_arrivals_.end(), first_arrivals_.begin());
+    arrivals_.resize(first_arrivals_.back());
+    std::vector<std::uint32_t> next = first_arrivals_;
+    each_rare([&](std::uint32_t from, std::uint32_t to, const Field::Link& link) {
+      arrivals_[next[to]++] = {from, link.exchange};
+    });
+  }
+
+  /// Lists form factors.
   void list_exchanges() {
     std::vector<std::size_t> entries(out_.patches.size(), 0);  // in the last row that has a patch
     rows_.push_back(0);
     for (std::size_t i = 0; i < out_.patches.size(); ++i) {
-      const Sampling& own = samplings_[i];
       const std::size_t begin = seen_.size();
       float whole = 0.0F;
       const auto add = [&](std::uint32_t other, float exchange) {
@@ -168,14 +193,15 @@ class Solver {
         }
         factors_[entry] += exchange;
       };
-      for (const Field::Link& link : field_.links(out_.patches[i])) {
+      const Patch& patch = field_[out_.patches[i]];
+      const float unseen =
+          1.0F / static_cast<float>(static_cast<double>(links_of(patch)) / patch.area);
+      for (const Field::Link& link : *links_[i]) {
         const std::uint32_t to = place_of(link.patch);
-        const bool rare = to != kNoPatch && are_rare(own, samplings_[to], link.range);
-        add(to, 1.0F / (rare ? own.density + samplings_[to].density : own.density));
+        add(to, to == kNoPatch ? unseen : link.exchange);
       }
-      for (std::uint32_t k = last_arrivals_[i]; k != kNoPatch; k = arrivals_[k].before) {
-        const std::uint32_t from = arrivals_[k].from;
-        add(from, 1.0F / (own.density + samplings_[from].density));
+      for (std::uint32_t k = first_arrivals_[i + 1]; k-- > first_arrivals_[i];) {
+        add(arrivals_[k].from, arrivals_[k].exchange);
       }
       for (std::size_t k = begin; k < seen_.size(); ++k) factors_[k] /= whole;
       rows_.push_back(seen_.size());
@@ -216,6 +242,7 @@ class Solver {
     out_.reflected.shrink_to_fit();
   }
 
+  const Unsolved of_;
   const Lamp& lamp_;
   Field& field_;
   Eigen::AlignedBox3d world_;  // m, bounds of static shapes
@@ -223,20 +250,13 @@ class Solver {
   std::vector<std::uint32_t> places_;  // by patch: its index in the solution, or kNoPatch
   std::vector<Rgb> leaving_;           // lx, by index, as what follows
   std::vector<Rgb> albedos_;
-  std::vector<Sampling> samplings_;
-  std::vector<std::uint32_t> last_arrivals_;  // at each patch, or kNoPatch
-  std::vector<Arrival> arrivals_;
-  std::vector<std::size_t> rows_;    // begin of each patch's part of `seen_`, and the end
-  std::vector<std::uint32_t> seen_;  // the patches that each one sees
-  std::vector<float> factors_;       // by entry of `seen_`: form factor
+  std::vector<const std::vector<Field::Link>*> links_;
+  std::vector<std::uint32_t> first_arrivals_;  // at each patch, and the number of all
+  std::vector<Arrival> arrivals_;              // by patch
+  std::vector<std::size_t> rows_;              // begin of each patch's part of `seen_`, and the end
+  std::vector<std::uint32_t> seen_;            // the patches that each one sees
+  std::vector<float> factors_;                 // by entry of `seen_`: form factor
 };
-
-std::uint32_t place_in(const Field& field, const Solution& solution, std::uint32_t patch) {
-  const std::uint32_t number = patch - solution.first_patch;  // wraps around below the first
-  if (number >= solution.places.size()) return kNoPatch;
-  const std::uint32_t at = solution.places[number];
-  return at != kNoPatch && solution.serials[at] == field[patch].serial ? at : kNoPatch;
-}
 
 /// One more bounce, from the patches of the solution.
 Rgb indirect_on(Field& field, const Solution& solution, std::uint32_t patch) {
@@ -257,7 +277,27 @@ Rgb indirect_on(Field& field, const Solution& solution, std::uint32_t patch) {
 
 }  // namespace
 
-Solution solve(const Lamp& lamp, Field& field) { return Solver(lamp, field).solve(); }
+std::vector<std::shared_ptr<const Solution>> solve(const std::vector<Unsolved>& lamps,
+                                                   Field& field) {
+  std::vector<Solver> solvers;
+  solvers.reserve(lamps.size());
+  for (const Unsolved& each : lamps) solvers.emplace_back(each, field).find_patches();
+  std::vector<std::shared_ptr<const Solution>> solved(lamps.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < lamps.size(); i = next++) {
+      solved[i] = std::make_shared<const Solution>(solvers[i].solve());
+    }
+  };
+  std::vector<std::future<void>> others;
+  const std::size_t threads = std::min<std::size_t>(std::thread::hardware_concurrency(), kThreads);
+  for (std::size_t i = 1; i < std::min(threads, lamps.size()); ++i) {
+    others.push_back(std::async(std::launch::async, work));
+  }
+  work();
+  for (std::future<void>& other : others) other.get();
+  return solved;
+}
 
 float direct_on(const Field& field, const Solution& solution, std::uint32_t patch) {
   const std::uint32_t at = place_in(field, solution, patch);
@@ -277,7 +317,7 @@ void add_reflected(const Field& field, const Solution& solution, const Rgb& fact
   light.resize(field.size(), Rgb::Zero());
   for (std::size_t i = 0; i < solution.patches.size(); ++i) {
     const std::uint32_t patch = solution.patches[i];
-    if (field[patch].serial == solution.serials[i]) light[patch] += factor * solution.reflected[i];
+    if (field.holds(patch, solution.serials[i])) light[patch] += factor * solution.reflected[i];
   }
 }
 

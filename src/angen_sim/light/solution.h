@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -25,9 +26,18 @@ struct Solution {
   mutable std::uint64_t indirect_revision = 0;
 };
 
-/// Balances the light of a lamp between the patches of a field (radiosity). The same scene and lamp
-/// give the same light, whatever the field was used for before.
-Solution solve(const Lamp& lamp, Field& field);
+/// A lamp, its solution for an earlier scene or null, and the shapes that have moved since.
+struct Unsolved {
+  const Lamp& lamp;
+  const Solution* known = nullptr;
+  const std::vector<Changes::Moved>& moved;
+};
+
+/// Balances the light of each lamp between the patches of a field (radiosity), on several threads.
+/// The same scene and lamp give the same light, whatever the field was used for before, and
+/// whatever is known.
+std::vector<std::shared_ptr<const Solution>> solve(const std::vector<Unsolved>& lamps,
+                                                   Field& field);
 
 /// lx on a patch directly from the lamp; 0 if the solution does not contain the patch.
 float direct_on(const Field& field, const Solution& solution, std::uint32_t patch);

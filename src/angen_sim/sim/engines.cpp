@@ -237,8 +237,9 @@ void Engines::note_rest(Nanoseconds now) {
 }
 
 Nanoseconds Engines::next_light() const {
-  if (!light.keeps_time() || light.dark()) return kForever;
-  return standing_changed_ >= light_followed_ ? 0 : light.next().value_or(kForever);
+  if (!light.keeps_time()) return kForever;
+  if (!light.dark() && standing_changed_ >= light_followed_) return 0;
+  return light.next().value_or(kForever);
 }
 
 void Engines::advance_light(Nanoseconds now) {
