@@ -156,7 +156,6 @@ class FakeWorld : public View, public Wiring, public Outputs {
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override {
     return light_at ? light_at(probe, pose) : light::Sample{};
   }
-  void expect_light(light::Probe&, const Pose&) const override {}
 
   double ambient_temperature() const override { return ambient; }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm; }

@@ -158,15 +158,45 @@ def test_a_cabinet_that_could_move_lights_the_room_as_one_that_cannot():
     assert without.sensor('luminosity', 'l')['illuminance'] > 1.1 * readings['true'][0]
 
 
-def test_a_lamp_that_was_never_lit_is_seen_within_half_a_second():
+def test_a_lamp_that_was_never_lit_gives_none_and_then_all_of_its_light():
     w = world_of(room() + LAMP.replace('<level>100', '<level>0') + lux('l', '0.05 2 1.5 0 0 0'))
-    w.step(1)
+    w.run(0.15)
     w.command('lamp', 'hall0', 'On')
-    w.run(0.5)
-    seen = w.sensor('luminosity', 'l')['illuminance']
+    seen = []
+    for _ in range(4):
+        w.run(0.1)
+        seen.append(w.sensor('luminosity', 'l')['illuminance'])
     lit = world_of(room() + LAMP + lux('l', '0.05 2 1.5 0 0 0'))
     lit.step(1)
-    assert seen == lit.sensor('luminosity', 'l')['illuminance']
+    right = lit.sensor('luminosity', 'l')['illuminance']
+    assert seen == [0.0, right, right, right]
+    assert right > 10.0
+
+
+def readings_of(building, pieces):
+    """Readings each second while a lamp is lit and a door shuts; `pieces` are the lengths of runs
+    (s) that divide a second; with none, it steps.
+    """
+    w = angen.World(building)
+    readings = []
+    for second in range(6):
+        if second == 1:
+            w.command('lamp', 'kitchen0', 'On')
+            w.command('door', 'kitchen0', 'Close')
+        for piece in pieces:
+            w.run(piece)
+        if not pieces:
+            w.step(1000)
+        readings.append([w.sensor('luminosity', name).get('illuminance')
+                         for name in ('kitchen_lux0', 'entrance_lux0')])
+    return readings, w.events()
+
+
+def test_light_does_not_depend_on_how_time_is_divided(building):
+    pieces = readings_of(building, [0.013, 0.287, 0.7])
+    assert pieces == readings_of(building, [])
+    assert pieces[0][1][0] > 10.0  # at once
+    assert pieces[0][-1][1] < 0.5 * pieces[0][1][1]  # the door is shut
 
 
 def test_a_warm_lamp_is_redder_than_a_cold_one_and_as_bright():

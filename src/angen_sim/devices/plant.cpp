@@ -19,7 +19,6 @@ constexpr double kPsychrometer = 0.66;         // hPa/K, at sea level
 constexpr double kLatentHeat = 2.45e6;         // J/kg, of water at 20 degrees
 constexpr double kDryingPower = 0.35 / 1.333;  // mm/(day hPa) in still air: Penman's 0.35 a mm Hg
 constexpr double kWhiteLight = 100.0;          // lm/W, of daylight and of white lamps
-constexpr Nanoseconds kAhead = 5 * kSecond;  // light is prepared by this time before it is queried
 
 // hPa over water, Magnus with Sonntag's constants, as in the climate.
 double vapor_pressure(double temperature) {
@@ -65,10 +64,6 @@ class Plant : public Device {
   }
 
   void update(const View& view, Outputs& outputs) override {
-    if (!prepared_ && view.time() >= prepare_at(view)) {
-      view.expect_light(probe_, leaves(view));
-      prepared_ = true;
-    }
     const bool due = due_.due(view.time(), view.step());
     if (!due && watered_ == 0.0) return;
     dry(view);
@@ -76,10 +71,7 @@ class Plant : public Device {
     note(outputs);
   }
 
-  Nanoseconds idle_until(const View& view) const override {
-    const Nanoseconds due = due_.next(view.time());
-    return prepared_ ? due : std::min(due, prepare_at(view));
-  }
+  Nanoseconds idle_until(const View& view) const override { return due_.next(view.time()); }
 
   void save(SavedParams& params) const override { params.number("moisture", moisture_); }
 
@@ -91,10 +83,6 @@ class Plant : public Device {
   }
 
  private:
-  /// Before the step that queries light: the first, then those of lit_.
-  Nanoseconds prepare_at(const View& view) const {
-    return (lit_at_ > 0 ? lit_at_ : due_.next(view.time())) - kAhead;
-  }
   Pose leaves(const View& view) const {
     return {view.pose() * Vec3(0.0, 0.0, leaf_height_),
             Quat::FromTwoVectors(Vec3::UnitX(), Vec3::UnitZ())};
@@ -114,7 +102,6 @@ class Plant : public Device {
     if (view.time() >= lit_at_) {
       light_ = view.illuminance(probe_, up).illuminance;
       lit_at_ = lit_.next(view.time());
-      prepared_ = false;
     }
     const double wet = 1000.0 * area_ * penman(temperature, humidity, light_) / kDay;  // ml/s
     const double seconds = to_seconds(dried_at_ - before);
@@ -160,7 +147,6 @@ class Plant : public Device {
   double light_ = 0.0;      // lx
   Refresh lit_{1.0 / 600};  // light costs more than all else
   Nanoseconds lit_at_ = 0;
-  bool prepared_ = false;
   Nanoseconds dried_at_ = -1;
   Refresh due_{1.0 / 60.0};
 };

@@ -11,6 +11,9 @@ namespace angen::light {
 constexpr std::size_t kLinks = 128;     // directions in which a patch gathers
 constexpr std::size_t kFineLinks = 32;  // links of a part of a divided cell
 
+/// How many links a patch has.
+inline std::size_t links_of(const Patch& patch) { return patch.is_part() ? kFineLinks : kLinks; }
+
 std::vector<rays::Ray> link_rays(const Patch& patch);
 
 /// Rays from a lamp that find the patches it lights; `world` (m) bounds the static shapes.

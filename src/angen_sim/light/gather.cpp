@@ -72,15 +72,20 @@ Gather::Surface Gather::surface(const rays::Ray& ray, const rays::Hit& hit) cons
   if (!hit.hit()) return out;
   out.position = ray.origin + hit.range * ray.direction;
   out.normal = hit.normal.cast<double>().normalized();
-  out.albedo = field_.albedo(hit.shape);
+  out.albedo = albedo(scene_, hit.shape);
   out.shape = hit.shape;
-  if (scene_.mobility(hit.shape) != rays::Mobility::kMoving) locate(out);
+  return out;
+}
+
+Gather::Surface Gather::located(const rays::Ray& ray, const rays::Hit& hit) const {
+  Surface out = surface(ray, hit);
+  if (hit.hit() && scene_.mobility(hit.shape) != rays::Mobility::kMoving) locate(out);
   return out;
 }
 
 void Gather::locate(Surface& surface) const {
   surface.patch = field_.patch_at(surface.shape, surface.position, surface.normal);
-  surface.serial = surface.patch == kNoPatch ? 0 : field_.serial(surface.patch);
+  surface.serial = surface.patch == kNoPatch ? 0 : field_[surface.patch].serial;
 }
 
 /// Looks up patches again that the field has replaced, and lists all.
@@ -89,9 +94,7 @@ void Gather::relocate() {
   located_ = field_.revision();
   const auto check = [&](Surface& seen) {
     if (seen.shape == UINT32_MAX) return;
-    const bool holds = seen.patch != kNoPatch && field_.alive(seen.patch) &&
-                       field_.serial(seen.patch) == seen.serial;
-    if (!holds) locate(seen);
+    if (!field_.holds(seen.patch, seen.serial)) locate(seen);
   };
   if (movers_known()) {
     for (Mover& mover : movers_) {
@@ -132,7 +135,7 @@ void Gather::find_movers() {
     if (!hits[i].hit()) continue;
     before_[i] = static_cast<std::uint32_t>(movers_.size());
     movers_.push_back(
-        {surface(rays[i], hits[i]), scene_.mobility(hits[i].shape) == rays::Mobility::kAnchored});
+        {located(rays[i], hits[i]), scene_.mobility(hits[i].shape) == rays::Mobility::kAnchored});
   }
   find_between();
   find_around();
@@ -147,7 +150,7 @@ void Gather::find_between() {
     ray.max = next_ranges_[i];
     rays::Hit hit;
     scene_.cast(&ray, &hit, 1, rays::only(rays::Mobility::kMoving));
-    if (hit.hit()) between_[i] = field_.albedo(hit.shape);
+    if (hit.hit()) between_[i] = albedo(scene_, hit.shape);
   }
 }
 
@@ -171,7 +174,7 @@ void Gather::find_around() {
       rays::Hit hit;
       scene_.cast(&ray, &hit, 1, kStanding);
       extend(reach_, ray, hit.range);
-      around_.push_back(surface(ray, hit));
+      around_.push_back(located(ray, hit));
     }
   }
 }
@@ -203,28 +206,6 @@ void Gather::weigh() {
 
 bool Gather::shaded(const Lamp& lamp, const Surface& surface, std::size_t i) const {
   return !sees_one(scene_, lamp, surface.position, surface.normal, i, kMovable);
-}
-
-std::size_t Gather::lacking(const Source& source) {
-  if (source.stale || !may_see(source.solution.bounds)) return 0;
-  relocate();
-  return static_cast<std::size_t>(std::count_if(
-      patches_.begin(), patches_.end(), [&](std::uint32_t patch) { return lacks(patch, source); }));
-}
-
-bool Gather::lacks(std::uint32_t patch, const Source& source) const {
-  return !field_.reaches(source.solution, patch, false) && !field_.counted(patch);
-}
-
-bool Gather::prepare(const Source& source, std::int64_t& rays) {
-  if (source.stale || !may_see(source.solution.bounds)) return true;
-  relocate();
-  for (const std::uint32_t patch : patches_) {
-    if (!lacks(patch, source)) continue;
-    if (rays <= 0) return false;
-    rays -= field_.cost_of(patch);
-  }
-  return true;
 }
 
 void Gather::find_direct(const Source& source) {
@@ -259,7 +240,7 @@ const Gather::Received& Gather::received(const Source& source) {
   std::vector<Rgb> by_patch;
   from.any = from.lit;
   for (const std::uint32_t patch : patches_) {
-    by_patch.push_back(field_.reflected(source.solution, patch, source.stale));
+    by_patch.push_back(reflected_on(field_, source.solution, patch, source.stale));
     from.any = from.any || (by_patch.back() > 0.0F).any();
   }
   from.reflected.clear();
@@ -278,14 +259,15 @@ Rgb Gather::on_mover(const Mover& mover, const Source& source, std::size_t i, bo
     in_play = true;
     if (!shaded(lamp, seen, i)) direct += static_cast<float>(lux);
   }
-  if (mover.anchored) return direct + left_ * field_.reflected(solution, seen.patch, source.stale);
+  if (mover.anchored)
+    return direct + left_ * reflected_on(field_, solution, seen.patch, source.stale);
   for (std::size_t k = mover.around; k < mover.around + ways_; ++k) {
     const Surface& from = around_[k];
     if (from.patch == kNoPatch) continue;
-    const float first = field_.direct(solution, from.patch, source.stale);
+    const float first = direct_on(field_, solution, from.patch);
     in_play = in_play || first > 0.0F;
     if (first > 0.0F && !shaded(lamp, from, i + k)) reflected += from.albedo * first;
-    reflected += left_ * from.albedo * field_.reflected(solution, from.patch, source.stale);
+    reflected += left_ * from.albedo * reflected_on(field_, solution, from.patch, source.stale);
   }
   return direct + reflected / static_cast<float>(ways_);
 }
@@ -296,13 +278,13 @@ Rgb Gather::leaving(const rays::Ray& ray, const Source& source, std::size_t i, c
   scene_.cast(&ray, &hit, 1, rays::kAll);
   if (hit.hit() && scene_.mobility(hit.shape) == rays::Mobility::kMoving) return coarse;
   extend(reach_, ray, hit.range);
-  const Surface seen = surface(ray, hit);
+  const Surface seen = located(ray, hit);
   if ((seen.albedo == 0.0F).all()) return Rgb::Zero();
   const double lux = illuminance(source.lamp, seen.position, seen.normal);
   const bool lit =
       lux > 0.0 && sees_one(scene_, source.lamp, seen.position, seen.normal, i, rays::kAll);
   return seen.albedo * ((lit ? static_cast<float>(lux) : 0.0F) +
-                        left_ * field_.reflected(source.solution, seen.patch, source.stale));
+                        left_ * reflected_on(field_, source.solution, seen.patch, source.stale));
 }
 
 /// Replaces the light of a direction by the mean of finer ones where it varies strongly, as at the

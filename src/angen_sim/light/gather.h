@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "light/field.h"
+#include "light/solution.h"
 #include "light/transport.h"
 
 namespace angen::light {
@@ -34,12 +34,6 @@ class Gather {
   bool movers_known() const;
   /// Keeps them up to date if `within` contains their reach: nothing has moved in it since.
   void hold_movers(const Eigen::AlignedBox3d& within);
-
-  /// Number of patches in view that the solution does not contain and that are not counted.
-  std::size_t lacking(const Source& source);
-  /// Charges these patches for about `rays` rays and subtracts the cost. Returns whether all are
-  /// counted.
-  bool prepare(const Source& source, std::int64_t& rays);
 
   /// Light of all surfaces on the place. Extends `reach` by the light paths that movers could
   /// block.
@@ -72,9 +66,9 @@ class Gather {
     std::vector<float> direct;        // lx, without movers
     std::vector<Rgb> reflected;       // lx
   };
-  Surface surface(const rays::Ray& ray, const rays::Hit& hit) const;
+  Surface surface(const rays::Ray& ray, const rays::Hit& hit) const;  // without its patch
+  Surface located(const rays::Ray& ray, const rays::Hit& hit) const;
   rays::Ray next(std::size_t i) const;
-  bool lacks(std::uint32_t patch, const Source& source) const;
   void find_direct(const Source& source);
   void find_movers();
   void find_between();

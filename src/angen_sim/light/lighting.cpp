@@ -2,27 +2,23 @@
 
 #include <algorithm>
 #include <atomic>
+#include <deque>
+#include <future>
 #include <utility>
 
-#include "light/field.h"
+#include "core/slots.h"
+#include "light/balance.h"
 #include "light/receiver.h"
 
 namespace angen::light {
 namespace {
 
-constexpr std::int64_t kRaysAtOnce = 5000;  // about 1.5 ms
-// At about 4,000 and 5,000 rays per ms, these are two thirds and a quarter of simulated time; the
-// kept rays process small changes quickly.
-constexpr Nanoseconds kPerSolvingRay = 400, kPerDeliveryRay = 800;
-constexpr std::int64_t kKeptRays = 500000, kKeptDeliveryRays = 200000;
-constexpr Nanoseconds kRest = kSecond / 10;  // changes are processed after this time without one
-constexpr Nanoseconds kLongestWait = kSecond;
-constexpr Nanoseconds kDarkFollow = kRest / 10;  // period of checks for changes in the dark
-
-/// Whether a lamp has no complete solution, not even a stale one.
-bool is_new(const std::shared_ptr<const Solution>& solution) {
-  return solution == nullptr || solution->outlined;
-}
+constexpr Nanoseconds kRest = kSecond / 10;   // changes are followed after this time without one
+constexpr Nanoseconds kDelay = kSecond / 10;  // from then on until the light is taken over
+constexpr Nanoseconds kLongestWait = 5 * kSecond;
+// Half of the color range: about the luminance of a white wall at 200 lx.
+constexpr float kMiddleLuminance = 50.0F;   // cd/m^2
+constexpr std::size_t kMaxReceivers = 256;  // from this number on, expired ones are removed
 
 /// Unique: a probe that outlives its Lighting (reset of the world) is unknown to the next one.
 std::uint64_t next_id() {
@@ -30,265 +26,362 @@ std::uint64_t next_id() {
   return made++;
 }
 
+struct Entry {
+  Lamp lamp;
+  double level;
+  std::shared_ptr<const Solution> solution;  // of the scene that was taken over last, or null
+  std::uint64_t solved = 0;                  // the version for which it is
+  std::uint64_t version = 0;                 // grows when the lamp is moved
+  std::uint64_t geometry = 0;                // see Source
+  bool switched_on = false;                  // since the last check
+  bool asked = false;                        // the balance that was started last has its light
+  bool shining = false;                      // measured: its light is known
+
+  bool lit() const { return level > 0.0; }
+};
+
+/// A balance that another thread finds.
+struct Pending {
+  Nanoseconds due = 0;
+  std::vector<LampId> lit;
+  std::vector<Changes::Moved> moved;
+  std::shared_future<std::shared_ptr<const Balance>> result;
+};
+
 }  // namespace
 
-Lighting::Lighting(const rays::Scene& scene)
-    : scene_(scene),
-      field_(std::make_unique<Field>(scene)),
-      solving_(kPerSolvingRay, kKeptRays),
-      delivering_(kPerDeliveryRay, kKeptDeliveryRays),
-      id_(next_id()) {}
+struct Lighting::Impl {
+  explicit Impl(const rays::Scene& all) : scene(all) {}
+
+  void count(double before, double after);
+  void follow();
+  bool is_outdated(const Entry& entry) const;
+  void check_switched();
+  Request request(std::vector<LampId>& lit);
+  Balance base() const;
+  void take(const Balance& balance, const std::vector<LampId>& lit);
+  bool is_unbalanced() const;
+  void balance_now();
+  void start(Nanoseconds now);
+  bool is_due(Nanoseconds now) const;
+
+  Receiver& receiver(Probe& probe, const Pose& pose);
+  void drop_near(const Eigen::AlignedBox3d& box) const;
+  void find(Receiver& receiver, const Source& source);
+
+  const rays::Scene& scene;
+  Slots<Entry, LampTag> lamps;
+  Field field;
+  Changes changes;
+  std::shared_ptr<const rays::Scene> standing;     // the scene of the balance that was started last
+  std::deque<Pending> pending;                     // in the order of their times
+  std::vector<std::weak_ptr<Receiver>> receivers;  // receivers of all probes
+  bool keeps_time = false;
+  bool changed = false;          // shapes or lamps, since the last advance()
+  bool switched = false;         // a lamp may have been switched on since the last check
+  bool lacking = false;          // a lamp was switched on whose light among the shapes is unknown
+  bool waiting = false;          // for changes to end
+  Nanoseconds first_change = 0;  // first of the waiting changes
+  Nanoseconds last_change = 0;   // last of the waiting changes
+  std::uint64_t id = next_id();
+  std::size_t lit_count = 0;
+  std::shared_ptr<const ReflectedLight> reflected;  // null until it is queried
+  // The lit_revision, and the patches forgotten before, of `reflected`.
+  std::pair<std::uint64_t, std::uint64_t> reflected_revision{0, 0};
+  std::uint64_t lit_revision = 0;
+};
+
+Lighting::Lighting(const rays::Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
 
 Lighting::~Lighting() = default;
 
-void Lighting::count(double before, double after) {
-  if (before > 0.0) --lit_count_;
-  if (after > 0.0) ++lit_count_;
-  if (before > 0.0 || after > 0.0) note_solved();
-}
+bool Lighting::dark() const { return impl_->lit_count == 0; }
+std::uint64_t Lighting::lit_revision() const { return impl_->lit_revision; }
+bool Lighting::knows(const Probe& probe) const { return probe.lighting == impl_->id; }
+bool Lighting::keeps_time() const { return impl_->keeps_time; }
 
-void Lighting::note_solved() {
-  ++lit_revision_;
-  ++solved_revision_;
+void Lighting::Impl::count(double before, double after) {
+  if (before > 0.0) --lit_count;
+  if (after > 0.0) ++lit_count;
+  if (before > 0.0 || after > 0.0) ++lit_revision;
 }
 
 LampId Lighting::add(const Lamp& lamp, double level) {
-  count(0.0, level);
-  busy_ = true;
-  return lamps_.add({lamp, level, nullptr});
+  impl_->count(0.0, level);
+  Entry entry{lamp, level, nullptr};
+  entry.switched_on = entry.lit();
+  impl_->switched = impl_->switched || entry.lit();
+  return impl_->lamps.add(std::move(entry));
 }
 
 void Lighting::remove(LampId lamp) {
-  count(level(lamp), 0.0);
-  lamps_.remove(lamp);
-  if (worked_on_ == lamp) work_.reset();
-  for (const std::weak_ptr<Receiver>& each : receivers_) {
+  impl_->count(level(lamp), 0.0);
+  impl_->lamps.remove(lamp);
+  for (const std::weak_ptr<Receiver>& each : impl_->receivers) {
     const std::shared_ptr<Receiver> receiver = each.lock();
     if (receiver && receiver->gather) receiver->gather->forget(lamp);
   }
 }
 
 void Lighting::set_level(LampId lamp, double level) {
-  Entry& entry = lamps_.at(lamp);
+  Entry& entry = impl_->lamps.at(lamp);
   if (entry.level == level) return;
-  count(entry.level, level);
-  if (!(entry.level > 0.0) && level > 0.0 && entry.solution) queue_all(lamp);
+  impl_->count(entry.level, level);
+  if (!entry.lit()) entry.switched_on = impl_->switched = true;
   entry.level = level;
-  busy_ = busy_ || entry.due || is_new(entry.solution);
+  if (!entry.lit()) entry.shining = false;
 }
 
-double Lighting::level(LampId lamp) const { return lamps_.at(lamp).level; }
+double Lighting::level(LampId lamp) const { return impl_->lamps.at(lamp).level; }
 
 void Lighting::move(LampId lamp, const Pose& pose) {
-  Entry& entry = lamps_.at(lamp);
+  Entry& entry = impl_->lamps.at(lamp);
   if (entry.lamp.pose == pose) return;
   entry.lamp.pose = pose;
-  entry.stale = true;
+  impl_->changed = true;
+  ++entry.version;
   ++entry.geometry;
-  changed_ = busy_ = true;
-  work_moved_ = work_moved_ || worked_on_ == lamp;
-  count(entry.level, entry.level);
+  impl_->count(entry.level, entry.level);
 }
 
 std::vector<Lit> Lighting::lit() const {
   std::vector<Lit> all;
-  lamps_.each([&](LampId, const Entry& entry) {
-    if (entry.level > 0.0) all.push_back({entry.lamp, entry.level});
+  impl_->lamps.each([&](LampId, const Entry& entry) {
+    if (entry.lit()) all.push_back({entry.lamp, entry.level});
   });
   return all;
 }
 
 std::shared_ptr<const ReflectedLight> Lighting::reflected() const {
   // New patches have none: they are in no solution.
-  const std::pair now(solved_revision_, field_->forgotten());
-  if (reflected_ && reflected_revision_ == now) return reflected_;
+  const std::pair now(impl_->lit_revision, impl_->field.forgotten());
+  if (impl_->reflected && impl_->reflected_revision == now) return impl_->reflected;
   std::vector<Rgb> light;
-  lamps_.each([&](LampId, const Entry& entry) {
-    if (!(entry.level > 0.0) || !entry.solution) return;
+  impl_->lamps.each([&](LampId, const Entry& entry) {
+    if (!entry.lit() || !entry.shining) return;
     Rgb factor = Rgb::Zero();
     factor.head<3>() = static_cast<float>(entry.level) * entry.lamp.color.array();
-    field_->add_reflected(*entry.solution, factor, light);
+    add_reflected(impl_->field, *entry.solution, factor, light);
   });
-  reflected_ = std::make_shared<const ReflectedLight>(field_->pieces(light));
-  reflected_revision_ = now;
-  return reflected_;
+  impl_->reflected = std::make_shared<const ReflectedLight>(impl_->field.pieces(light));
+  impl_->reflected_revision = now;
+  return impl_->reflected;
 }
 
-/// Marks the lamps and places that changed shapes affect. Returns whether any shape has changed.
-bool Lighting::follow() const {
-  const std::vector<Field::Change> changes = field_->follow();
-  if (changes.empty()) return false;
-  changed_ = busy_ = true;
-  lamps_.each([&](LampId, Entry& entry) {
-    if (entry.solution == nullptr) return;
-    for (const Field::Change& change : changes) {
-      if (!entry.solution->bounds.intersects(change.box)) continue;
-      entry.stale = true;
-      if (change.is_static) ++entry.geometry;
-    }
-  });
-  for (const Field::Change& change : changes) {
-    if (change.is_static) drop_near(change.box);
-  }
-  return true;
-}
-
-/// Computes all light at once, unless that costs more than about `rays` rays. Returns whether it is
-/// complete.
-bool Lighting::complete(std::int64_t rays) const {
-  follow();
-  if (field_->outdated() && !field_->updating()) field_->start_update();
-  while (field_->updating() && rays > 0) {
-    rays -= field_->update(rays);
-    if (!field_->updating() && field_->outdated()) field_->start_update();
-  }
-  work_.reset();
-  if (field_->updating()) return false;
-  bool all = true;
-  lamps_.each([&](LampId, Entry& entry) {
-    if (!(entry.level > 0.0) || (entry.solution && !entry.stale)) return;
-    Unfinished work(entry.lamp);
-    all = all && rays > 0 && field_->advance(work, rays);
-    if (!all) return;
-    entry.solution = std::make_shared<const Solution>(std::move(work.solution));
-    entry.stale = entry.due = false;
-  });
-  if (all) changed_ = false;
-  return all;
-}
-
-void Lighting::pace(std::int64_t rays) {
-  if (paced_) return;
-  active_ = paced_ = true;
-  if (complete(rays)) {
-    budget_ = SIZE_MAX;  // this tick is a part of loading
-  } else {
-    std::int64_t left = INT64_MAX;
-    outline_new(left);
+/// Notes the standing shapes that have changed.
+void Lighting::Impl::follow() {
+  for (const Changes::Change& change : changes.follow(scene)) {
+    changed = true;
+    if (!change.is_static) continue;
+    drop_near(change.box);
+    lamps.each([&](LampId, Entry& entry) {
+      if (!entry.solution || entry.solution->bounds.intersects(change.box)) ++entry.geometry;
+    });
   }
 }
 
-void Lighting::prepare() {
-  if (!active_) busy_ = true;
-  active_ = true;
+/// Whether the lamp or standing shapes in its light have changed since it was solved.
+bool Lighting::Impl::is_outdated(const Entry& entry) const {
+  const Eigen::AlignedBox3d& bounds = entry.solution->bounds;
+  return entry.solved != entry.version || changes.any_in(bounds) ||
+         std::any_of(pending.begin(), pending.end(),
+                     [&](const Pending& each) { return any_in(bounds, each.moved); });
 }
 
-void Lighting::note(Nanoseconds now) {
-  if (!changed_) return;
-  changed_ = false;
-  if (!waiting_) first_change_ = now;
-  last_change_ = now;
-  waiting_ = true;
+/// A lamp that was switched on shines at once if its light among the present shapes is known.
+void Lighting::Impl::check_switched() {
+  if (!std::exchange(switched, false)) return;
+  lamps.each([&](LampId, Entry& entry) {
+    if (!std::exchange(entry.switched_on, false) || !entry.lit()) return;
+    entry.shining = entry.solution && !is_outdated(entry);
+    lacking = lacking || (!entry.shining && (!entry.asked || changes.any()));
+  });
 }
 
-bool Lighting::missing() const {
-  bool any = false;
-  lamps_.each([&](LampId, const Entry& entry) {
-    any = any || (entry.level > 0.0 && is_new(entry.solution));
+/// Of the light of the present scene. Appends the lamps that will be known.
+Request Lighting::Impl::request(std::vector<LampId>& lit) {
+  waiting = changed = switched = lacking = false;
+  lamps.each([&](LampId, Entry& entry) {
+    entry.switched_on = false;
+    entry.asked = entry.lit() || (entry.solution && !is_outdated(entry));
+  });
+  Request of;
+  of.moved = changes.take();
+  if (!of.moved.empty() || !standing) standing = scene.standing_scene();
+  of.scene = standing;
+  lamps.each([&](LampId lamp, Entry& entry) {
+    of.lamps.push_back({lamp, entry.version, entry.lamp, entry.lit()});
+    if (entry.lit()) lit.push_back(lamp);
+  });
+  return of;
+}
+
+Balance Lighting::Impl::base() const {
+  Balance known{field, {}};
+  lamps.each([&](LampId lamp, const Entry& entry) {
+    if (entry.solution) known.solved.push_back({lamp, entry.solved, entry.solution});
+  });
+  return known;
+}
+
+void Lighting::Impl::take(const Balance& balance, const std::vector<LampId>& lit) {
+  field = balance.field;
+  ++lit_revision;
+  lamps.each([](LampId, Entry& entry) { entry.solution = nullptr; });
+  for (const Solved& each : balance.solved) {
+    if (!lamps.contains(each.id)) continue;
+    lamps.at(each.id).solution = each.solution;
+    lamps.at(each.id).solved = each.version;
+  }
+  for (const LampId lamp : lit) {
+    if (lamps.contains(lamp)) lamps.at(lamp).shining = lamps.at(lamp).lit();
+  }
+}
+
+/// Whether the light of a lit lamp is not that of the present scene.
+bool Lighting::Impl::is_unbalanced() const {
+  bool any = changes.any();
+  lamps.each([&](LampId, const Entry& entry) {
+    any = any || (entry.lit() && (!entry.shining || entry.solved != entry.version));
   });
   return any;
 }
 
-/// Whether to process changes now: at once for a new lamp, else when the lamps are solved that were
-/// due before.
-bool Lighting::due(Nanoseconds now) const {
-  if (!waiting_) return false;
-  if (missing()) return true;
-  if (next()) return false;
-  const bool went_back = now < last_change_;
-  return went_back || now - last_change_ >= kRest || now - first_change_ >= kLongestWait;
+void Lighting::Impl::balance_now() {
+  std::vector<LampId> lit;
+  const Request of = request(lit);
+  take(balance(base(), of), lit);
 }
 
-void Lighting::take_up() {
-  waiting_ = false;
-  if (field_->outdated()) field_->start_update();
-  lamps_.each([](LampId, Entry& entry) { entry.due = entry.due || entry.stale; });
+void Lighting::Impl::start(Nanoseconds now) {
+  Pending next;
+  next.due = now + kDelay;
+  Request of = request(next.lit);
+  next.moved = of.moved;
+  const auto shared = std::make_shared<const Request>(std::move(of));
+  if (pending.empty()) {
+    next.result = std::async(std::launch::async, [before = base(), shared]() mutable {
+                    return std::make_shared<const Balance>(balance(std::move(before), *shared));
+                  }).share();
+  } else {
+    next.result = std::async(std::launch::async, [before = pending.back().result, shared] {
+                    return std::make_shared<const Balance>(balance(*before.get(), *shared));
+                  }).share();
+  }
+  pending.push_back(std::move(next));
 }
 
-/// The lit lamp to solve next: first new ones, then the others in turn.
-std::optional<LampId> Lighting::next() const {
-  std::optional<LampId> first, later, renewed;
-  lamps_.each([&](LampId id, const Entry& entry) {
-    if (!(entry.level > 0.0)) return;
-    if (!first && is_new(entry.solution)) first = id;
-    if (!entry.due) return;
-    if (!renewed) renewed = id;
-    if (!later && id.index > worked_on_.index) later = id;
-  });
-  return first ? first : later ? later : renewed;
+void Lighting::keep_time() {
+  if (std::exchange(impl_->keeps_time, true)) return;
+  impl_->follow();
+  impl_->balance_now();
 }
 
-void Lighting::pick() {
-  const std::optional<LampId> lamp = next();
-  if (!lamp) return;
-  Entry& entry = lamps_.at(*lamp);
-  work_ = std::make_unique<Unfinished>(entry.lamp);
-  worked_on_ = *lamp;
-  work_moved_ = false;
-}
-
-/// While no lamp is lit, changes can wait.
-bool Lighting::may_wait(Nanoseconds now) const {
-  const bool idle = dark() && !work_ && !field_->updating() && deliveries_.empty();
-  return idle && now >= followed_ && now - followed_ < kDarkFollow;
+bool Lighting::Impl::is_due(Nanoseconds now) const {
+  if (!waiting) return false;
+  const bool went_back = now < last_change;
+  return went_back || now - last_change >= kRest || now - first_change >= kLongestWait;
 }
 
 void Lighting::advance(Nanoseconds now) {
-  if (may_wait(now)) {
-    busy_ = true;
-    return;
+  std::deque<Pending>& pending = impl_->pending;
+  while (!pending.empty() && (pending.front().due <= now || pending.front().due > now + kDelay)) {
+    const Pending due = std::move(pending.front());
+    pending.pop_front();
+    impl_->take(*due.result.get(), due.lit);
   }
-  followed_ = now;
-  follow();
-  note(now);
-  solving_.pass_to(now);
-  delivering_.pass_to(now);
-  if (work_ && !(lamps_.at(worked_on_).level > 0.0)) work_.reset();
-  if (!work_ && !field_->updating() && due(now)) take_up();
-  const std::int64_t allowed = std::min(kRaysAtOnce, solving_.left());
-  std::int64_t left = allowed;
-  outline_new(left);
-  if (left > 0 && field_->updating()) update(left);
-  if (left > 0 && !field_->updating()) solve_on(left);
-  solving_.spend(allowed - left);
-  deliver();
-  busy_ = work_ || field_->updating() || waiting_ || !deliveries_.empty() || next();
+  if (dark()) return;
+  impl_->follow();
+  if (std::exchange(impl_->changed, false)) {
+    if (!impl_->waiting) impl_->first_change = now;
+    impl_->last_change = now;
+    impl_->waiting = true;
+  }
+  impl_->check_switched();
+  if (impl_->lacking || impl_->is_due(now)) impl_->start(now);
 }
 
-/// Gives lamps that are lit for the first time a rough solution at once: direct light and one
-/// reflection.
-void Lighting::outline_new(std::int64_t& left) {
-  lamps_.each([&](LampId id, Entry& entry) {
-    if (left <= 0 || !(entry.level > 0.0) || entry.solution) return;
-    entry.solution = std::make_shared<const Solution>(field_->outline(entry.lamp, left));
-    entry.stale = true;
-    note_solved();
-    queue_all(id);
+std::optional<Nanoseconds> Lighting::next() const {
+  std::optional<Nanoseconds> due;
+  if (!impl_->pending.empty()) due = impl_->pending.front().due;
+  if (dark()) return due;
+  if (impl_->switched || impl_->lacking || impl_->changed) return 0;
+  if (!impl_->waiting) return due;
+  const Nanoseconds rest = std::min(impl_->last_change + kRest, impl_->first_change + kLongestWait);
+  return std::min(rest, due.value_or(rest));
+}
+
+Receiver& Lighting::Impl::receiver(Probe& probe, const Pose& pose) {
+  if (probe.lighting != id) {
+    probe.receiver = std::make_shared<Receiver>(pose);
+    probe.lighting = id;
+    probe.reach = Eigen::AlignedBox3d(pose.position);
+    if (receivers.size() >= kMaxReceivers) {
+      const auto expired = [](const std::weak_ptr<Receiver>& each) { return each.expired(); };
+      receivers.erase(std::remove_if(receivers.begin(), receivers.end(), expired), receivers.end());
+    }
+    receivers.push_back(probe.receiver);
+  }
+  Receiver& receiver = *probe.receiver;
+  if (receiver.pose == pose) return receiver;
+  receiver.drop();
+  receiver.pose = pose;
+  return receiver;
+}
+
+/// Drops the surfaces of places that changes of static shapes in the box affect.
+void Lighting::Impl::drop_near(const Eigen::AlignedBox3d& box) const {
+  for (const std::weak_ptr<Receiver>& each : receivers) {
+    const std::shared_ptr<Receiver> receiver = each.lock();
+    if (receiver && receiver->intersects(box)) receiver->drop();
+  }
+}
+
+/// A lamp that lights no surface in view of the place gives direct light only.
+void Lighting::Impl::find(Receiver& receiver, const Source& source) {
+  if (!receiver.gather) receiver.gather = std::make_unique<Gather>(scene, field, receiver.pose);
+  Eigen::AlignedBox3d reach(receiver.pose.position);
+  Gathered gathered;
+  if (receiver.gather->may_see(source.solution.bounds)) {
+    gathered = receiver.gather->gather(source, reach);
+  }
+  Receiver::Known& known = receiver.of(source.id);
+  known.transport = transport(scene, receiver.pose, source.lamp, gathered, reach);
+  known.found = true;
+  known.stamp = source.solution.stamp;
+  known.geometry = source.geometry;
+  known.scene = scene.revision();
+}
+
+Sample Lighting::measure(Probe& probe, const Pose& pose, bool still) const {
+  Impl& own = *impl_;
+  own.follow();
+  if (own.keeps_time) {
+    own.check_switched();
+  } else if (own.is_unbalanced()) {
+    own.balance_now();
+  }
+  Receiver& place = own.receiver(probe, pose);
+  const std::uint64_t revision = own.scene.revision();
+  place.note(revision, still, probe.reach);
+  probe.reach = Eigen::AlignedBox3d(pose.position);
+  // A dark lamp's transport is computed when it is lit; lamps are independent of each other.
+  double illuminance = 0.0;
+  Eigen::Array3f radiance = Eigen::Array3f::Zero();
+  own.lamps.each([&](LampId id, const Entry& entry) {
+    const bool lit = entry.lit() && entry.shining;
+    if (lit) {
+      const Source from{id, entry.lamp, *entry.solution, entry.geometry, own.is_outdated(entry)};
+      if (!place.of(id).holds(from, revision)) own.find(place, from);
+    }
+    const Receiver::Known* known = place.find(id);
+    if (known == nullptr || (!lit && known->scene != revision)) return;
+    probe.reach.extend(known->transport.reach);
+    if (!lit) return;
+    illuminance += entry.level * known->transport.illuminance;
+    radiance += static_cast<float>(entry.level) * known->transport.radiance.array();
   });
-}
-
-void Lighting::solve_on(std::int64_t& left) {
-  if (!work_) pick();
-  if (work_ && field_->advance(*work_, left)) publish();
-}
-
-void Lighting::update(std::int64_t& left) {
-  left -= field_->update(left);
-  if (!dark()) ++lit_revision_;
-  if (field_->updating()) return;
-  lamps_.each([&](LampId id, const Entry& entry) {
-    if (entry.level > 0.0 && entry.solution && !entry.stale) queue_all(id);
-  });
-}
-
-void Lighting::publish() {
-  Entry& entry = lamps_.at(worked_on_);
-  entry.solution = std::make_shared<const Solution>(std::move(work_->solution));
-  entry.stale = work_moved_ || field_->outdated_in(entry.solution->bounds);
-  entry.due = false;
-  note_solved();
-  work_.reset();
-  queue_all(worked_on_);
+  return {illuminance, (radiance / (radiance + kMiddleLuminance)).matrix()};
 }
 
 }  // namespace angen::light

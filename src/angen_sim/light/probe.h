@@ -10,9 +10,6 @@ struct Receiver;
 
 /// A place of measurement with its cached light; a sensor owns it.
 struct Probe {
-  /// Lighting::advance computes the light at the place ahead of measure(), which then computes only
-  /// a bounded part of it; see there.
-  bool ahead = false;
   /// m, world: anchored and moving shapes outside of it are on no light path to the place. Infinite
   /// if light may come from anywhere.
   Eigen::AlignedBox3d reach;

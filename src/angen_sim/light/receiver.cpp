@@ -29,7 +29,6 @@ void Receiver::note(std::uint64_t revision, bool still, const Eigen::AlignedBox3
 
 void Receiver::drop() {
   gather = nullptr;
-  counted = false;
   for (Known& each : known) each.scene = kNever;
 }
 

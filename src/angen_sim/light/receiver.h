@@ -14,14 +14,15 @@ struct Receiver {
 
   struct Known {
     LampId lamp;
-    Transport transport;  // the newest complete one, if `found`
+    Transport transport;  // the newest one, if `found`
     bool found = false;
-    bool queued = false;           // to be computed by Lighting::advance
-    std::uint64_t key = 0;         // key of its inputs
+    std::uint64_t stamp = 0;       // stamp of its solution
+    std::uint64_t geometry = 0;    // geometry of its source
     std::uint64_t scene = kNever;  // the scene's revision for which it is valid
 
-    bool holds(std::uint64_t now_key, std::uint64_t revision) const {
-      return found && key == now_key && scene == revision;
+    bool holds(const Source& source, std::uint64_t revision) const {
+      return found && stamp == source.solution.stamp && geometry == source.geometry &&
+             scene == revision;
     }
   };
 
@@ -41,9 +42,6 @@ struct Receiver {
   bool intersects(const Eigen::AlignedBox3d& box) const;
 
   Pose pose;
-  bool ahead = false;    // see Probe
-  bool begun = false;    // its light has been queried, or will be
-  bool counted = false;  // the cost of its gather, by Lighting::advance
   std::unique_ptr<Gather> gather;
   std::vector<Known> known;  // by the lamp's index
 };

@@ -1,6 +1,7 @@
 #include "light/surfaces.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -24,7 +25,27 @@ constexpr double kOff = 1e-3;        // m: a closer shape covers a surface
 // edge that closed ones do not have.
 constexpr double kLeaf = 0.1, kLeastLeaf = 0.5, kGap = 0.05;
 constexpr rays::Mobilities kAnchored = rays::only(rays::Mobility::kAnchored);
-constexpr std::uint32_t kDivided = kNoPatch - 1;
+
+constexpr double kMostCells = 1 << 14;
+// Numbers of cells and parts that are none of a patch.
+constexpr std::uint32_t kUnknown = kNoPatch - 1;
+constexpr std::uint32_t kBlock = 1U << 31;
+
+bool is_block(std::uint32_t number) { return number >= kBlock && number < kUnknown; }
+
+std::uint64_t new_serial() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
+std::uint64_t hash_of(const std::array<std::int32_t, 6>& key) {
+  std::uint64_t hash = 0x9e3779b97f4a7c15ULL;
+  for (const std::int32_t part : key) {
+    hash = (hash ^ static_cast<std::uint32_t>(part)) * 0xff51afd7ed558ccdULL;
+    hash ^= hash >> 32;
+  }
+  return hash;
+}
 
 bool rounded(Shape::Type type) {
   return type == Shape::Type::kSphere || type == Shape::Type::kCylinder ||
@@ -41,43 +62,103 @@ int dominant(const Vec3& v) {
   return axis;
 }
 
-}  // namespace
-
-std::size_t Surfaces::HashKey::operator()(const Key& key) const {
-  std::uint64_t hash = 0x9e3779b97f4a7c15ULL;
-  for (const std::int32_t part : key) {
-    hash = (hash ^ static_cast<std::uint32_t>(part)) * 0xff51afd7ed558ccdULL;
-    hash ^= hash >> 32;
-  }
-  return hash;
+/// Whether the site does not see the other one; the scene or what is near of it.
+template <class Shapes>
+bool hidden(const Shapes& shapes, const Site& from, const Site& to, rays::Mobilities by) {
+  return shapes.blocked(from.position + kSiteLift * from.normal,
+                        to.position + kSiteLift * to.normal, 1e-4, by);
 }
 
-Surfaces::Lattice Surfaces::lattice(std::uint32_t shape, int face) const {
-  Lattice out;
-  out.placement = scene_.placement(shape);
-  out.axis = face / 2;
-  out.sign = face % 2 == 0 ? 1.0 : -1.0;
-  const Eigen::AlignedBox3d& box = out.placement.box;
-  for (int side = 0; side < 2; ++side) {
-    const int axis = (out.axis + 1 + side) % 3;
-    const double size = box.max()[axis] - box.min()[axis];
-    const bool endless = !std::isfinite(size);
-    out.low[side] = endless ? 0.0 : box.min()[axis];
-    out.step[side] = endless ? kPlaneCell : size / parts_of(size, kCell);
-    out.parts[side] = parts_of(out.step[side], kPart);
+}  // namespace
+
+Surfaces::Own* Surfaces::own_of(std::uint32_t shape) {
+  if (shapes_.size() <= shape) shapes_.resize(shape + 1);
+  Own& own = shapes_[shape];
+  if (!own.form) {
+    if (!scene_->standing(shape)) return nullptr;
+    own.form = form_of(shape);
+    own.cells.assign(own.form->cells, kUnknown);
   }
-  return out;
+  return &own;
+}
+
+std::shared_ptr<const Surfaces::Form> Surfaces::form_of(std::uint32_t shape) const {
+  auto form = std::make_shared<Form>();
+  form->placement = scene_->placement(shape);
+  form->back = form->placement.pose.rotation.toRotationMatrix().transpose();
+  const Eigen::AlignedBox3d& box = form->placement.box;
+  for (int face = 0; face < 6; ++face) {
+    Lattice& out = form->faces[static_cast<std::size_t>(face)];
+    out.axis = face / 2;
+    out.sign = face % 2 == 0 ? 1.0 : -1.0;
+    Eigen::Array3d count;
+    for (int side = 0; side < 2; ++side) {
+      const int axis = (out.axis + 1 + side) % 3;
+      const double size = box.max()[axis] - box.min()[axis];
+      const bool endless = !std::isfinite(size);
+      out.low[side] = endless ? 0.0 : box.min()[axis];
+      out.step[side] = endless ? kPlaneCell : size / parts_of(size, kCell);
+      out.parts[side] = parts_of(out.step[side], kPart);
+      count[side] = endless ? kMostCells : parts_of(size, kCell) + 2.0;
+    }
+    const double depth = box.max()[out.axis] - box.min()[out.axis];
+    count[2] = form->placement.type == Shape::Type::kMesh ? std::floor(depth / kCell) + 3.0 : 2.0;
+    if (!(count.prod() < kMostCells)) continue;
+    out.first = form->cells;
+    out.columns = static_cast<std::int32_t>(count[0]);
+    out.rows = static_cast<std::int32_t>(count[1]);
+    out.layers = static_cast<std::int32_t>(count[2]);
+    form->cells += static_cast<std::size_t>(count.prod());
+  }
+  return form;
+}
+
+const Surfaces::Lattice& Surfaces::lattice(const Key& key) const {
+  return shapes_[static_cast<std::size_t>(key[0])].form->faces[static_cast<std::size_t>(key[1])];
+}
+
+/// The place in `own.cells` of a whole cell.
+std::size_t Surfaces::cell_of(Own& own, const Key& key) {
+  const Lattice& face = own.form->faces[static_cast<std::size_t>(key[1])];
+  const bool is_mesh = own.form->placement.type == Shape::Type::kMesh;
+  const std::int32_t layer = key[2] + (is_mesh ? 1 : 0), u = key[3] + 1, v = key[4] + 1;
+  if (layer >= 0 && layer < face.layers && u >= 0 && u < face.columns && v >= 0 && v < face.rows) {
+    return face.first + static_cast<std::size_t>((layer * face.rows + v) * face.columns + u);
+  }
+  std::uint64_t packed = static_cast<std::uint64_t>(key[1]);
+  for (const int part : {2, 3, 4}) {
+    packed = (packed << 20) ^
+             (static_cast<std::uint32_t>(key[static_cast<std::size_t>(part)]) & 0xfffffU);
+  }
+  const auto [found, is_new] =
+      own.far.try_emplace(packed, static_cast<std::uint32_t>(own.cells.size()));
+  if (is_new) {
+    own.cells.push_back(kUnknown);
+    own.far_keys.push_back(key);
+  }
+  return found->second;
+}
+
+std::uint32_t Surfaces::add_block(Own& own, std::vector<std::uint32_t> numbers) {
+  if (own.free_blocks.empty()) {
+    own.free_blocks.push_back(static_cast<std::uint32_t>(own.blocks.size()));
+    own.blocks.emplace_back();
+  }
+  const std::uint32_t block = own.free_blocks.back();
+  own.free_blocks.pop_back();
+  own.blocks[block] = std::move(numbers);
+  return kBlock + block;
 }
 
 /// m, sides of a cell or of its part.
 Eigen::Array2d Surfaces::step_of(const Key& key) const {
-  const Lattice cells = lattice(static_cast<std::uint32_t>(key[0]), key[1]);
+  const Lattice& cells = lattice(key);
   return key[5] != 0 ? Eigen::Array2d(cells.step / cells.parts) : cells.step;
 }
 
 double Surfaces::area_of(const Key& key, const std::vector<Site>& sites) const {
-  const Lattice cells = lattice(static_cast<std::uint32_t>(key[0]), key[1]);
-  const Vec3 axis = cells.placement.pose.rotation * Vec3::Unit(cells.axis);
+  const rays::Placement& placement = shapes_[static_cast<std::size_t>(key[0])].form->placement;
+  const Vec3 axis = placement.pose.rotation * Vec3::Unit(lattice(key).axis);
   const int per_side = key[5] == 1 ? kFineSitesPerSide : kSitesPerSide;
   const double across =
       step_of(key).prod() / (per_side * per_side);  // area of a site, along the axis
@@ -87,13 +168,14 @@ double Surfaces::area_of(const Key& key, const std::vector<Site>& sites) const {
 }
 
 std::uint32_t Surfaces::at(std::uint32_t shape, const Vec3& point, const Vec3& normal) {
-  const rays::Placement placement = scene_.placement(shape);
-  const Eigen::Matrix3d back = placement.pose.rotation.toRotationMatrix().transpose();
-  const Vec3 local = back * (point - placement.pose.position);
-  const Vec3 outward = back * normal;
+  Own* own = own_of(shape);
+  if (own == nullptr) return kNoPatch;
+  const rays::Placement& placement = own->form->placement;
+  const Vec3 local = own->form->back * (point - placement.pose.position);
+  const Vec3 outward = own->form->back * normal;
   const int axis = dominant(outward);
   const int face = 2 * axis + (outward[axis] > 0.0 ? 0 : 1);
-  const Lattice cells = lattice(shape, face);
+  const Lattice& cells = own->form->faces[static_cast<std::size_t>(face)];
   // Number of the surface's layer along the axis.
   int depth = 0;
   if (placement.type == Shape::Type::kBox) depth = local[axis] > 0.0 ? 1 : 0;
@@ -103,94 +185,125 @@ std::uint32_t Surfaces::at(std::uint32_t shape, const Vec3& point, const Vec3& n
   }
   const Eigen::Array2d in_plane(local[(axis + 1) % 3], local[(axis + 2) % 3]);
   const Eigen::Array2d cell = (in_plane - cells.low) / cells.step;
-  const Eigen::Array2d whole = cell.floor().max(-1e6).min(1e6);
+  const Eigen::Array2d whole = cell.floor().max(-5e5).min(5e5);
   Key key{static_cast<std::int32_t>(shape), face, depth, static_cast<int>(whole.x()),
           static_cast<int>(whole.y()),      0};
-  std::uint32_t patch = make(key);
-  if (patch != kDivided) return patch;
+  const std::size_t place = cell_of(*own, key);
+  if (own->cells[place] == kUnknown) own->cells[place] = make_cell(*own, key);
+  const std::uint32_t number = own->cells[place];
+  if (!is_block(number)) return number;
   const Eigen::Array2d part =
       ((cell - whole) * cells.parts).floor().max(0.0).min(cells.parts - 1.0);
   const Eigen::Array2d all = whole * cells.parts + part;
   key[3] = static_cast<int>(all.x());
   key[4] = static_cast<int>(all.y());
   key[5] = 1;
-  patch = make(key);
-  return patch == kDivided ? side_at(key, {point, normal}) : patch;
+  const auto in_block = static_cast<std::size_t>(part.y() * cells.parts.x() + part.x());
+  const std::uint32_t known = own->blocks[number - kBlock][in_block];
+  const std::uint32_t found = known == kUnknown ? make_part(*own, key) : known;
+  own->blocks[number - kBlock][in_block] = found;
+  return is_block(found) ? side_at(own->blocks[found - kBlock], {point, normal}) : found;
 }
 
-std::uint32_t Surfaces::make(const Key& key) {
-  const auto known = known_.find(key);
-  if (known != known_.end()) return known->second;
-  const bool fine = key[5] == 1;
-  int covered = 0;
-  std::vector<Site> found = sites(key, fine ? kFineSitesPerSide : kSitesPerSide, covered);
-  const bool divided = fine ? make_sides(key)
-                            : found.empty() || covered > kSitesPerSide ||
-                                  is_open_leaf(static_cast<std::uint32_t>(key[0])) ||
-                                  is_uneven(key, found) || faced(found);
-  return add(key, divided ? std::vector<Site>() : std::move(found), divided);
-}
-
-/// A key without sites has no patch.
-std::uint32_t Surfaces::add(const Key& key, std::vector<Site> sites, bool divided) {
-  keys_[static_cast<std::uint32_t>(key[0])].push_back(key);
-  std::uint32_t& number = known_[key];
-  number = divided ? kDivided : kNoPatch;
-  if (sites.empty()) return number;
-  const double area = area_of(key, sites);
-  Patch patch{key, HashKey{}(key), std::move(sites), area, ++serials_};
-  if (free_.empty()) {
-    number = static_cast<std::uint32_t>(patches_.size());
-    patches_.push_back(std::move(patch));
-  } else {
-    number = free_.back();
-    free_.pop_back();
-    patches_[number] = std::move(patch);
+/// The shapes that can cover or separate the sites of a cell or part.
+rays::Nearby Surfaces::around(const Key& key) const {
+  const Form& form = *shapes_[static_cast<std::size_t>(key[0])].form;
+  const Lattice& cells = lattice(key);
+  const Eigen::Array2d step = step_of(key);
+  Eigen::AlignedBox3d own = form.placement.box;
+  for (int side = 0; side < 2; ++side) {
+    const int axis = (cells.axis + 1 + side) % 3;
+    own.min()[axis] = cells.low[side] + key[3 + side] * step[side];
+    own.max()[axis] = own.min()[axis] + step[side];
   }
+  if (form.placement.type == Shape::Type::kBox) {
+    (key[2] == 1 ? own.min() : own.max())[cells.axis] =
+        (key[2] == 1 ? own.max() : own.min())[cells.axis];
+  }
+  if (form.placement.type == Shape::Type::kMesh) {
+    own.min()[cells.axis] += kCell * key[2];
+    own.max()[cells.axis] = own.min()[cells.axis] + kCell;
+  }
+  Eigen::AlignedBox3d box;
+  for (int corner = 0; corner < 8; ++corner) {
+    box.extend(form.placement.pose *
+               own.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+  }
+  const Vec3 out = Vec3::Constant(kSiteLift + 2 * kOff);
+  return scene_->near({box.min() - out, box.max() + out});
+}
+
+/// A patch, a block of parts, or kNoPatch.
+std::uint32_t Surfaces::make_cell(Own& own, const Key& key) {
+  const rays::Nearby near = around(key);
+  int covered = 0;
+  std::vector<Site> found = sites(key, kSitesPerSide, near, covered);
+  const bool divided = found.empty() || covered > kSitesPerSide ||
+                       is_open_leaf(static_cast<std::uint32_t>(key[0])) ||
+                       is_uneven(key, found, near) || faced(found);
+  if (!divided) return add(key, std::move(found));
+  const auto parts = static_cast<std::size_t>(lattice(key).parts.prod());
+  return add_block(own, std::vector<std::uint32_t>(parts, kUnknown));
+}
+
+/// A patch, a block of sides if a shape crosses the part, or kNoPatch.
+std::uint32_t Surfaces::make_part(Own& own, const Key& key) {
+  const rays::Nearby near = around(key);
+  int covered = 0;
+  std::vector<std::vector<Site>> all =
+      sides(key, sites(key, kSitesPerSide, near, covered), near).groups;
+  if (all.size() < 2) return add(key, sites(key, kFineSitesPerSide, near, covered));
+  Key side = key;
+  std::vector<std::uint32_t> numbers;
+  for (std::vector<Site>& group : all) {
+    ++side[5];
+    numbers.push_back(add(side, std::move(group)));
+  }
+  return add_block(own, std::move(numbers));
+}
+
+/// The patch with these sites; without any there is none.
+std::uint32_t Surfaces::add(const Key& key, std::vector<Site> sites) {
+  if (sites.empty()) return kNoPatch;
+  const double area = area_of(key, sites);
+  auto patch =
+      std::make_shared<const Patch>(Patch{key, hash_of(key), std::move(sites), area, new_serial()});
+  if (free_.empty()) {
+    patches_.push_back(std::move(patch));
+    return static_cast<std::uint32_t>(patches_.size() - 1);
+  }
+  const std::uint32_t number = free_.back();
+  free_.pop_back();
+  patches_[number] = std::move(patch);
   return number;
 }
 
-/// Makes the sides of a part of a cell, if a shape crosses it.
-bool Surfaces::make_sides(const Key& key) {
-  int covered = 0;
-  std::vector<std::vector<Site>> all = sides(key, sites(key, kSitesPerSide, covered)).groups;
-  if (all.size() < 2) return false;
-  Key side = key;
-  for (std::vector<Site>& own : all) {
-    ++side[5];
-    add(side, std::move(own), false);
-  }
-  return true;
-}
-
 /// The side of the nearest site that sees the point, or of the nearest.
-std::uint32_t Surfaces::side_at(const Key& key, const Site& point) const {
+std::uint32_t Surfaces::side_at(const std::vector<std::uint32_t>& sides, const Site& point) const {
   struct Candidate {
     double distance2;
     std::uint32_t patch;
     const Site* site;
   };
   std::vector<Candidate> all;
-  Key side = key;
-  for (;;) {
-    ++side[5];
-    const auto found = known_.find(side);
-    if (found == known_.end()) break;
-    for (const Site& site : patches_[found->second].sites) {
-      all.push_back({(site.position - point.position).squaredNorm(), found->second, &site});
+  for (const std::uint32_t side : sides) {
+    for (const Site& site : patches_[side]->sites) {
+      all.push_back({(site.position - point.position).squaredNorm(), side, &site});
     }
   }
   std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
     return a.distance2 < b.distance2;
   });
-  const auto seen = std::find_if(all.begin(), all.end(),
-                                 [&](const Candidate& to) { return !hidden(point, *to.site); });
+  const auto seen = std::find_if(all.begin(), all.end(), [&](const Candidate& to) {
+    return !hidden(*scene_, point, *to.site, kStanding);
+  });
   return (seen == all.end() ? all.front() : *seen).patch;
 }
 
 /// Also counts the sites that a shape covers.
-std::vector<Site> Surfaces::sites(const Key& key, int per_side, int& covered) const {
-  const Lattice cells = lattice(static_cast<std::uint32_t>(key[0]), key[1]);
+std::vector<Site> Surfaces::sites(const Key& key, int per_side, const rays::Nearby& near,
+                                  int& covered) const {
+  const Lattice& cells = lattice(key);
   const Eigen::Array2d step = step_of(key);
   std::array<Site, kSites> found;
   std::size_t count = 0;
@@ -200,7 +313,7 @@ std::vector<Site> Surfaces::sites(const Key& key, int per_side, int& covered) co
     Site& next = found[count];
     if (!site(cells, key, cells.low.x() + u * step.x(), cells.low.y() + v * step.y(), next))
       continue;
-    if (scene_.covered(next.position + kOff * next.normal, static_cast<std::uint32_t>(key[0]))) {
+    if (near.covered(next.position + kOff * next.normal, static_cast<std::uint32_t>(key[0]))) {
       ++covered;
     } else {
       ++count;
@@ -211,7 +324,7 @@ std::vector<Site> Surfaces::sites(const Key& key, int per_side, int& covered) co
 
 /// Casts a ray at this shape only, along the face's axis.
 bool Surfaces::site(const Lattice& cells, const Key& key, double u, double v, Site& out) const {
-  const rays::Placement& placement = cells.placement;
+  const rays::Placement& placement = shapes_[static_cast<std::size_t>(key[0])].form->placement;
   const int axis = cells.axis;
   const Eigen::AlignedBox3d& box = placement.box;
   const bool far_side = placement.type == Shape::Type::kBox ? key[2] == 1 : cells.sign > 0.0;
@@ -232,7 +345,7 @@ bool Surfaces::site(const Lattice& cells, const Key& key, double u, double v, Si
   ray.direction = placement.pose.rotation * way;
   ray.max = reach;
   const auto shape = static_cast<std::uint32_t>(key[0]);
-  const rays::Hit hit = scene_.cast_at(shape, ray);
+  const rays::Hit hit = scene_->cast_at(shape, ray);
   if (!hit.hit()) return false;
   out.position = ray.origin + hit.range * ray.direction;
   out.normal = hit.normal.cast<double>().normalized();
@@ -241,7 +354,8 @@ bool Surfaces::site(const Lattice& cells, const Key& key, double u, double v, Si
 }
 
 /// Groups of sites; each sees a neighbor in its group along the surface.
-Surfaces::Sides Surfaces::sides(const Key& key, const std::vector<Site>& sites) const {
+Surfaces::Sides Surfaces::sides(const Key& key, const std::vector<Site>& sites,
+                                const rays::Nearby& near) const {
   const double spacing = step_of(key).maxCoeff() / kSitesPerSide;
   const double near2 = std::pow(kNeighbor * spacing, 2);
   Sides out;
@@ -250,8 +364,8 @@ Surfaces::Sides Surfaces::sides(const Key& key, const std::vector<Site>& sites) 
   for (std::size_t i = 0; i < sites.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if ((sites[i].position - sites[k].position).squaredNorm() > near2) continue;
-      if (hidden(sites[i], sites[k])) {
-        out.crossed = out.crossed || hidden(sites[i], sites[k], kAnchored);
+      if (hidden(near, sites[i], sites[k], kStanding)) {
+        out.crossed = out.crossed || hidden(near, sites[i], sites[k], kAnchored);
       } else if (group[i] != group[k]) {
         const std::size_t joined = std::min(group[i], group[k]);
         const std::size_t left = std::max(group[i], group[k]);
@@ -267,21 +381,17 @@ Surfaces::Sides Surfaces::sides(const Key& key, const std::vector<Site>& sites) 
   return out;
 }
 
-bool Surfaces::hidden(const Site& from, const Site& to, rays::Mobilities by) const {
-  return scene_.blocked(from.position + kSiteLift * from.normal,
-                        to.position + kSiteLift * to.normal, 1e-4, by);
-}
-
 /// Whether a shape separates sites, or an anchored one is between some: behind the leaf of a door
 /// that is ajar it is dark, and bright beside its edge.
-bool Surfaces::is_uneven(const Key& key, const std::vector<Site>& sites) const {
-  const Sides found = this->sides(key, sites);
+bool Surfaces::is_uneven(const Key& key, const std::vector<Site>& sites,
+                         const rays::Nearby& near) const {
+  const Sides found = this->sides(key, sites, near);
   return found.crossed || found.groups.size() > 1;
 }
 
 bool Surfaces::is_open_leaf(std::uint32_t shape) const {
-  if (scene_.mobility(shape) != rays::Mobility::kAnchored) return false;
-  const rays::Placement at = scene_.placement(shape);
+  if (scene_->mobility(shape) != rays::Mobility::kAnchored) return false;
+  const rays::Placement at = scene_->placement(shape);
   const Vec3 size = at.box.sizes();
   int thin = 0;
   if (!(size.minCoeff(&thin) < kLeaf)) return false;
@@ -290,8 +400,8 @@ bool Surfaces::is_open_leaf(std::uint32_t shape) const {
     if (size[axis] < kLeastLeaf) return false;
     const Vec3 outward = (edge % 2 == 0 ? 1.0 : -1.0) * Vec3::Unit(axis);
     const Vec3 from = at.box.center() + outward * (size[axis] / 2 + kOff);
-    if (!scene_.covered(at.pose * from, shape) &&
-        !scene_.blocked(at.pose * from, at.pose * (from + kGap * outward), 0.0, kStanding)) {
+    if (!scene_->covered(at.pose * from, shape) &&
+        !scene_->blocked(at.pose * from, at.pose * (from + kGap * outward), 0.0, kStanding)) {
       return true;
     }
   }
@@ -301,62 +411,73 @@ bool Surfaces::is_open_leaf(std::uint32_t shape) const {
 /// Whether a shape is close in front of any site: light varies strongly along such gaps.
 bool Surfaces::faced(const std::vector<Site>& sites) const {
   return std::any_of(sites.begin(), sites.end(), [&](const Site& site) {
-    return scene_.blocked(site.position, site.position + kFacing * site.normal, kOff, kStanding);
+    return scene_->blocked(site.position, site.position + kFacing * site.normal, kOff, kStanding);
   });
 }
 
-template <class Matches>
-void Surfaces::forget_if(std::uint32_t shape, std::vector<std::uint32_t>& removed,
-                         Matches&& matches) {
-  const auto found = keys_.find(shape);
-  if (found == keys_.end()) return;
-  std::vector<Key>& keys = found->second;
-  const auto forgotten = std::remove_if(keys.begin(), keys.end(), [&](const Key& key) {
-    if (!matches(key)) return false;
-    const auto entry = known_.find(key);
-    if (entry->second < kDivided) {
-      patches_[entry->second].alive = false;
-      ++forgotten_;
-      removed.push_back(entry->second);
+void Surfaces::forget_number(Own& own, std::uint32_t& number, std::vector<std::uint32_t>& removed) {
+  const std::uint32_t known = std::exchange(number, kUnknown);
+  if (known < kBlock) {
+    patches_[known] = nullptr;
+    ++forgotten_;
+    removed.push_back(known);
+  } else if (is_block(known)) {
+    for (std::uint32_t& part : std::exchange(own.blocks[known - kBlock], {})) {
+      forget_number(own, part, removed);
     }
-    known_.erase(entry);
-    return true;
-  });
-  keys.erase(forgotten, keys.end());
-  if (keys.empty()) keys_.erase(found);
+    own.free_blocks.push_back(known - kBlock);
+  }
 }
 
 void Surfaces::forget(std::uint32_t shape, std::vector<std::uint32_t>& removed) {
-  forget_if(shape, removed, [](const Key&) { return true; });
+  if (shapes_.size() <= shape || !shapes_[shape].form) return;
+  for (std::uint32_t& number : shapes_[shape].cells) {
+    forget_number(shapes_[shape], number, removed);
+  }
+  shapes_[shape] = {};
 }
 
 /// By whole cells: whether a cell is divided depends on all of it.
 void Surfaces::forget_near(std::uint32_t shape, const Eigen::AlignedBox3d& box,
                            std::vector<std::uint32_t>& removed) {
-  if (keys_.count(shape) == 0) return;
-  std::array<Lattice, 6> faces;
-  for (int face = 0; face < 6; ++face) faces[static_cast<std::size_t>(face)] = lattice(shape, face);
-  const Pose back = faces[0].placement.pose.inverse();
+  if (shapes_.size() <= shape || !shapes_[shape].form) return;
+  Own& own = shapes_[shape];
+  const rays::Placement& placement = own.form->placement;
+  const Pose back = placement.pose.inverse();
   const bool endless = !box.diagonal().allFinite();
   Eigen::AlignedBox3d local;
   for (int corner = 0; corner < 8 && !endless; ++corner) {
     local.extend(back * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
   }
-  forget_if(shape, removed, [&](const Key& key) {
+  const auto is_near = [&](const Lattice& cells, int layer, int u, int v) {
     if (endless) return true;
-    const Lattice& cells = faces[static_cast<std::size_t>(key[1])];
     for (int side = 0; side < 2; ++side) {
       const int axis = (cells.axis + 1 + side) % 3;
-      const int at = key[3 + side];
-      const double cell = key[5] == 0 ? at : std::floor(at / cells.parts[side]);
-      const double low = cells.low[side] + cell * cells.step[side];
+      const double low = cells.low[side] + (side == 0 ? u : v) * cells.step[side];
       if (local.min()[axis] > low + cells.step[side] || local.max()[axis] < low) return false;
     }
-    const rays::Placement& placement = cells.placement;
     double low = placement.box.min()[cells.axis], high = placement.box.max()[cells.axis];
-    if (placement.type == Shape::Type::kBox) low = high = key[2] == 1 ? high : low;
+    if (placement.type == Shape::Type::kBox) low = high = layer == 1 ? high : low;
     return local.min()[cells.axis] <= high && local.max()[cells.axis] >= low;
-  });
+  };
+  std::size_t place = 0;
+  for (const Lattice& cells : own.form->faces) {
+    for (int layer = 0; layer < cells.layers; ++layer) {
+      for (int v = 0; v < cells.rows; ++v) {
+        for (int u = 0; u < cells.columns; ++u, ++place) {
+          std::uint32_t& number = own.cells[place];
+          if (number != kUnknown && is_near(cells, layer, u - 1, v - 1)) {
+            forget_number(own, number, removed);
+          }
+        }
+      }
+    }
+  }
+  for (const Key& key : own.far_keys) {
+    std::uint32_t& number = own.cells[place++];
+    const Lattice& cells = own.form->faces[static_cast<std::size_t>(key[1])];
+    if (is_near(cells, key[2], key[3], key[4])) forget_number(own, number, removed);
+  }
 }
 
 void Surfaces::release(const std::vector<std::uint32_t>& removed) {

@@ -2,9 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "rays/nearby.h"
 #include "rays/scene.h"
 
 namespace angen::light {
@@ -31,46 +34,75 @@ struct Patch {
   std::uint64_t hash = 0;
   std::vector<Site> sites;
   double area = 0.0;         // m^2, of the surface that the sites stand for
-  std::uint64_t serial = 0;  // unique over all patches ever made
-  bool alive = true;         // not forgotten since
+  std::uint64_t serial = 0;  // unique over all patches ever made in this process
 
   bool is_part() const { return key[5] != 0; }  // part of a divided cell
 };
 
 /// Patches, made when they are first hit. A patch depends on the shapes only, not on the ray that
-/// hit it first.
+/// hit it first. Copies share the patches.
 class Surfaces {
  public:
-  explicit Surfaces(const rays::Scene& scene) : scene_(scene) {}
+  explicit Surfaces(std::shared_ptr<const rays::Scene> scene) : scene_(std::move(scene)) {}
 
-  /// The patch at a hit on a static or anchored shape, or kNoPatch for a sliver that has none.
+  const rays::Scene& scene() const { return *scene_; }
+  /// To be followed by forget() and forget_near() for all that differs.
+  void set_scene(std::shared_ptr<const rays::Scene> scene) { scene_ = std::move(scene); }
+
+  /// The patch at a hit on a standing shape, or kNoPatch for a sliver that has none, and for a
+  /// shape that the scene does not contain.
   std::uint32_t at(std::uint32_t shape, const Vec3& point, const Vec3& normal);
 
-  const Patch& operator[](std::uint32_t patch) const { return patches_[patch]; }
-  std::uint64_t serials() const { return serials_; }    // last number given, from 1 on
+  const Patch& operator[](std::uint32_t patch) const { return *patches_[patch]; }
+  /// Whether the patch was not forgotten.
+  bool alive(std::uint32_t patch) const { return patch < patches_.size() && patches_[patch]; }
   std::size_t size() const { return patches_.size(); }  // count of numbers given, removed or not
 
   std::uint64_t forgotten() const { return forgotten_; }  // patches, so far
 
   /// Forgets the patches of one shape, or those of it that may intersect a box (m, world). Appends
-  /// their numbers to `removed`; they can be read until release().
+  /// their numbers to `removed`; they are given to new patches after release().
   void forget(std::uint32_t shape, std::vector<std::uint32_t>& removed);
   void forget_near(std::uint32_t shape, const Eigen::AlignedBox3d& box,
                    std::vector<std::uint32_t>& removed);
+  /// Calls visit() for each shape that has patches.
+  template <class F>
+  void each_known(F&& visit) const {
+    for (std::uint32_t shape = 0; shape < shapes_.size(); ++shape) {
+      if (shapes_[shape].form) visit(shape);
+    }
+  }
   /// Frees the numbers of forgotten patches.
   void release(const std::vector<std::uint32_t>& removed);
 
  private:
   using Key = std::array<std::int32_t, 6>;
-  struct HashKey {
-    std::size_t operator()(const Key& key) const;
-  };
   struct Lattice {  // lattice of one face of a shape
     rays::Placement placement;
     int axis = 0;
     double sign = 1.0;
     Eigen::Array2d low, step;  // m, of cells
     Eigen::Array2d parts;      // number along the sides of a divided cell
+    // Of its cells in the list of the shape: the first, and their numbers, with one more on each
+    // side. None of an endless or very large face.
+    std::size_t first = 0;
+    std::int32_t columns = 0, rows = 0, layers = 0;
+  };
+  struct Form {
+    rays::Placement placement;
+    Eigen::Matrix3d back;  // world to own frame
+    std::array<Lattice, 6> faces;
+    std::size_t cells = 0;
+  };
+  /// What is known of a shape. A number is that of a patch, kNoPatch, kUnknown, or that of a block
+  /// from kBlock on: a divided cell has one of its parts, a part with sides one of these.
+  struct Own {
+    std::shared_ptr<const Form> form;
+    std::vector<std::uint32_t> cells;
+    std::unordered_map<std::uint64_t, std::uint32_t> far;  // looked up: places in `cells`
+    std::vector<Key> far_keys;                             // of the cells after those of the faces
+    std::vector<std::vector<std::uint32_t>> blocks;
+    std::vector<std::uint32_t> free_blocks;
   };
 
   struct Sides {
@@ -78,29 +110,31 @@ class Surfaces {
     bool crossed = false;  // an anchored shape hides two neighboring sites from each other
   };
 
-  Lattice lattice(std::uint32_t shape, int face) const;
+  Own* own_of(std::uint32_t shape);
+  std::shared_ptr<const Form> form_of(std::uint32_t shape) const;
+  const Lattice& lattice(const Key& key) const;
+  static std::size_t cell_of(Own& own, const Key& key);
+  static std::uint32_t add_block(Own& own, std::vector<std::uint32_t> numbers);
   Eigen::Array2d step_of(const Key& key) const;
   double area_of(const Key& key, const std::vector<Site>& sites) const;
-  std::uint32_t make(const Key& key);
-  std::uint32_t add(const Key& key, std::vector<Site> sites, bool divided);
-  bool make_sides(const Key& key);
-  std::uint32_t side_at(const Key& key, const Site& point) const;
-  std::vector<Site> sites(const Key& key, int per_side, int& covered) const;
+  std::uint32_t make_cell(Own& own, const Key& key);
+  std::uint32_t make_part(Own& own, const Key& key);
+  std::uint32_t add(const Key& key, std::vector<Site> sites);
+  std::uint32_t side_at(const std::vector<std::uint32_t>& all, const Site& point) const;
+  rays::Nearby around(const Key& key) const;
+  std::vector<Site> sites(const Key& key, int per_side, const rays::Nearby& near,
+                          int& covered) const;
   bool site(const Lattice& lattice, const Key& key, double u, double v, Site& out) const;
-  Sides sides(const Key& key, const std::vector<Site>& sites) const;
-  bool is_uneven(const Key& key, const std::vector<Site>& sites) const;
-  bool hidden(const Site& from, const Site& to, rays::Mobilities by = kStanding) const;
+  Sides sides(const Key& key, const std::vector<Site>& sites, const rays::Nearby& near) const;
+  bool is_uneven(const Key& key, const std::vector<Site>& sites, const rays::Nearby& near) const;
   bool is_open_leaf(std::uint32_t shape) const;
   bool faced(const std::vector<Site>& sites) const;
-  template <class Matches>
-  void forget_if(std::uint32_t shape, std::vector<std::uint32_t>& removed, Matches&& matches);
+  void forget_number(Own& own, std::uint32_t& number, std::vector<std::uint32_t>& removed);
 
-  const rays::Scene& scene_;
-  std::unordered_map<Key, std::uint32_t, HashKey> known_;     // looked up, never iterated
-  std::unordered_map<std::uint32_t, std::vector<Key>> keys_;  // by shape
-  std::vector<Patch> patches_;
+  std::shared_ptr<const rays::Scene> scene_;
+  std::vector<Own> shapes_;                            // by shape
+  std::vector<std::shared_ptr<const Patch>> patches_;  // null if forgotten
   std::vector<std::uint32_t> free_;
-  std::uint64_t serials_ = 0;
   std::uint64_t forgotten_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "light/field.h"
+#include "light/lamp.h"
 
 namespace angen::light {
 

@@ -74,10 +74,8 @@ class View {
   /// The albedo, r g b, 0 to 1, of a shape that a ray hit.
   virtual Eigen::Vector3f reflectance(std::uint32_t shape) const = 0;
   /// Light at a place; see light::Lighting::measure. The first query in a world finds the light of
-  /// all lit lamps, which takes up to some seconds of CPU time: expect_light(), some seconds
-  /// before, spreads that over ticks, as light that changes later is.
+  /// all lit lamps, which takes up to some seconds of CPU time.
   virtual light::Sample illuminance(light::Probe& probe, const Pose& pose) const = 0;
-  virtual void expect_light(light::Probe& probe, const Pose& pose) const = 0;
   virtual double ambient_temperature() const = 0;  // K
   /// Shapes that are warmer or colder than the air now.
   virtual const std::vector<rays::WarmShape>& warm_shapes() const = 0;

@@ -77,18 +77,32 @@ bool query_crowd(RTCPointQueryFunctionArguments* args) {
   return false;  // keeps the query's radius
 }
 
+/// Visits the solids that a test accepts and whose boxes may intersect a box.
+template <class Test>
 struct Search {
   RTCPointQueryContext context;  // first, as in SceneQuery
   const std::vector<Solid>* solids;
-  const ShaftHull* hull;
+  const Test* test;
   const std::function<void(const Solid&)>* visit;
+
+  static bool query(RTCPointQueryFunctionArguments* args) {
+    const auto& search = *static_cast<Search*>(args->userPtr);
+    const Solid& solid = (*search.solids)[args->primID];
+    if (!solid.loose && (*search.test)(solid)) (*search.visit)(solid);
+    return false;  // keeps the query's radius
+  }
 };
 
-bool query_hull(RTCPointQueryFunctionArguments* args) {
-  const auto& search = *static_cast<Search*>(args->userPtr);
-  const Solid& solid = (*search.solids)[args->primID];
-  if (!solid.loose && search.hull->overlaps(solid)) (*search.visit)(solid);
-  return false;  // keeps the query's radius
+template <class Test>
+void search_in(const Hierarchy& tree, const std::vector<Solid>& solids,
+               const Eigen::AlignedBox3d& box, const Test& test,
+               const std::function<void(const Solid&)>& visit) {
+  Search<Test> search{{}, &solids, &test, &visit};
+  rtcInitPointQueryContext(&search.context);
+  const Eigen::Vector3f middle = box.center().cast<float>();
+  const auto radius = reach(0.5 * box.sizes().norm() + kFloatError);
+  RTCPointQuery query{middle.x(), middle.y(), middle.z(), 0.0F, radius};
+  rtcPointQuery(tree.scene.get(), &query, &search.context, Search<Test>::query, &search);
 }
 
 /// False only where the ray's line misses the ball around the solid's box.
@@ -113,8 +127,7 @@ bool SceneQuery::prepare(const Vec3& from, const Vec3& towards, double nearest, 
   best.range = farthest;
   rank = UINT64_MAX;
   solid = nullptr;
-  anchored = (among & only(Mobility::kAnchored)) != 0;
-  moving = (among & only(Mobility::kMoving)) != 0;
+  this->among = among;
   length2 = direction.squaredNorm();
   return fit_for_embree(origin) && fit_for_embree(direction) && length2 > 1e-30 && min <= farthest;
 }
@@ -123,7 +136,7 @@ bool SceneQuery::try_solid(const Solid& candidate, bool fixed) {
   Intersection found;
   if (!wants(candidate, fixed)) return false;
   if (!find_hit(candidate, origin, direction, min, best.range, found)) return false;
-  const std::uint64_t found_rank = rank_of(candidate.slot, fixed);
+  const std::uint64_t found_rank = rank_of(candidate.slot, fixed && !candidate.anchored);
   if (found.range == best.range && found_rank >= rank) return false;
   best = found;
   rank = found_rank;
@@ -137,6 +150,7 @@ Hit SceneQuery::hit() const {
 
 Layer::Layer(bool fixed)
     : fixed(fixed),
+      held(fixed ? only(Mobility::kStatic) : kAll & ~only(Mobility::kStatic)),
       tree_(bounds, fixed ? intersect<true> : intersect<false>,
             fixed ? occluded<true> : occluded<false>) {}
 
@@ -202,15 +216,15 @@ void Layer::find_in(const ShaftHull& hull, const std::function<void(const Solid&
     if (hull.overlaps(bounded[at])) visit(bounded[at]);
   }
   if (bounded.empty()) return;
-  Search search;
-  rtcInitPointQueryContext(&search.context);
-  search.solids = &bounded;
-  search.hull = &hull;
-  search.visit = &visit;
-  const Eigen::Vector3f middle = hull.box().center().cast<float>();
-  const auto radius = reach(0.5 * hull.box().sizes().norm() + kFloatError);
-  RTCPointQuery query{middle.x(), middle.y(), middle.z(), 0.0F, radius};
-  rtcPointQuery(tree_.scene.get(), &query, &search.context, query_hull, &search);
+  const auto overlaps = [&](const Solid& solid) { return hull.overlaps(solid); };
+  search_in(tree_, bounded, hull.box(), overlaps, visit);
+}
+
+void Layer::find_near(const Eigen::AlignedBox3d& box,
+                      const std::function<void(const Solid&)>& visit) const {
+  if (bounded.empty()) return;
+  const auto intersects = [&](const Solid& solid) { return solid.box.intersects(box); };
+  search_in(tree_, bounded, box, intersects, visit);
 }
 
 bool Layer::covers(const Vec3& point, std::uint32_t except) const {

@@ -22,7 +22,7 @@ struct SceneQuery {
   Intersection best;   // range starts at the ray's max
   std::uint64_t rank;  // rank of the nearest hit; the lower wins a tie
   const Solid* solid;
-  bool anchored, moving;  // whether it can hit these movable shapes
+  Mobilities among;  // the shapes that it can hit
 
   /// False for a ray that cannot hit anything: not finite, without direction, with an empty
   /// interval.
@@ -38,7 +38,14 @@ struct SceneQuery {
   }
 
   bool wants(const Solid& candidate, bool fixed) const {
-    return fixed || (candidate.anchored ? anchored : moving);
+    return (among & only(mobility_of(candidate, fixed))) != 0;
+  }
+
+  /// Of a solid in a fixed layer or in another one. A fixed one can contain anchored solids, which
+  /// do not move while it exists.
+  static Mobility mobility_of(const Solid& solid, bool fixed) {
+    if (solid.anchored) return Mobility::kAnchored;
+    return fixed ? Mobility::kStatic : Mobility::kMoving;
   }
 
   bool try_solid(const Solid& candidate, bool fixed);
@@ -61,6 +68,7 @@ class Layer {
   std::vector<Solid> bounded;
   std::vector<Solid> planes;
   bool fixed;
+  Mobilities held;
 
   void change(Changed changed) { changed_ = std::max(changed_, changed); }
   /// A moving shape, at this place in `bounded`, has another pose.
@@ -74,10 +82,7 @@ class Layer {
   }
 
   /// Whether it may contain shapes of these mobilities.
-  bool holds(Mobilities among) const {
-    constexpr Mobilities kStaticOnly = only(Mobility::kStatic);
-    return (among & (fixed ? kStaticOnly : kAll & ~kStaticOnly)) != 0;
-  }
+  bool holds(Mobilities among) const { return (among & held) != 0; }
 
   /// Rebuilds the hierarchy if queries among these depend on the changes. Several threads may call
   /// it.
@@ -88,6 +93,10 @@ class Layer {
   bool any(SceneQuery& q) const;
   /// Calls visit() for each shape that may have a part in the hull. Requires prepare().
   void find_in(const ShaftHull& hull, const std::function<void(const Solid&)>& visit) const;
+  /// Calls visit() for each bounded shape whose box intersects the box (m, world). Requires
+  /// prepare().
+  void find_near(const Eigen::AlignedBox3d& box,
+                 const std::function<void(const Solid&)>& visit) const;
   /// Whether a bounded static or anchored solid other than `except` contains the point (m, world).
   /// Requires prepare().
   bool covers(const Vec3& point, std::uint32_t except) const;

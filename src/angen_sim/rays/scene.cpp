@@ -9,6 +9,7 @@
 
 #include "core/slots.h"
 #include "rays/layer.h"
+#include "rays/nearby.h"
 #include "rays/shaft.h"
 #include "rays/triangle_tree.h"
 
@@ -79,6 +80,14 @@ struct Scene::Impl {
     places[id.index] = {id, &into, entry.type, static_cast<std::uint32_t>(list.size())};
     list.push_back(std::move(solid));
     touch(id.index, entry.mobility);
+  }
+
+  /// A standing solid of another scene.
+  void copy_in(const Place& place, const Solid& solid) {
+    std::vector<Solid>& list = fixed.list(place.type);
+    places[solid.slot] = {place.id, &fixed, place.type, static_cast<std::uint32_t>(list.size())};
+    list.push_back(solid);
+    list.back().loose = false;
   }
 
   Solid take_out(ShapeId id) {
@@ -301,6 +310,40 @@ bool Scene::blocked(const Vec3& from, const Vec3& to, double margin, Mobilities 
   return q.prepare(from, direction, margin, length - margin, among) && impl_->any(q, among);
 }
 
+Nearby Scene::near(const Eigen::AlignedBox3d& box) const {
+  constexpr Mobilities kStanding = kAll & ~only(Mobility::kMoving);
+  impl_->prepare(kStanding);
+  Nearby found;
+  for (const Layer* layer : {&impl_->fixed, &impl_->moving}) {
+    layer->find_near(box, [&](const Solid& solid) {
+      if (layer->fixed || solid.anchored) found.solids_.push_back(&solid);
+    });
+    for (const Solid& plane : layer->planes) {
+      if (layer->fixed || plane.anchored) found.solids_.push_back(&plane);
+    }
+  }
+  return found;
+}
+
+std::shared_ptr<const Scene> Scene::standing_scene() const {
+  auto copy = std::make_shared<Scene>();
+  Impl& to = *copy->impl_;
+  to.entries = impl_->entries;
+  to.reflectances = impl_->reflectances;
+  to.places.resize(impl_->places.size());
+  to.fixed.held |= only(Mobility::kAnchored);
+  for (const Layer* layer : {&impl_->fixed, &impl_->moving}) {
+    for (const std::vector<Solid>* list : {&layer->bounded, &layer->planes}) {
+      for (const Solid& solid : *list) {
+        if (layer->fixed || solid.anchored) to.copy_in(impl_->places[solid.slot], solid);
+      }
+    }
+  }
+  to.fixed.change(Changed::kAny);
+  copy->commit();
+  return copy;
+}
+
 Shaft Scene::shaft(const Vec3& from, double near, std::uint32_t shape_index) const {
   impl_->prepare(kAll);
   const Solid& target = impl_->solid(shape_index);
@@ -341,9 +384,8 @@ Eigen::Vector3f Scene::reflectance(std::uint32_t shape_index) const {
 const std::vector<WarmShape>& Scene::warm_shapes() const { return impl_->warm; }
 Mobility Scene::mobility(std::uint32_t shape_index) const {
   const Place& place = impl_->places.at(shape_index);
-  if (place.layer == &impl_->fixed) return Mobility::kStatic;
   if (place.layer == nullptr) return Mobility::kMoving;  // empty
-  return impl_->solid(shape_index).anchored ? Mobility::kAnchored : Mobility::kMoving;
+  return SceneQuery::mobility_of(impl_->solid(shape_index), place.layer->fixed);
 }
 
 Placement Scene::placement(std::uint32_t shape_index) const {
@@ -353,7 +395,9 @@ Placement Scene::placement(std::uint32_t shape_index) const {
 
 Eigen::AlignedBox3d Scene::static_bounds() const {
   Eigen::AlignedBox3d all;
-  for (const Solid& solid : impl_->fixed.bounded) all.extend(solid.box);
+  for (const Solid& solid : impl_->fixed.bounded) {
+    if (!solid.anchored) all.extend(solid.box);
+  }
   return all;
 }
 
@@ -361,9 +405,9 @@ std::optional<Standing> Scene::standing(std::uint32_t index) const {
   if (index >= impl_->places.size()) return std::nullopt;
   const Place& place = impl_->places[index];
   if (place.layer == nullptr || !impl_->entries.contains(place.id)) return std::nullopt;
-  const bool is_static = place.layer == &impl_->fixed;
-  if (!is_static && !impl_->solid(index).anchored) return std::nullopt;
-  return Standing{place.id, is_static, bounds(place.id)};
+  const Mobility is = mobility(index);
+  if (is == Mobility::kMoving) return std::nullopt;
+  return Standing{place.id, is == Mobility::kStatic, bounds(place.id)};
 }
 
 std::vector<std::uint32_t> Scene::standing_changes(std::uint64_t& mark) const {

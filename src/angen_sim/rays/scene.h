@@ -70,6 +70,7 @@ struct Standing {
 };
 
 class Shaft;
+class Nearby;
 
 class Scene {
  public:
@@ -132,6 +133,12 @@ class Scene {
   /// rays: more than 1 where boxes of many shapes contain it, or those of meshes that cross
   /// themselves. Requires commit().
   std::int64_t price(const Vec3& point) const;
+
+  /// A scene of the standing shapes as they are now, with the same indices, for light. It can be
+  /// queried while this one changes.
+  std::shared_ptr<const Scene> standing_scene() const;
+  /// For many queries of standing shapes within the box (m, world).
+  Nearby near(const Eigen::AlignedBox3d& box) const;
 
   Eigen::Vector3f reflectance(std::uint32_t shape_index) const;
   /// In the order in which they were first warmed, as of the last commit().

@@ -8,6 +8,7 @@
 
 #include "desc/own_lamp.h"
 #include "light/photometry.h"
+#include "plugin/plugin.h"
 #include "sim/joined.h"
 #include "sim/like_visual.h"
 
@@ -235,9 +236,14 @@ void Engines::note_rest(Nanoseconds now) {
   loose.update(now, [&](Resting::Body body) { set_standing(body, true); });
 }
 
+Nanoseconds Engines::next_light() const {
+  if (!light.keeps_time()) return kForever;
+  if (!light.dark() && standing_changed_ >= light_followed_) return 0;
+  return light.next().value_or(kForever);
+}
+
 void Engines::advance_light(Nanoseconds now) {
-  light.begin_tick();
-  if (!light_busy()) return;
+  if (next_light() > now) return;
   light_followed_ = movers.now() + 1;
   rays.commit();
   light.advance(now);

@@ -67,13 +67,14 @@ class Engines {
   /// A link at rest at `pose`, with the shapes of one of its postures.
   void take_posture(const Parts& parts, std::uint32_t link, int posture, const Pose& pose);
 
-  /// Finds light between surfaces, a part in each tick.
+  /// To be called once a tick: takes the standing shapes and lit lamps over, if it is time.
   void advance_light(Nanoseconds now);
+  /// When advance_light() has something to do, at the earliest.
+  Nanoseconds next_light() const;
   /// Where the limbs of a link are in its frame from now on.
   void place_limbs(physics::LinkId link, std::shared_ptr<const std::vector<Pose>> limbs);
   /// To be called before an image: limbs follow their links.
   void follow_limbs();
-  bool light_busy() const { return light.busy() || (light.active() && light_lags()); }
 
   physics::World physics;
   rays::Scene rays;
@@ -105,7 +106,6 @@ class Engines {
   void show(const Parts& parts, const Parts::Shape& shape);
   void note_standing(const Parts& parts, const Parts::Shape& shape);
   void set_standing(Resting::Body body, bool standing);
-  bool light_lags() const { return standing_changed_ >= light_followed_; }
 
   std::unordered_map<std::uint32_t, Limbs> limbs_;  // by LinkId
   MoverIndex::Moment changed_ = 0;

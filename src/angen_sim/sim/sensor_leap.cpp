@@ -47,11 +47,12 @@ Nanoseconds DueSensors::next_check(SensorInstance& sensor, Clock clock) const {
 
 std::int64_t DueSensors::next_tick(Building& building, Clock clock, std::int64_t tick) {
   if (outdated_) list(building, clock.time);
-  if (building.engines().light_busy()) return clock.time / clock.step;
   const auto stop_before = [&](Nanoseconds sample) {
     tick = std::min(tick, sample / clock.step - 1);  // the tick that ends with it
   };
   const std::int64_t here = clock.time / clock.step;
+  stop_before(std::max(building.engines().next_light(), clock.time + clock.step));
+  if (tick <= here) return here;
   for (const Entry& entry : entries_) {
     SensorInstance& sensor = *entry.sensor;
     if (!sensor.error.empty()) continue;

@@ -9,8 +9,7 @@ namespace angen::sim {
 
 namespace {
 
-constexpr Nanoseconds kLoading = 2 * kSecond;  // readings so early are part of loading
-constexpr double kBetweenRays = 0.05;          // m beside those that are watched
+constexpr double kBetweenRays = 0.05;  // m beside those that are watched
 
 template <class Ref>
 std::size_t at(Ref ref) {
@@ -108,13 +107,10 @@ rays::Shaft InstanceView::shaft(const Vec3& from, double near, std::uint32_t sha
 light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {
   queried_.other = queried_.other || queried_.light;  // only one place's light is watched
   queried_.light = true;
-  // Subscriptions of a sensor must not change the readings of others.
-  probe.ahead = sensor_ == nullptr || !sensor_->on_demand();
   if (engines_.light.dark() && engines_.light.knows(probe))
     return engines_.light.measure(probe, pose);
   engines_.rays.commit();
-  engines_.light.pace(clock_.time < kLoading ? light::Lighting::kRaysToLoad
-                                             : light::Lighting::kRaysToJoin);
+  engines_.light.keep_time();
   if (sensor_ == nullptr) return engines_.light.measure(probe, pose);
   std::unique_ptr<WatchedLight>& watched = sensor_->light;
   const bool still =
@@ -128,11 +124,6 @@ light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) c
   }
   if (watched) watched->sampled = engines_.movers.now() + 1;
   return sample;
-}
-
-void InstanceView::expect_light(light::Probe& probe, const Pose& pose) const {
-  engines_.rays.commit();
-  engines_.light.expect(probe, pose);
 }
 
 const std::vector<rays::WarmShape>& InstanceView::warm_shapes() const {
@@ -205,7 +196,7 @@ std::vector<std::uint8_t> InstanceView::colors(const render::PinholeCamera& lens
   render::Ambience ambience = engines_.ambience;
   // Pictures use only light that is known already: subscriptions of a camera must not
   // change the readings of other sensors.
-  if (engines_.light.active()) ambience.reflected = engines_.light.reflected();
+  if (engines_.light.keeps_time()) ambience.reflected = engines_.light.reflected();
   engines_.follow_limbs();
   return engines_.visuals.colors(lens, pose, engines_.light.lit(), ambience);
 }

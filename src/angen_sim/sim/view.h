@@ -49,7 +49,6 @@ class InstanceView : public View {
     return engines_.rays.reflectance(shape);
   }
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override;
-  void expect_light(light::Probe& probe, const Pose& pose) const override;
   double ambient_temperature() const override { return engines_.ambient_temperature; }
   const std::vector<rays::WarmShape>& warm_shapes() const override;
   std::uint64_t scene_revision() const override;

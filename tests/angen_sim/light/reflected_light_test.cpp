@@ -101,13 +101,13 @@ TEST(ReflectedLight, DimmingIsLinear) {
 /// A door opens, and patches near it are found again while pictures are made.
 TEST(ReflectedLight, IsThatOfNowWhoeverQueriedBefore) {
   TwoRooms often;
-  often.lighting.pace();
+  often.lighting.keep_time();
   often.open();
   std::shared_ptr<const ReflectedLight> known;
   int made = 0, tick = 0;
   for (const int until : {1, 60, 101, 103, 106, 112, 130, 200, 400}) {
     TwoRooms once;
-    once.lighting.pace();
+    once.lighting.keep_time();
     once.open();
     for (int i = 1; i <= until; ++i) once.lighting.advance(i * kSecond / 1000);
     while (tick < until) {

@@ -55,9 +55,6 @@ class Forgetful : public View {
     light::Probe fresh;
     return view_.illuminance(fresh, pose);
   }
-  void expect_light(light::Probe& probe, const Pose& pose) const override {
-    view_.expect_light(probe, pose);
-  }
   double ambient_temperature() const override { return view_.ambient_temperature(); }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return view_.warm_shapes(); }
   std::uint64_t scene_revision() const override { return view_.scene_revision(); }

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "light/solution.h"
+
+namespace angen::light {
+
+/// A lamp and its light.
+struct Solved {
+  LampId id;
+  std::uint64_t version = 0;  // of the lamp: grows when it is moved
+  std::shared_ptr<const Solution> solution;
+};
+
+/// The light between the surfaces of one scene.
+struct Balance {
+  Field field;
+  std::vector<Solved> solved;
+};
+
+/// What there is to balance.
+struct Request {
+  struct Of {
+    LampId id;
+    std::uint64_t version = 0;
+    Lamp lamp;
+    bool lit = false;
+  };
+  std::shared_ptr<const rays::Scene> scene;  // of standing shapes
+  std::vector<Changes::Moved> moved;         // shapes that differ from the scene before
+  std::vector<Of> lamps;
+};
+
+/// Whether one of the shapes was or is in the box, m.
+bool any_in(const Eigen::AlignedBox3d& box, const std::vector<Changes::Moved>& moved);
+
+/// The light of all lit lamps, and of others whose light is still that of before. The same request
+/// gives the same light, whatever is known before; on any thread.
+Balance balance(Balance before, const Request& request);
+
+}  // namespace angen::light
