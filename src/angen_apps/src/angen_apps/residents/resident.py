@@ -444,6 +444,8 @@ def make(household: Household, who: list[tuple[str, Profile]], strict: bool = Fa
     if strict and remarks:
         raise Failure(f'residents cannot live in {household.name} as they do elsewhere: '
                       f'{len(remarks)} remarks')
+    planners = [resident.planner for resident in household.residents if resident.profile.lives]
     for resident in household.residents:
+        resident.planner.table = planners
         household.add(resident.live())
     return household.residents
