@@ -117,12 +117,11 @@ class Resident(User):
         self._begin([*items, *self.planner.plan(household.day(0))])
         while True:
             for item in items:
-                self.item = Item(midnight + item.start, midnight + item.end, item.activity,
-                                 item.cause)
+                due = Item(midnight + item.start, midnight + item.end, item.activity, item.cause)
                 self._habits = chance(household.seed, household.name, self.name, 'habits',
                                       number, round(item.start, 3))
-                if self.item.end > self.now + LATE:
-                    yield from self._do(self.item)
+                if due.end > self.now + LATE:
+                    yield from self._do(due)
             midnight = number * DAY - household.since
             items = self.planner.plan(household.day(number))
             number += 1
@@ -149,6 +148,7 @@ class Resident(User):
             yield from self._leave(item.start)
         if item.start > self.now:
             yield from self._stay(item.start)
+        self.item = item
         if activity.name == 'leave' or (not self.profile.lives and activity.name == 'sleep'):
             yield from self._leave(item.end)
             return
