@@ -24,7 +24,7 @@ PUSHED = 0.02  # m
 HAND = 30.0  # s: a resident who commanded a device within this time has moved it
 NEAR = 1.5  # m: a resident within this distance may have sat down there
 HEIGHTS = (0.4, 1.0, 1.6)  # m above the floor, of parts of a person
-WIDE = 0.35  # m: half the width of a person, with a margin
+WIDE = 0.3  # m: half the width of a person
 HOUSING, FARTHEST = 0.1, 30.0  # m from a sensor to the begin and the end of its sight
 CELL = 0.4  # m around the middle of a cell: a sensor must detect motion there
 LEAST = 1.0  # s: the resident must move there this long
@@ -225,8 +225,10 @@ class Recorder:
     def _sees(self, sensor: Sensor, resident: Any) -> bool:
         """Whether no wall is between a sensor and a resident."""
         floor = self.site.home.elevation(resident.storey)
-        ways = np.array([(*resident.at, floor + height) for height in HEIGHTS]) \
-            - (sensor.x, sensor.y, sensor.z)
+        x, y = resident.at[0] - sensor.x, resident.at[1] - sensor.y
+        across = WIDE / max(math.hypot(x, y), WIDE)
+        ways = np.array([(x - side * across * y, y + side * across * x, floor + height - sensor.z)
+                         for height in HEIGHTS for side in (-1.0, 0.0, 1.0)])
         lengths = np.linalg.norm(ways, axis=1)
         ways /= lengths[:, None]
         begin = (sensor.x, sensor.y, sensor.z) + HOUSING * ways
