@@ -24,7 +24,7 @@ def test_files_of_casas_are_read_with_tabs_or_blanks(tmp_path, fraction, separat
     stream = realism.read(file)
     found = realism.measures(stream)
     assert found['events a day'] == 2 and found['ON time p50, s'] == 1.5
-    assert realism.durations(stream)['Sleeping'] == [86403.0]
+    assert realism.durations(stream)['sleep'] == [86403.0]
     file.write_text('hello\n')
     with pytest.raises(Failure, match=r'aruba\.txt:1: is not an event'):
         realism.read(file)
@@ -48,3 +48,41 @@ def test_an_activity_lasts_from_its_first_place_to_its_last(tmp_path):
     lasted = realism.durations(realism.read(tmp_path))
     assert {name: sorted(times) for name, times in lasted.items()} == {
         'cook': [70.0, 90.0], 'read': [5.0]}
+
+
+def labeled(tmp_path, *lines):
+    """A file of CASAS with these lines: day, time, sensor, value, label."""
+    file = tmp_path / 'home.txt'
+    file.write_text('\n'.join(f'2026-03-{2 + int(line.split()[0]):02d} ' + line.split(None, 1)[1]
+                              for line in lines) + '\n')
+    return realism.measures(realism.read(file))
+
+
+def test_rows_of_labeled_activities_are_those_of_their_definitions(tmp_path):
+    found = labeled(
+        tmp_path, '0 07:00:00 M001 ON Sleeping begin', '0 07:00:10 M001 OFF Sleeping end',
+        '0 08:00:00 M002 ON Meal_Preparation begin', '0 08:00:10 M002 OFF',
+        '0 08:01:00 M002 ON', '0 08:02:00 M002 OFF Meal_Preparation end',
+        '0 09:00:00 M002 ON Cook begin', '0 09:04:00 M002 OFF Cook end',
+        '0 23:00:00 M001 ON Sleeping begin', '1 04:00:00 M001 OFF Sleeping end',
+        '1 04:10:00 M001 ON Sleeping begin', '1 09:00:00 M001 OFF Sleeping end',
+        '1 14:00:00 M001 ON Sleeping begin', '1 15:00:00 M001 OFF Sleeping end')
+    assert found['cook: a day'] == 1.0 and found['cook: median, min'] == 3.0
+    assert found['cook: CV of the count a day'] == 1.0  # two on one day, none on the other
+    assert found['cook: motion ON a minute'] == pytest.approx(3 / 6)
+    # 7:00:10 and 9:00, past a short time awake and a nap
+    assert found['getting up: standard deviation, h'] == pytest.approx(1.0, abs=0.002)
+    # gaps within: 10, 10, 50, 60, 240 s, 5 h, 4:50 h, 1 h
+    assert found['gap in an activity p95, s'] == pytest.approx(
+        np.percentile([10, 10, 50, 60, 240, 18000, 17400, 3600], 95))
+    assert 'eat: motion ON a minute' not in found
+
+
+def test_residents_have_labels_and_hours_of_their_own(tmp_path):
+    found = labeled(
+        tmp_path, '0 05:00:00 M001 ON R1_Sleeping begin', '0 06:00:00 M001 ON R2_Sleeping begin',
+        '0 07:00:00 M001 OFF R1_Sleeping end', '0 10:00:00 M001 OFF R2_Sleeping end',
+        '1 05:00:00 M001 ON R1_Sleeping begin', '1 06:00:00 M001 ON R2_Sleeping begin',
+        '1 07:00:00 M001 OFF R1_Sleeping end', '1 10:00:00 M001 OFF R2_Sleeping end')
+    assert found['getting up: standard deviation, h'] == pytest.approx(0.0, abs=1e-6)
+    assert found['all: CV of the count a day'] == 0.0

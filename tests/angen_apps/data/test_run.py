@@ -5,6 +5,8 @@ import json
 import math
 from dataclasses import replace
 from pathlib import Path
+from random import Random
+from types import SimpleNamespace
 
 import angen
 import pytest
@@ -209,3 +211,14 @@ def test_what_cannot_be_is_said_before_any_work(tmp_path):
         check(Job(str(tmp_path), 'home', 1, 1, ('3',), ('aras',)))
     with pytest.raises(Failure, match="there is no profile 'retird'; did you mean"):
         check(Job(str(tmp_path), 'home', 1, 1, ('retird',), ('casas',)))
+
+
+def test_a_wall_is_between_a_sensor_and_who_is_in_another_room(home):
+    site = Site(home, 7)
+    household = Household(site.simulator, site.floors, 5, 'home', datetime.date(2026, 3, 23))
+    recorder = Recorder(site, household)
+    area = next(sensor for sensor in site.sensors if sensor.name == 'area_kitchen0')
+    sees = {room: recorder._sees(area, SimpleNamespace(
+        at=site.floors.spots(room, 1, Random(1))[0], storey=0))
+        for room in ('kitchen0', 'bathroom0', 'bedroom0')}
+    assert sees == {'kitchen0': True, 'bathroom0': False, 'bedroom0': False}

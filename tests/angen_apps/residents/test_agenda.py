@@ -5,7 +5,8 @@ import statistics
 import pytest
 
 from angen_apps.residents import profiles
-from angen_apps.residents.agenda import Day, Planner
+from angen_apps.residents.agenda import Planner
+from angen_apps.residents.moods import Day
 from angen_tools.common.failure import Failure
 
 MONDAY = Day(0, datetime.date(2026, 3, 23))
@@ -48,17 +49,55 @@ def test_a_worker_is_out_on_workdays_and_sleeps_seven_to_nine_hours():
     assert 7 < statistics.mean(slept) < 9.2
 
 
-def test_residents_who_eat_together_begin_together():
+def test_residents_who_eat_together_begin_together_and_one_of_them_cooks():
     home = [Planner(3, 'home', name, profiles.read('retired')) for name in ('anna', 'bert')]
-    starts = [{i.activity: i.start for i in planner.plan(MONDAY) if i.cause == 'scheduled'}['cook']
-              for planner in home]
-    assert abs(starts[0] - starts[1]) < 1800
+    for planner in home:
+        planner.table = home
+    together = meals = 0
+    for number in range(60):
+        plans = [planner.plan(later(number)) for planner in home]
+        noon = [[i for i in items if i.cause == 'scheduled' and 11.5 < i.start / 3600 < 14.5]
+                for items in plans]
+        eats = [[i.start for i in items if i.activity == 'eat'] for items in noon]
+        cooks = [i.start for items in noon for i in items if i.activity == 'cook']
+        if all(eats):
+            meals += 1
+            together += abs(eats[0][0] - eats[1][0]) < 60.0
+            assert len({round(start / 60) for start in cooks}) == len(cooks)
+    assert meals > 10 and together > 0.7 * meals
+
+
+def test_days_of_a_person_and_persons_differ():
+    profile = profiles.read('retired')
+    usual, spread, hours = [], [], []
+    for seed in range(4):
+        planner = Planner(seed, 'home', 'anna', profile)
+        days = [planner.plan(later(number)) for number in range(100)]
+        cooked = [sum(item.activity == 'cook' for item in items) for items in days]
+        usual.append(statistics.mean(cooked))
+        spread.append(statistics.pstdev(cooked) / usual[-1])
+        hours.append(statistics.pstdev(items[0].start / 3600 for items in days))
+    assert 0.25 < min(spread) and max(spread) < 0.8, spread
+    assert 0.5 < min(hours) and max(hours) < 2.0 and max(hours) - min(hours) > 0.3, hours
+    assert statistics.pstdev(usual) > 0.5, usual
+
+
+def test_an_ill_person_is_at_home_for_days():
+    planner = Planner(2, 'home', 'anna', profiles.read('worker'))
+    days = [later(number) for number in range(730)]
+    ill = [day for day in days if planner.person.mood(day).ill]
+    assert 4 <= len(ill) <= 60  # 1 to 4 illnesses a year
+    assert sum(planner.person.mood(day.following()).ill for day in ill) >= len(ill) / 2
+    left = [any(item.activity == 'leave' for item in planner.plan(day)) for day in ill
+            if day.kind == 'weekday']
+    assert left.count(True) < len(left) / 2
 
 
 @pytest.mark.parametrize('change, message', [
     (('watch_tv', 'watch_telly'), r"mine\.yaml:\d+: 'watch_telly' is not an activity; did you"),
     (("{weekday: '6:15-7:00'", "{weekday: '6:15-27:00'"), r'must be two times of day'),
     (('lasts: 8.5-10 h', 'lasts: 20-26 h'), r'of a weekday take 2\d\.\d h, but mine is awake'),
+    (('cook: 0.1-0.4', 'cook: 0.4-0.1'), r"cook is '0\.4-0\.1', must be two numbers up to 1 as"),
     (('speed: 1.1', 'sped: 1.1'), r"'sped' is not known in a profile; did you mean"),
 ])
 def test_what_is_wrong_with_a_profile_is_said_with_its_line(tmp_path, change, message):

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import datetime
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -92,3 +93,32 @@ def test_residents_are_at_home_when_a_run_begins_in_the_day(tmp_path):
     cat, = make(household, [('tom', read('cat'))])
     household.run(1.0)
     assert not cat.away and cat.room != 'landing0'
+
+
+def test_a_cook_goes_among_things_and_a_sitter_gets_up_and_sits_down_again(tmp_path):
+    apartment(tmp_path / 'home.world')
+    site, household, anna = home_of(tmp_path / 'home.world')
+    turns: list[float] = []
+    fidget = site.simulator.fidget
+    site.simulator.fidget = lambda name, turn: (turns.append(turn), fidget(name, turn))
+    cook, relax = anna._known['cook'], anna._known['relax']
+    relax = replace(relax, moves=(5.0, 20.0), visits=replace(relax.visits, every=(60.0, 90.0)))
+
+    def script():
+        anna.enter(household.places.anywhere())
+        stove = [step.runs for step in cook.steps].index('stove')
+        yield from anna._step(cook, cook.steps[stove], stove, 180.0)
+        yield from anna._step(relax, relax.steps[0], 0, 600.0)
+
+    household.add(script())
+    household.run(600.0)
+    anna.diary.end(household.now)
+    does = [i for i in anna.diary.closed if i.phase == 'does']
+    assert not any(i.note for i in does)
+    things = {t.name: t.type for t in site.home.things}
+    cooked = [things[i.thing] for i in does if i.activity == 'cook']
+    assert len(cooked) > 6 and len(set(cooked)) >= 3 and cooked.count('stove') >= len(cooked) / 3
+    assert max(i.end - i.start for i in does if i.activity == 'cook') < 60.0
+    postures = [i.posture for i in does if i.activity == 'relax']
+    assert postures[:3] == ['sit', 'stand', 'sit'] and anna.posture == 'sit'
+    assert len(turns) > 10 and all(abs(sum(turns[:i])) < 0.25 for i in range(len(turns)))

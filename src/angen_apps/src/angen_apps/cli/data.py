@@ -8,6 +8,7 @@ from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked
 from angen_tools.cli.parser import add_json, add_out, add_seed, add_world_file, command
+from angen_tools.common.failure import Failure
 
 NAMES = ('casas', 'casas-columns', 'aras', 'kasteren', 'openshs', 'csv', 'parquet', 'xes', 'power')
 YEARS = 1900, 2900  # range of the first day's year
@@ -94,15 +95,22 @@ def run_realism(args: argparse.Namespace) -> int:
     from angen_apps.data import realism
     from angen_apps.data.tables import homes
     from angen_tools.common.output import as_json, show, table
-    path = args.folder if args.folder.is_file() else homes(args.folder)[0]
-    stream = realism.read(path)
+    paths = [args.folder] if args.folder.is_file() else homes(args.folder)
+    stream = realism.read(paths[0])
     reference = realism.read(args.against) if args.against else None
     found = realism.compare(stream, reference)
     spans = {name: sorted(values)[len(values) // 2] / 60
              for name, values in realism.durations(stream).items()}
+    scores: list[tuple[str, float]] = []
+    if args.rooms and not args.transfer:
+        raise Failure('--rooms needs --transfer')
+    if args.transfer:
+        from angen_apps.data.transfer import transfer
+        scores = transfer(paths, args.transfer, args.rooms)
     if args.json:
         print(as_json({'measures': [dict(zip(('name', 'value', 'reference', 'verdict'), row))
-                                    for row in found], 'median minutes': spans}))
+                                    for row in found], 'median minutes': spans,
+                       'macro F1': dict(scores)}))
     else:
         show(table(('measure', 'data', 'reference', ''),
                    [(name, f'{value:.4g}', other, verdict) for name, value, other, verdict
@@ -110,6 +118,10 @@ def run_realism(args: argparse.Namespace) -> int:
         show(table(('activity', 'median, min'), [(name, f'{value:.1f}')
                                                  for name, value in sorted(spans.items())],
                    ('median, min',)))
+    if scores and not args.json:
+        show(table(('learned from', 'macro F1 on later days'),
+                   [(name, f'{score:.2f}') for name, score in scores],
+                   ('macro F1 on later days',)))
     if args.figure:
         realism.figure(stream, reference, args.figure)
     return 0
@@ -184,9 +196,14 @@ def add_realism(commands: Any) -> None:
     """angen realism."""
     made = command(commands, 'realism', run_realism,
                    'compares data with figures of real homes, or with a file of CASAS',
-                   'realism out', 'realism out --against aruba.txt --figure realism.png')
+                   'realism out', 'realism out --against aruba.txt --figure realism.png',
+                   'realism out --transfer aruba.txt')
     made.add_argument('folder', metavar='DIR', type=Path,
                       help='output folder of angen generate, or a file of CASAS')
     made.add_argument('--against', metavar='FILE', type=Path, help='a reference: such a file')
+    made.add_argument('--transfer', metavar='FILE', type=Path, help='a real home with labels: how '
+                      'well a classifier knows its activities that learned from the data')
+    made.add_argument('--rooms', metavar='FILE', type=Path, help='lines of a sensor of that home '
+                      'and the use of its room; otherwise by its labels')
     made.add_argument('--figure', metavar='FILE', type=Path, help='also draws it')
     add_json(made)

@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Iterator, NamedTuple
 
 import numpy as np
 from scipy.spatial.distance import jensenshannon
@@ -14,6 +14,7 @@ from scipy.stats import ks_2samp
 
 from angen_apps.data.site import MAINS
 from angen_apps.data.tables import EVENTS, TRUTH, rows
+from angen_apps.residents.activities import activities
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import pyplot, save_figure
 
@@ -30,6 +31,35 @@ PUBLISHED = {
     'events an hour at night (1-5 h)': (8.0, 29.0, 'AL sample home 8 to 29'),
     'events in the busiest hour': (279.0, 322.0, 'AL sample home 302, 322, 279 at 8, 12, 18 h'),
 }
+# of the labeled activities of Aruba, its only figures that are published: half to twice these
+ARUBA = {'cook: a day': 7.3, 'cook: median, min': 5.0, 'cook: CV of the count a day': 0.5,
+         'eat: CV of the count a day': 1.21, 'wash_dishes: CV of the count a day': 1.99,
+         'all: CV of the count a day': 0.24, 'getting up: standard deviation, h': 1.27,
+         'cook: motion ON a minute': 11.7, 'relax: motion ON a minute': 1.8,
+         'eat: motion ON a minute': 3.5, 'gap in an activity p95, s': 21.0}
+PUBLISHED.update({name: (value / 2, 2 * value, f'Aruba {value:g}, half to twice')
+                  for name, value in ARUBA.items()})
+LABEL = re.compile(r'(?:(R\d+)_)?(\S+)\s+(begin|end)')
+# our names of activities by the labels of CASAS: those of Angen, and some of other homes
+NAMES = {**{activity.casas: name for name, activity in reversed(activities().items())},
+         'Bed_to_Toilet': 'toilet', 'Bed_Toilet_Transition': 'toilet', 'Sleep': 'sleep',
+         'Cook': 'cook', 'Kitchen_Activity': 'cook', 'Eat': 'eat', 'Chores': 'clean',
+         'Dining_Rm_Activity': 'eat', 'Desk_Activity': 'work', 'Take_Medicine': 'take_medicine',
+         'Morning_Meds': 'take_medicine', 'Eve_Meds': 'take_medicine',
+         'Master_Bathroom': 'toilet', 'Guest_Bathroom': 'toilet', 'Step_Out': 'leave',
+         'Phone': 'phone', 'Groom': 'wash', 'Wash': 'wash', 'Toilet': 'toilet'}
+CASAS = 'casas.txt'
+DAY = 86400.0  # s
+BROKEN = 3600.0  # s that one is awake in the middle of a night, at most
+
+
+class Did(NamedTuple):
+    """A labeled activity of somebody."""
+
+    start: float
+    end: float
+    activity: str
+    who: str
 
 
 @dataclass
@@ -39,18 +69,23 @@ class Stream:
     time: np.ndarray
     sensor: list[str]
     value: list[str]
-    labels: list[tuple[float, str, str]]  # time, activity, begin or end
+    did: list[Did]
 
     @property
     def days(self) -> int:
-        return max(int(np.ceil(self.time[-1] / 86400.0)), 1) if len(self.time) else 1
+        return max(int(np.ceil(self.time[-1] / DAY)), 1) if len(self.time) else 1
 
 
 def read(path: Path) -> Stream:
-    """A home's folder, or a file as CASAS publishes them."""
+    """A home's folder, or a file as CASAS publishes them. Labels of casas.txt, which are at events,
+    are compared with those of other homes; a folder without it has those of its truth."""
     if path.is_dir():
-        return _own(path)
-    times, sensors, values, labels = [], [], [], []
+        if not (path / CASAS).is_file():
+            return _own(path)
+        path = path / CASAS
+    times, sensors, values = [], [], []
+    did: list[Did] = []
+    since: dict[tuple[str, str], float] = {}
     first = None
     try:
         lines = path.read_text(encoding='utf-8-sig', errors='replace').splitlines()
@@ -70,12 +105,17 @@ def read(path: Path) -> Stream:
         times.append((at - first).total_seconds())
         sensors.append(found[3])
         values.append(found[4])
-        label = (found[5] or '').split()
-        if len(label) == 2:
-            labels.append((times[-1], label[0], label[1]))
+        label = LABEL.fullmatch((found[5] or '').strip())
+        if label is None:
+            continue
+        what = NAMES.get(label[2], label[2]), label[1] or ''
+        if label[3] == 'begin':
+            since[what] = times[-1]
+        elif what in since:
+            did.append(Did(since.pop(what), times[-1], *what))
     if not times:
         raise Failure(f'{path}: has no events')
-    return Stream(np.array(times), sensors, values, labels)
+    return Stream(np.array(times), sensors, values, sorted(did))
 
 
 def _own(folder: Path) -> Stream:
@@ -90,30 +130,23 @@ def _own(folder: Path) -> Stream:
         times.append((at - first).total_seconds())
         sensors.append(row['sensor'])
         values.append(row['value'])
-    return Stream(np.array(times), sensors, values, _labels(folder / 'truth.csv.gz'))
+    return Stream(np.array(times), sensors, values, _did(folder / 'truth.csv.gz'))
 
 
-def _labels(path: Path) -> list[tuple[float, str, str]]:
-    """Begin and end of each activity, with the ways between its places, one resident after the
-    other: from where it is first done to where it is last done."""
-    found: list[tuple[float, str, str]] = []
-    doing: dict[str, tuple[str, float, float]] = {}  # activity, begin, end, by resident
-
-    def close(who: str) -> None:
-        if who in doing:
-            name, begin, end = doing.pop(who)
-            found.extend([(begin, name, 'begin'), (end, name, 'end')])
+def _did(path: Path) -> list[Did]:
+    """Each activity with the ways between its places: from where it is first done to where it is
+    last done."""
+    found: list[Did] = []
+    doing: dict[str, Did] = {}  # by resident
     columns = ('resident', 'activity', 'phase', 'start', 'end')
     for row in rows(path, {key: TRUTH[key] for key in columns}):
         who, name = row['resident'], row['activity']
-        if who in doing and doing[who][0] != name:
-            close(who)
+        if who in doing and doing[who].activity != name:
+            found.append(doing.pop(who))
         if row['phase'] == 'does':
-            begin = doing[who][1] if who in doing else float(row['start'])
-            doing[who] = (name, begin, float(row['end']))
-    for who in sorted(doing):
-        close(who)
-    return found
+            begin = doing[who].start if who in doing else float(row['start'])
+            doing[who] = Did(begin, float(row['end']), name, who)
+    return sorted([*found, *doing.values()])
 
 
 def on_times(stream: Stream) -> np.ndarray:
@@ -141,7 +174,67 @@ def measures(stream: Stream) -> dict[str, float]:
         found[f'gap p{share}, s'] = float(np.percentile(gaps, share))
     found['events an hour at night (1-5 h)'] = float(hours[1:5].mean())
     found['events in the busiest hour'] = float(hours.max())
-    return found
+    return {**found, **{name: value for name, value in _living(stream) if np.isfinite(value)}}
+
+
+def _living(stream: Stream) -> Iterator[tuple[str, float]]:
+    """The figures of labeled activities; NaN of those that there are not."""
+    by_name: dict[str, list[Did]] = {}
+    for one in stream.did:
+        by_name.setdefault(one.activity, []).append(one)
+    cooks = by_name.get('cook', [])
+    yield 'cook: a day', len(cooks) / stream.days if cooks else np.nan
+    yield 'cook: median, min', float(np.median([one.end - one.start for one in cooks])) / 60 \
+        if cooks else np.nan
+    for name in ('cook', 'eat', 'wash_dishes', 'all'):
+        did = stream.did if name == 'all' else by_name.get(name, [])
+        count = np.bincount(np.array([one.start // DAY for one in did], int), None, stream.days)
+        yield f'{name}: CV of the count a day', float(count.std() / count.mean()) \
+            if count.any() and len(count) > 1 else np.nan
+    yield 'getting up: standard deviation, h', _getting_up(by_name.get('sleep', []), stream.days)
+    for name in ('cook', 'relax', 'eat'):
+        yield f'{name}: motion ON a minute', _on_a_minute(stream, by_name.get(name, []))
+    gaps = [np.diff(stream.time[first:last]) for first, last in _indices(stream, stream.did)]
+    yield 'gap in an activity p95, s', \
+        float(np.percentile(np.concatenate(gaps), 95)) if sum(map(len, gaps)) else np.nan
+
+
+def _indices(stream: Stream, did: list[Did]) -> Iterator[tuple[int, int]]:
+    """The first event in each activity, and the first one after it."""
+    return zip(np.searchsorted(stream.time, [one.start for one in did]).tolist(),
+               np.searchsorted(stream.time, [one.end for one in did], 'right').tolist())
+
+
+def _on_a_minute(stream: Stream, did: list[Did]) -> float:
+    """The ON of motion sensors in some activities."""
+    minutes = sum(one.end - one.start for one in did) / 60.0
+    count = sum(value == 'ON' and sensor.startswith('M') for first, last in _indices(stream, did)
+                for sensor, value in zip(stream.sensor[first:last], stream.value[first:last]))
+    return count / minutes if minutes > 0 else np.nan
+
+
+def _getting_up(sleeps: list[Did], days: int) -> float:
+    """The standard deviation of the hour at which the longest sleep of each day ends, around the
+    mean of each resident; a sleep goes on after less than BROKEN."""
+    nights: dict[tuple[str, int], Did] = {}
+    last: dict[str, Did] = {}
+    for one in sleeps:
+        before = last.get(one.who)
+        if before and one.start - before.end < BROKEN:
+            one = one._replace(start=before.start)
+            if nights.get((one.who, int(before.end // DAY))) == before:
+                del nights[one.who, int(before.end // DAY)]
+        last[one.who] = one
+        key = one.who, int(one.end // DAY)
+        if key not in nights or nights[key].end - nights[key].start < one.end - one.start:
+            nights[key] = one
+    found: list[float] = []
+    for who in sorted(last):
+        turns = np.array([night.end / DAY * 2 * np.pi for (name, day), night in nights.items()
+                          if name == who and day < days])
+        mean = np.angle(np.exp(1j * turns).mean()) if len(turns) > 1 else 0.0
+        found += np.angle(np.exp(1j * (turns - mean))).tolist() if len(turns) > 1 else []
+    return float(np.std(found)) * 12.0 / np.pi if found else np.nan
 
 
 def by_hour(stream: Stream) -> np.ndarray:
@@ -154,6 +247,11 @@ def ks(a: np.ndarray, b: np.ndarray) -> float:
     return float(ks_2samp(a, b, method='asymp').statistic)
 
 
+def _verdict(name: str, value: float) -> str:
+    low, high, _ = PUBLISHED[name]
+    return 'within' if low <= value <= high else 'below' if value < low else 'above'
+
+
 def compare(stream: Stream, reference: Stream | None) -> list[tuple[str, float, str, str]]:
     """Measure, value, reference and verdict; values outside come first."""
     own = measures(stream)
@@ -161,13 +259,14 @@ def compare(stream: Stream, reference: Stream | None) -> list[tuple[str, float, 
     if reference is None:
         for name, value in own.items():
             low, high, source = PUBLISHED[name]
-            verdict = 'within' if low <= value <= high else 'below' if value < low else 'above'
-            found.append((name, value, f'{low:g} to {high:g} ({source})', verdict))
+            found.append((name, value, f'{low:g} to {high:g} ({source})', _verdict(name, value)))
         return sorted(found, key=lambda row: row[3] == 'within')
     other = measures(reference)
     for name, value in own.items():
-        ratio = value / other[name] if other[name] else float('inf')
-        found.append((name, value, f'{other[name]:.4g}', f'{ratio:.2f} times'))
+        if name in other:
+            ratio = value / other[name] if other[name] else float('inf')
+            found.append((name, value, f'{other[name]:.4g}',
+                          f'{ratio:.2f} times, {_verdict(name, value)} published homes'))
     distances = [('ON times, KS', ks(on_times(stream), on_times(reference))),
                  ('gaps, KS', ks(np.diff(stream.time), np.diff(reference.time))),
                  ('hours of the day, Jensen-Shannon',
@@ -177,13 +276,9 @@ def compare(stream: Stream, reference: Stream | None) -> list[tuple[str, float, 
 
 def durations(stream: Stream) -> dict[str, list[float]]:
     """The durations of activities, s."""
-    since: dict[str, float] = {}
     found: dict[str, list[float]] = {}
-    for time, activity, turn in stream.labels:
-        if turn == 'begin':
-            since[activity] = time
-        elif activity in since:
-            found.setdefault(activity, []).append(time - since.pop(activity))
+    for one in stream.did:
+        found.setdefault(one.activity, []).append(one.end - one.start)
     return found
 
 

@@ -23,6 +23,9 @@ RECENT = 3.0  # s: a resident who moved within this time may have caused motion
 PUSHED = 0.02  # m
 HAND = 30.0  # s: a resident who commanded a device within this time has moved it
 NEAR = 1.5  # m: a resident within this distance may have sat down there
+HEIGHTS = (0.4, 1.0, 1.6)  # m above the floor, of parts of a person
+WIDE = 0.3  # m: half the width of a person
+HOUSING, FARTHEST = 0.1, 30.0  # m from a sensor to the begin and the end of its sight
 CELL = 0.4  # m around the middle of a cell: a sensor must detect motion there
 LEAST = 1.0  # s: the resident must move there this long
 STRIDE = 0.3  # s between two places of a track
@@ -213,10 +216,24 @@ class Recorder:
                     return resident.name, resident.item.activity, 'seat'
             elif self._moves(resident, time) and (away < 2.0 or resident.room == sensor.room):
                 return resident.name, resident.item.activity, 'motion'
-        for away, _, resident in near:  # seen through a doorway
-            if sensor.kind == 'area' and self._moves(resident, time):
-                return resident.name, resident.item.activity, 'motion'
+        moving = [resident for _, _, resident in near
+                  if sensor.kind == 'area' and self._moves(resident, time)]
+        for resident in [one for one in moving[1:] and moving if self._sees(sensor, one)] or moving:
+            return resident.name, resident.item.activity, 'motion'  # seen through a doorway
         return '', '', 'noise'
+
+    def _sees(self, sensor: Sensor, resident: Any) -> bool:
+        """Whether no wall is between a sensor and a resident."""
+        floor = self.site.home.elevation(resident.storey)
+        x, y = resident.at[0] - sensor.x, resident.at[1] - sensor.y
+        across = WIDE / max(math.hypot(x, y), WIDE)
+        ways = np.array([(x - side * across * y, y + side * across * x, floor + height - sensor.z)
+                         for height in HEIGHTS for side in (-1.0, 0.0, 1.0)])
+        lengths = np.linalg.norm(ways, axis=1)
+        ways /= lengths[:, None]
+        begin = (sensor.x, sensor.y, sensor.z) + HOUSING * ways
+        clear = HOUSING + self.site.world.cast(begin, ways, FARTHEST)
+        return bool((clear > lengths - WIDE).any())
 
     def _moves(self, resident: Any, time: float) -> bool:
         """Whether a resident walks, has moved a moment before, or was pushed by a leaf."""

@@ -11,10 +11,12 @@ from angen_tools.common.yaml_file import YamlFile, is_list, is_text
 
 USES = ('kitchen', 'bedroom', 'bathroom', 'living', 'hall', 'work', 'landing', 'outdoor', 'other')
 POSTURES = ('stand', 'sit', 'lie', 'roam')
-OPENS = ('fridge', 'wardrobe', 'entrance')
+FRIDGE = 'fridge'
+OPENS = (FRIDGE, 'wardrobe', 'entrance')
 RUNS = ('stove', 'tv', 'appliance')
 CATALOG = Path(__file__).with_name('activities.yaml')
-SPAN = re.compile(r'([0-9.]+)(?:-([0-9.]+))? ?(min|h)')
+SPAN = re.compile(r'([0-9.]+)(?:-([0-9.]+))? ?(s|min|h)')
+UNITS = {'s': 1.0, 'min': 60.0, 'h': 3600.0}
 NOON, EVENING = 11, 16  # h, from which a second and a third label of meals hold
 
 
@@ -38,8 +40,20 @@ class Step:
 
 
 @dataclass(frozen=True)
+class Visits:
+    """Where one goes for a moment in the middle of an activity: to things by weight, after `every`
+    s at the place of a step, for `lasts` s."""
+
+    to: tuple[tuple[str, float], ...]
+    every: tuple[float, float]
+    lasts: tuple[float, float]
+
+
+@dataclass(frozen=True)
 class Activity:
-    """One that residents do. `alone`: the use of a room that is not shared meanwhile."""
+    """One that residents do. `alone`: the use of a room that is not shared meanwhile; `moves`: s
+    between two bouts of small movements; `effort`: 1 of what one does on good days, -1 on bad
+    ones; `breaks`: how often an hour something else comes between."""
 
     name: str
     steps: tuple[Step, ...]
@@ -50,6 +64,16 @@ class Activity:
     lasts: tuple[float, float]  # s, 10 % and 90 % quantiles
     alone: str = ''
     dark: bool = False
+    visits: Visits | None = None
+    moves: tuple[float, float] | None = None
+    effort: float = 0.0
+    breaks: float = 0.0
+
+    @property
+    def opened(self) -> set[str]:
+        """The things that are opened at each use."""
+        fridges = {FRIDGE for what, _ in self.visits.to if what == FRIDGE} if self.visits else set()
+        return fridges | {step.opens for step in self.steps if step.opens}
 
     def number(self, numbers: tuple[int, ...], hour: float) -> int:
         """The number of a label that may depend on the time of day."""
@@ -77,8 +101,8 @@ def activities() -> dict[str, Activity]:
 
 
 def _read(file: YamlFile, name: str, node: Any) -> Activity:
-    entry = file.entries(node, name, ('labels', 'lasts', 'steps', 'alone', 'dark'),
-                         ('labels', 'lasts', 'steps'))
+    entry = file.entries(node, name, ('labels', 'lasts', 'steps', 'alone', 'dark', 'visits',
+                                      'moves', 'effort', 'breaks'), ('labels', 'lasts', 'steps'))
     labels = file.entries(entry['labels'], 'labels', ('casas', 'aras', 'kasteren', 'openshs'),
                           ('casas', 'aras', 'kasteren', 'openshs'))
     numbers = {key: tuple(int(file.number(part, key)) for part in
@@ -89,7 +113,19 @@ def _read(file: YamlFile, name: str, node: Any) -> Activity:
         file.text(labels['casas'], 'casas'), file.text(labels['openshs'], 'openshs'),
         numbers['aras'], numbers['kasteren'], span(file, entry['lasts'], 'lasts'),
         file.choice(entry['alone'], 'alone', USES) if 'alone' in entry else '',
-        'dark' in entry and file.choice(entry['dark'], 'dark', ('true', 'false')) == 'true')
+        'dark' in entry and file.choice(entry['dark'], 'dark', ('true', 'false')) == 'true',
+        _visits(file, entry['visits']) if 'visits' in entry else None,
+        span(file, entry['moves'], 'moves') if 'moves' in entry else None,
+        file.number(entry['effort'], 'effort', -1.0, 1.0) if 'effort' in entry else 0.0,
+        file.number(entry['breaks'], 'breaks', 0.0, 60.0) if 'breaks' in entry else 0.0)
+
+
+def _visits(file: YamlFile, node: Any) -> Visits:
+    keys = ('to', 'every', 'lasts')
+    entry = file.entries(node, 'visits', keys, keys)
+    return Visits(tuple((what, file.number(weight, what, 0.0))
+                        for what, weight in file.entries(entry['to'], 'to').items()),
+                  span(file, entry['every'], 'every'), span(file, entry['lasts'], 'lasts'))
 
 
 def span(file: YamlFile, node: Any, what: str) -> tuple[float, float]:
@@ -98,7 +134,7 @@ def span(file: YamlFile, node: Any, what: str) -> tuple[float, float]:
     found = SPAN.fullmatch(text)
     if not found or not 0 < float(found[1]) <= float(found[2] or found[1]):
         raise file.fail(node, f"{what} is '{text}', must be two times as 10-35 min or 8-9.5 h")
-    unit = 60.0 if found[3] == 'min' else 3600.0
+    unit = UNITS[found[3]]
     return unit * float(found[1]), unit * float(found[2] or found[1])
 
 

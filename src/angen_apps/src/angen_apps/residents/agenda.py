@@ -5,14 +5,14 @@ seed, the resident, the date and the household's meals only, so that it can be p
 """
 from __future__ import annotations
 
-import datetime
 import math
 from dataclasses import dataclass, replace
 from random import Random
-from typing import Callable, Sequence
+from typing import Sequence
 
 from angen_apps.residents.activities import activities
 from angen_apps.residents.chance import around, chance, choose, spread
+from angen_apps.residents.moods import Day, Mood, Person
 from angen_apps.residents.profiles import DAY, Profile, Scheduled, Span
 
 SHORTEST = 90.0  # s: a gap that is shorter is not filled
@@ -20,6 +20,11 @@ RESORT = 'relax'  # activity with nothing else to do
 AGAIN = 0.3  # how likely an activity follows itself, compared with others
 PAUSE = 5.0  # s after an interruption
 CLEAR = 60.0  # s between the begin of an activity and its interruption
+NIGHT = 3 * 3600.0  # s of sleep, at least
+MUST = 0.8  # probability from which one leaves in any mood and weather
+SECOND = 0.08, (1200.0, 5400.0), 0.4  # how often one eats twice, how much later, how much
+BRIEF = 60.0, 360.0  # s of what comes between
+APART = 5400.0  # s: meals that are nearer to each other are one
 
 
 @dataclass(frozen=True)
@@ -33,44 +38,28 @@ class Item:
     cause: str
 
 
-@dataclass(frozen=True)
-class Day:
-    """A day of the calendar, counted from the start of a run."""
-
-    number: int
-    date: datetime.date
-
-    @property
-    def kind(self) -> str:
-        return 'weekend' if self.date.weekday() >= 5 else 'weekday'
-
-    def following(self) -> Day:
-        return Day(self.number + 1, self.date + datetime.timedelta(days=1))
-
-
-Draw = Callable[..., Random]  # random numbers of more keys
-
-
 class Planner:
     """Plans the days of one resident. `home`: the home's name; meals together have its keys.
-    `leaves_out`: activities that the home has no place for."""
+    `leaves_out`: activities that the home has no place for; `table`: all who eat together."""
 
     def __init__(self, seed: int, home: str, resident: str, profile: Profile,
                  leaves_out: frozenset[str] = frozenset()) -> None:
         self.seed, self.home, self.resident, self.profile = seed, home, resident, profile
         self.leaves_out = leaves_out
+        self.person = Person(seed, home, resident, profile)
+        self.table: list[Planner] = [self]
 
     def wakes(self, day: Day) -> float:
         """When the resident gets up on a day, s after its midnight."""
-        return self._time(day, 'wakes', self.profile.wakes[day.kind])
+        return self._time(day, 'wakes', self.profile.wakes[day.kind]) + self._mood(day).late[0]
 
     def sleeps(self, day: Day) -> float:
         """The time of going to bed after that, s after the same midnight."""
-        when = self._time(day, 'sleeps', self.profile.sleeps[day.kind])
+        when = self._time(day, 'sleeps', self.profile.sleeps[day.kind]) + self._mood(day).late[1]
         wakes = self.wakes(day)
         while when < wakes + 6 * 3600.0:
             when += DAY
-        return when
+        return min(when, DAY + self.wakes(day.following()) - NIGHT)
 
     def plan(self, day: Day) -> list[Item]:
         """The day's items, in order and without gaps of more than SHORTEST."""
@@ -87,6 +76,9 @@ class Planner:
         items = [item for item in items[1:] if item.end > item.start]
         return self._interrupted(day, items)
 
+    def _mood(self, day: Day) -> Mood:
+        return self.person.mood(day)
+
     def _draw(self, day: Day, *keys: object) -> Random:
         return chance(self.seed, self.home, self.resident, day.number, *keys)
 
@@ -99,18 +91,14 @@ class Planner:
         if self.profile.lives and self.profile.body == 'person':
             found.append((wakes, self._lengths(day, 'morning', self._morning(day))))
         for i, part in enumerate(self.profile.scheduled):
-            if part.days not in ('all', day.kind):
+            if part.days not in ('all', day.kind) or not self._happens(day, i, part):
                 continue
-            draw = chance(self.seed, self.home, 'meals', day.number, part.at.low) \
-                if part.together else self._draw(day, 'scheduled', i)
-            begins = around(draw, part.at.low, part.at.high)
-            if self._draw(day, 'happens', i).random() >= part.chance:
-                continue
-            while begins < wakes - 3600.0:
+            begins, parts = self._chain(day, i, part)
+            while begins < self.profile.wakes[day.kind].low - 3600.0:
                 begins += DAY
-            if wakes - 3600.0 <= begins < sleeps - 600.0:
-                found.append((max(begins, wakes), self._lengths(day, f'scheduled {i}', part.do,
-                                                                part)))
+            if begins < sleeps - 600.0:
+                found.append((max(begins, wakes), parts))
+                found += self._second(day, i, max(begins, wakes), parts)
         laid: list[tuple[float, float, str]] = []
         time = wakes
         for begins, parts in sorted(found, key=lambda entry: entry[0]):
@@ -121,6 +109,56 @@ class Planner:
                     time += length
         return laid
 
+    def _happens(self, day: Day, number: int, part: Scheduled) -> bool:
+        """Whether a scheduled item is done, by habit, mood and weather."""
+        usual = part.chance
+        if part.do[0] == 'leave' and (usual < MUST or self._mood(day).ill):
+            usual = self._mood(day).leaves(usual)
+        return self._draw(day, 'happens', number).random() < usual
+
+    def _chain(self, day: Day, number: int, part: Scheduled
+               ) -> tuple[float, list[tuple[str, float]]]:
+        """When a scheduled item begins, and its activities without those that are left out."""
+        with_whom = self._meal(day, part)
+        span = min((other.at for _, other in with_whom), key=lambda s: (s.high - s.low, s.low))
+        keys: tuple[object, ...] = self.seed, self.home, self.resident, day.number, number
+        if len(with_whom) == 1:
+            begins = around(self._draw(day, 'scheduled', number), span.low, span.high)
+            parts = self._lengths(day, f'scheduled {number}', part.do, part)
+        else:  # who eats together begins and gets up together, and one of them cooks
+            keys = self.seed, self.home, 'meals', day.number, span.low
+            begins = around(chance(*keys), span.low, span.high)
+            parts = [(name, spread(chance(*keys, name), *activities()[name].lasts))
+                     for name in part.do]
+            for name in ('cook', 'wash_dishes'):
+                able = [who for who, other in with_whom if name in other.do] or [self]
+                if chance(*keys, 'does', name).choice(able) is not self:
+                    begins += sum(length for other, length in parts if other == name == 'cook')
+                    parts = [entry for entry in parts if entry[0] != name]
+        kept = [(name, length) for name, length in parts if name not in self.leaves_out
+                and chance(*keys, 'skips', name).random()
+                >= self._mood(day).skips(self.person.skips.get(name, 0.0))]
+        return begins, kept
+
+    def _meal(self, day: Day, part: Scheduled) -> list[tuple[Planner, Scheduled]]:
+        """Who has a meal together at that time, with what each has then."""
+        if not part.together:
+            return [(self, part)]
+        return [(who, other) for who in self.table for i, other in enumerate(who.profile.scheduled)
+                if other.together and other.days in ('all', day.kind)
+                and abs(other.at.low + other.at.high - part.at.low - part.at.high) < 2 * APART
+                and (other is part or who._happens(day, i, other))]
+
+    def _second(self, day: Day, number: int, begins: float, parts: list[tuple[str, float]]
+                ) -> list[tuple[float, list[tuple[str, float]]]]:
+        """A part of a meal that is had again some time after it."""
+        often, later, share = SECOND
+        draw = self._draw(day, 'second', number)
+        again = [(name, share * length) for name, length in parts if name in ('cook', 'eat')]
+        if not again or draw.random() >= often:
+            return []
+        return [(begins + sum(length for _, length in parts) + draw.uniform(*later), again)]
+
     def _morning(self, day: Day) -> tuple[str, ...]:
         draw = self._draw(day, 'morning')
         parts = ['toilet', 'shower' if draw.random() < 0.6 else 'wash', 'dress']
@@ -130,13 +168,10 @@ class Planner:
                  ) -> list[tuple[str, float]]:
         found = []
         for i, name in enumerate(names):
-            low, high = (part.lasts if part and part.lasts and i == 0
-                         else activities()[name].lasts)
-            if part and part.together:  # who eats together gets up together
-                draw = chance(self.seed, self.home, 'meals', day.number, part.at.low, i)
-            else:
-                draw = self._draw(day, key, i)
-            found.append((name, spread(draw, low, high)))
+            given = part.lasts if part and i == 0 else None
+            low, high = given or activities()[name].lasts
+            pace = 1.0 if given else self._mood(day).pace
+            found.append((name, pace * spread(self._draw(day, key, i), low, high)))
         return [(name, length) for name, length in found if name not in self.leaves_out]
 
     def _fill(self, day: Day, items: list[Item], until: float, done: dict[str, int]) -> None:
@@ -144,18 +179,24 @@ class Planner:
         while until - items[-1].end > SHORTEST:
             start = items[-1].end
             draw = self._draw(day, 'free', round(start))
-            hour = start / 3600.0 % 24
-            weighted = [(name, free.weight(hour) * (AGAIN if name == items[-1].activity else 1.0))
-                        for name, free in self.profile.free.items()
-                        if done.get(name, 0) < free.per_day and name not in self.leaves_out]
-            name = choose(draw, weighted) or self._resort()
+            name = choose(draw, [
+                (name, weight * (AGAIN if name == items[-1].activity else 1.0))
+                for name, weight in self._weights(day, start)
+                if done.get(name, 0) < self.profile.free[name].per_day]) or self._resort()
             low, high = (self.profile.free[name].lasts if name in self.profile.free
                          else activities()[name].lasts)
-            end = min(start + spread(draw, low, high), until)
+            end = min(start + self._mood(day).pace * spread(draw, low, high), until)
             if until - end < SHORTEST:
                 end = until
             done[name] = done.get(name, 0) + 1
             items.append(Item(start, end, name, 'free'))
+
+    def _weights(self, day: Day, time: float) -> list[tuple[str, float]]:
+        """How likely each free activity is, by hour, person and mood."""
+        hour, mood = time / 3600.0 % 24, self._mood(day)
+        return [(name, free.weight(hour) * self.person.likes(name)
+                 * mood.does(activities()[name].effort))
+                for name, free in self.profile.free.items() if name not in self.leaves_out]
 
     def _resort(self) -> str:
         return RESORT if self.profile.body == 'person' else 'nap'
@@ -184,7 +225,7 @@ class Planner:
 
     def _moments(self, day: Day, items: list[Item]) -> list[tuple[float, str, float]]:
         """When something interrupts, what, and for how long."""
-        found = []
+        found = self._breaks(day, items)
         wakes, sleeps, ends = items[0].start, items[-1].start, items[-1].end
         for name, need in self.profile.needs.items():
             if name in self.leaves_out:
@@ -201,6 +242,20 @@ class Planner:
             times += [draw.uniform(sleeps + 2400.0, max(ends - 1800.0, sleeps + 2401.0))
                       for _ in range(_count(draw, need.at_night))]
             found += [(time, name, spread(draw, *activities()[name].lasts)) for time in times]
+        return found
+
+    def _breaks(self, day: Day, items: list[Item]) -> list[tuple[float, str, float]]:
+        """Something short that comes between, as while the water boils."""
+        found = []
+        for item in items:
+            draw = self._draw(day, 'breaks', round(item.start))
+            often = activities()[item.activity].breaks / self._mood(day).pace
+            for _ in range(_count(draw, often * (item.end - item.start) / 3600.0)):
+                time = draw.uniform(item.start, item.end)
+                name = choose(draw, [(name, weight) for name, weight in self._weights(day, time)
+                                     if name != item.activity and name != 'nap'])
+                if name:
+                    found.append((time, name, spread(draw, *BRIEF)))
         return found
 
 

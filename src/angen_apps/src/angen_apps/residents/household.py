@@ -6,10 +6,10 @@ import heapq
 import itertools
 from typing import Any, Callable, Iterator
 
-from angen_apps.residents.agenda import Day
 from angen_apps.residents.floors import Floors
 from angen_apps.residents.interface import Rejected, Simulator
 from angen_apps.residents.light import daylight
+from angen_apps.residents.moods import Day
 from angen_apps.residents.places import Places
 from angen_tools.common.home import Home
 

@@ -18,7 +18,10 @@ HOURS = re.compile(r'(\d{1,2}):(\d\d)-(\d{1,2}):(\d\d)')
 DAYS = ('all', 'weekday', 'weekend')
 BODIES = ('person', 'cat')
 KEYS = ('about', 'body', 'speed', 'lives', 'closes_doors', 'lamps_on', 'lamps_off', 'wakes',
-        'sleeps', 'scheduled', 'free', 'needs')
+        'sleeps', 'scheduled', 'free', 'needs', 'varies', 'skips', 'ills', 'moody')
+RANGE = re.compile(r'(\d+(?:\.\d+)?)(?:-(\d+(?:\.\d+)?))?')
+# s by which somebody gets up earlier or later from day to day (standard deviation)
+VARIES = 0.25 * 3600.0, 0.75 * 3600.0
 
 
 @dataclass(frozen=True)
@@ -65,7 +68,10 @@ class Need:
 
 @dataclass(frozen=True)
 class Profile:
-    """The habits of a kind of resident. `lives`: False for one who only comes to visit."""
+    """The habits of a kind of resident. `lives`: False for one who only comes to visit. Ranges, in
+    which each resident has one number: `varies`, s by which its hours differ from day to day;
+    `skips`, how probably a scheduled activity is left out; `ills`, illnesses a year (adults have
+    two or three colds, CDC); `moody`, how much its spirits change."""
 
     name: str
     speed: float  # m/s
@@ -79,6 +85,11 @@ class Profile:
     closes_doors: float = 0.3
     lamps_on: float = 0.95
     lamps_off: float = 0.85
+    varies: dict[str, tuple[float, float]] = field(
+        default_factory=lambda: dict.fromkeys(DAYS[1:], VARIES))
+    skips: dict[str, tuple[float, float]] = field(default_factory=dict)
+    ills: tuple[float, float] = (1.0, 4.0)
+    moody: tuple[float, float] = (0.6, 1.4)
     does: frozenset[str] = field(default_factory=frozenset)
 
 
@@ -120,8 +131,7 @@ class _Reader:
             needs, file.choice(entry['body'], 'body', BODIES) if 'body' in entry else 'person',
             'lives' not in entry or file.choice(entry['lives'], 'lives',
                                                 ('true', 'false')) == 'true',
-            **{key: file.number(entry[key], key, 0.0, 1.0)
-               for key in ('closes_doors', 'lamps_on', 'lamps_off') if key in entry},
+            **self.own(entry), skips=self.several(entry, 'skips', self.skip),
             does=frozenset([*free, *needs, *(name for part in scheduled for name in part.do)]))
         self.check_time(made, entry)
         return made
@@ -180,6 +190,32 @@ class _Reader:
                     file.number(entry['per_day'], 'per_day', 0, 50) if 'per_day' in entry else 0.0,
                     file.number(entry['at_night'], 'at_night', 0, 9) if 'at_night' in entry
                     else 0.0)
+
+    def skip(self, name: str, node: Any) -> tuple[float, float]:
+        return self.range(node, name, 1.0)
+
+    def own(self, entry: dict[str, Any]) -> dict[str, Any]:
+        """What residents differ in, if it is given."""
+        found: dict[str, Any] = {key: self.file.number(entry[key], key, 0.0, 1.0)
+                                 for key in ('closes_doors', 'lamps_on', 'lamps_off')
+                                 if key in entry}
+        found.update({key: self.range(entry[key], key, most)
+                      for key, most in (('ills', 12.0), ('moody', 3.0)) if key in entry})
+        if 'varies' in entry:
+            node = entry['varies']
+            parts = dict.fromkeys(DAYS[1:], node) if is_text(node) \
+                else self.file.entries(node, 'varies', DAYS[1:], DAYS[1:])
+            found['varies'] = {day: span(self.file, part, 'varies')
+                               for day, part in parts.items()}
+        return found
+
+    def range(self, node: Any, what: str, most: float) -> tuple[float, float]:
+        text = self.file.text(node, what)
+        found = RANGE.fullmatch(text)
+        if not found or not 0 <= float(found[1]) <= float(found[2] or found[1]) <= most:
+            raise self.file.fail(node, f"{what} is '{text}', must be two numbers up to {most:g} as "
+                                 '0.1-0.5')
+        return float(found[1]), float(found[2] or found[1])
 
     def spans(self, node: Any, what: str) -> dict[str, Span]:
         if is_text(node):

@@ -7,9 +7,9 @@ from dataclasses import replace
 from random import Random
 from typing import Any, Generator, Iterator
 
-from angen_apps.residents.activities import Activity, Step, activities
+from angen_apps.residents.activities import FRIDGE, Activity, Step, Visits, activities
 from angen_apps.residents.agenda import RESORT, Item, Planner
-from angen_apps.residents.chance import chance
+from angen_apps.residents.chance import chance, choose, spread
 from angen_apps.residents.household import Household
 from angen_apps.residents.interface import Rejected
 from angen_apps.residents.mover import ASIDE
@@ -21,8 +21,13 @@ from angen_apps.robot.planner import Point
 from angen_tools.common.failure import Failure
 
 LATE = 20.0  # s: an activity that would be shorter is left out
-FIDGETS = {'sit': 150.0, 'lie': 1500.0}  # s on average between two movements
-SHUFFLES = 45.0  # s on average between two steps of a standing resident
+# s between two bouts of movements; who sleeps turns 2.1 to 2.7 times an hour (De Koninck, Lorrain
+# and Gagnon, Sleep 15, 1992); the others are ours
+MOVES = {'sit': (40.0, 300.0), 'lie': (500.0, 3000.0), 'stand': (15.0, 90.0)}
+CAT = (100.0, 600.0)
+TURNS = (-0.12, 0.0, 0.12)  # rad from the way a seat faces: who turned on would hit what is beside
+MORE, APART = 0.6, (3.0, 9.0)  # probability of a further movement in a bout, and s until then
+SLOWLY = 3.0  # times that the straight way to a thing may last
 ROAMS = (15.0, 45.0)  # s at a place
 OPEN_FOR = 20.0  # s that a fridge is open, at most
 QUEUE, PATIENCE = 10.0, 900.0  # s between two looks at a room or way, and until it is given up
@@ -40,6 +45,7 @@ class Resident(User):
     def __init__(self, household: Household, name: str, number: int, profile: Profile) -> None:
         super().__init__(household, name, number, profile)
         self.diary = Diary()
+        self._turned = 0.0  # rad, of a sitting or lying body
         self._known = dict(activities())
         self.leaves_out: dict[str, str] = {}  # by activity: what the home lacks
         self._stands_in: dict[tuple[str, int], str] = {}  # by step: the missing thing
@@ -111,12 +117,11 @@ class Resident(User):
         self._begin([*items, *self.planner.plan(household.day(0))])
         while True:
             for item in items:
-                self.item = Item(midnight + item.start, midnight + item.end, item.activity,
-                                 item.cause)
+                due = Item(midnight + item.start, midnight + item.end, item.activity, item.cause)
                 self._habits = chance(household.seed, household.name, self.name, 'habits',
                                       number, round(item.start, 3))
-                if self.item.end > self.now + LATE:
-                    yield from self._do(self.item)
+                if due.end > self.now + LATE:
+                    yield from self._do(due)
             midnight = number * DAY - household.since
             items = self.planner.plan(household.day(number))
             number += 1
@@ -134,7 +139,7 @@ class Resident(User):
         self.storey = spot.storey
         self.enter(spot)
         if first.activity == 'sleep':
-            self.settle(spot)
+            self._sits(spot)
         self._note('does', first.activity)
 
     def _do(self, item: Item) -> Process:
@@ -142,7 +147,8 @@ class Resident(User):
         if item.start > self.now + OUT_BETWEEN and not self.profile.lives and not self.away:
             yield from self._leave(item.start)
         if item.start > self.now:
-            yield from self._stay(item.start, Step(), 0)
+            yield from self._stay(item.start)
+        self.item = item
         if activity.name == 'leave' or (not self.profile.lives and activity.name == 'sleep'):
             yield from self._leave(item.end)
             return
@@ -173,32 +179,97 @@ class Resident(User):
             remark = f'no place for {activity.name}'
             spot = (activity.name == 'sleep' and self._choose(self.household.places.on_floor)) \
                 or self.household.places.beside(self._tasks[activity.name][index], self._habits)
-        pause = PAUSE
-        yield from self._reach(spot, activity.name)
-        while not self.arrived:
-            self.diary.note(f'gave up the way: {self.why}')
-            yield from self._stay(min(end, self.now + pause), step, 0)
-            if self.now > end - LATE:
-                return
-            pause *= 2
-            yield from self._reach(spot, activity.name)
-        if spot.place is not None and self.profile.body == 'person':
-            try:
-                self.settle(spot)
-                yield self.now + 0.1
-            except Rejected as error:
-                remark = str(error)
+        if not (yield from self._gets_to(spot, activity, end)):
+            return
+        remark = (yield from self._sits(spot)) or remark
         self._note('does', activity.name, index)
         self.diary.note(remark)
         self._lamps(activity.dark)
         used = self._use(step, spot)
         if used and step.opens:
-            yield from self._make_way(*used[0][:2], spot)
-            yield from self._stay(min(end, self.now + OPEN_FOR), step, 0)
-            self._unuse(used)
+            yield from self._opened(used, spot, end)
             used = None
-        yield from self._stay(end, step, 1)
+        yield from self._busy(activity, index, spot, end)
         self._unuse(used)
+
+    def _gets_to(self, spot: Spot, activity: Activity, end: float) -> Generator[float, None, bool]:
+        """Walks to a spot, and tries again; returns whether it is there before the end."""
+        pause = PAUSE
+        yield from self._reach(spot, activity.name)
+        while not self.arrived:
+            self.diary.note(f'gave up the way: {self.why}')
+            yield from self._stay(min(end, self.now + pause))
+            if self.now > end - LATE:
+                return False
+            pause *= 2
+            yield from self._reach(spot, activity.name)
+        return True
+
+    def _sits(self, spot: Spot) -> Generator[float, None, str]:
+        """Sits or lies down where a spot is for that; returns what was in the way."""
+        if spot.place is not None and self.profile.body == 'person':
+            try:
+                self.settle(spot)
+                self._turned = 0.0
+                yield self.now + 0.1
+            except Rejected as error:
+                return str(error)
+        return ''
+
+    def _opened(self, used: list[tuple[str, str, str]], spot: Spot, end: float) -> Process:
+        """Steps out of the way of a front that opens, and shuts it in the end."""
+        yield from self._make_way(*used[0][:2], spot)
+        yield from self._stay(min(end, self.now + OPEN_FOR))
+        self._unuse(used)
+
+    def _busy(self, activity: Activity, index: int, spot: Spot, end: float) -> Process:
+        """Is at a spot until the end, moves in bouts, and goes to other things for a moment."""
+        moves = activity.moves or MOVES[self.posture]
+        visits = activity.visits if self.profile.body == 'person' else None
+        while visits is not None:
+            leaves = self.now + spread(self._habits, *visits.every)
+            lasts = spread(self._habits, *visits.lasts)
+            other = self._other(visits, spot)
+            if other is None or leaves + lasts > end:
+                break
+            yield from self._stay(leaves, moves)
+            back = SLOWLY * math.dist(spot.stand, other.stand) / self.profile.speed
+            if self.now + lasts + 2 * back > end \
+                    or not self.household.take(('spot', other.key), self.name):
+                continue
+            yield from self._visit(activity, index, other, lasts)
+            if not (yield from self._gets_to(spot, activity, end)):
+                return
+            remark = yield from self._sits(spot)
+            self._note('does', activity.name, index)
+            self.diary.note(remark)
+        yield from self._stay(end, CAT if self.profile.body != 'person' else moves)
+
+    def _other(self, visits: Visits, spot: Spot) -> Spot | None:
+        """The nearest thing of a kind drawn by weight, on this storey and free."""
+        places = self.household.places
+        near = [(min(spots, key=lambda s: math.dist(s.stand, spot.stand)), weight)
+                for what, weight in visits.to
+                if (spots := [s for s in places.spots(Step((what,))) if s.storey == spot.storey
+                              and s.thing != spot.thing and not self._somebody_at(s)])]
+        return choose(self._habits, near)
+
+    def _visit(self, activity: Activity, index: int, other: Spot, lasts: float) -> Process:
+        """Goes to a thing and stays there for some seconds; opens it if that is a fridge."""
+        self._note('goes', activity.name)
+        yield from self.go(other.stand, other.storey)
+        self.spot = other if self.arrived else None
+        if self.arrived:
+            self._note('does', activity.name, index)
+            self._lamps()
+            thing = self._thing(other)
+            until = self.now + lasts
+            if thing is not None and thing.type == FRIDGE:
+                used = self._use(Step((FRIDGE,), opens=FRIDGE), other)
+                if used:
+                    yield from self._opened(used, other, until)
+            yield from self._stay(until, MOVES[self.posture])
+        self.household.leave(('spot', other.key), self.name)
 
     def _reach(self, spot: Spot, name: str) -> Process:
         """Walks to a spot, unless the resident is there."""
@@ -231,21 +302,25 @@ class Resident(User):
         anywhere = self.household.places.anywhere(self._habits)
         return (points[0], self.storey) if points else (anywhere.stand, anywhere.storey)
 
-    def _stay(self, until: float, step: Step, busy: int) -> Process:
-        """Stays, and moves a little from time to time."""
-        mean = FIDGETS.get(self.posture, SHUFFLES if busy else 600.0)
-        if self.profile.body != 'person':
-            mean = 300.0
-        while self.now < until and not self.away:
-            pause = self._habits.expovariate(1.0 / mean)
-            if self.now + pause >= until:
+    def _stay(self, until: float, moves: tuple[float, float] | None = None) -> Process:
+        """Stays, and moves a little in bouts, which follow each other after such a time."""
+        moves = moves or (None if self.posture == 'stand' else MOVES[self.posture])
+        while moves and self.now < until and not self.away:
+            pause = spread(self._habits, *moves)
+            while self.now + pause < until:
+                yield self.now + pause
+                self.moved = self.now
+                if self.posture != 'stand':
+                    turn = self._habits.choice([turn for turn in TURNS if turn != self._turned])
+                    self.simulator.fidget(self.name, turn - self._turned)
+                    self._turned = turn
+                elif self.spot is not None:
+                    yield from self._shuffle(self.spot)
+                if self.posture == 'lie' or self._habits.random() > MORE:
+                    break
+                pause = self._habits.uniform(*APART)
+            else:
                 break
-            yield self.now + pause
-            self.moved = self.now
-            if self.posture != 'stand':
-                self.simulator.fidget(self.name, self._habits.choice((-0.12, 0.12)))
-            elif busy and self.spot is not None:
-                yield from self._shuffle(self.spot)
         if until > self.now:
             yield until
 
@@ -273,7 +348,7 @@ class Resident(User):
                 continue
             self._note('does', activity.name, index)
             self._lamps(activity.dark)
-            yield from self._stay(min(self.now + self._habits.uniform(*ROAMS), end), step, 0)
+            yield from self._stay(min(self.now + self._habits.uniform(*ROAMS), end))
 
     def _queue(self, activity: Activity, item: Item) -> Generator[float, None, bool]:
         """Waits for rooms that one resident uses at a time; returns whether they are free."""
@@ -370,6 +445,8 @@ def make(household: Household, who: list[tuple[str, Profile]], strict: bool = Fa
     if strict and remarks:
         raise Failure(f'residents cannot live in {household.name} as they do elsewhere: '
                       f'{len(remarks)} remarks')
+    planners = [resident.planner for resident in household.residents if resident.profile.lives]
     for resident in household.residents:
+        resident.planner.table = planners
         household.add(resident.live())
     return household.residents

@@ -6,7 +6,7 @@ import re
 from angen_apps.data.formats.casas import ENTER
 from angen_apps.data.tables import lines
 from angen_apps.data.written import Findings, Written
-from angen_apps.residents.activities import Step, activities
+from angen_apps.residents.activities import Activity, Step, activities
 from angen_apps.residents.places import ENTRANCE, OUTSIDE
 from angen_apps.residents.profiles import FOLDER, read
 
@@ -44,7 +44,15 @@ def _does(findings: Findings, home: Written) -> None:
                 or row['resident'] not in home.people:
             continue
         findings.say('an activity is in a room for it',
-                     any(_fits(home, step, row) for step in activity.steps), where)
+                     any(_fits(home, step, row) for step in activity.steps)
+                     or _visits(home, activity, row), where)
+
+
+def _visits(home: Written, activity: Activity, row: dict[str, str]) -> bool:
+    """Whether it stands for a moment at another thing that the activity is used to visit."""
+    thing = home.things.get(row['thing'])
+    return activity.visits is not None and thing is not None and row['posture'] == 'stand' \
+        and any(_is(what, thing['type'], home.use(row['room'])) for what, _ in activity.visits.to)
 
 
 def _fits(home: Written, step: Step, row: dict[str, str]) -> bool:

@@ -243,7 +243,7 @@ def _fronts(findings: Findings, home: Written) -> None:
         if activity is None or thing is None or row['phase'] != 'does' or row['note'] \
                 or float(row['end']) - float(row['start']) < FULL \
                 or row['resident'] not in home.people \
-                or not any(step.opens == thing['type'] for step in activity.steps):
+                or thing['type'] not in activity.opened:
             continue
         near = [s for s in fronts if math.dist((s['x'], s['y']), (thing['x'], thing['y'])) < FRONT
                 and not s['name'].endswith('_contact')]
