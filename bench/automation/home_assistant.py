@@ -37,7 +37,7 @@ SCRIPT = ROOT / 'src/angen_apps/scripts/mqtt'
 VERSION = '2024.3.3'
 NEEDED = ('paho-mqtt==1.6.1', 'janus', 'aiohttp-fast-url-dispatcher', 'aiohttp-zlib-ng', 'numpy',
           'home-assistant-frontend', 'Pillow', 'psutil-home-assistant', 'SQLAlchemy',
-          'fnv-hash-fast')  # of its integrations mqtt, http and frontend
+          'fnv-hash-fast', 'josepy<2')  # of its integrations mqtt, http and frontend
 SHOWN = ('light.kitchen_lamp', 'cover.bathroom_door', 'binary_sensor.kitchen_stove',
          'binary_sensor.kitchen_motion_sensor_a', 'sensor.kitchen_light_sensor',
          'select.elevator', 'switch.simulation_paused')

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
 import sys
 import tempfile
 import time
@@ -115,7 +116,11 @@ def compare(path: Path, automations: Sequence[Path], out: Path, json: bool) -> i
         raise WrongWords(str(error)) from None
     # By processes: this one, which they are made from, has no world and no threads.
     with multiprocessing.get_context('fork').Pool(2, end_with_parent, (os.getpid(),)) as pool:
-        done = pool.starmap(_scored, [(scenario, automation) for automation in automations])
+        before = signal.signal(signal.SIGINT, signal.SIG_IGN)  # the runs end, and say what is open
+        try:
+            done = pool.starmap(_scored, [(scenario, automation) for automation in automations])
+        finally:
+            signal.signal(signal.SIGINT, before)
     junit(out / 'junit.xml', [cases for _, cases, _, _ in done])
     cut = next((cut for *_, cut in done if cut), '')
     if cut:
