@@ -21,6 +21,7 @@ from angen_apps.robot.planner import Point
 from angen_tools.common.failure import Failure
 
 LATE = 20.0  # s: an activity that would be shorter is left out
+SHORT = 10.0  # s: so is a later step, as a stove that is on for a moment
 # s between two bouts of movements; who sleeps turns 2.1 to 2.7 times an hour (De Koninck, Lorrain
 # and Gagnon, Sleep 15, 1992); the others are ours
 MOVES = {'sit': (40.0, 300.0), 'lie': (500.0, 3000.0), 'stand': (15.0, 90.0)}
@@ -162,7 +163,8 @@ class Resident(User):
             end = self.now
             for i, (step, seconds) in enumerate(zip(activity.steps, times)):
                 end += seconds
-                yield from self._step(activity, step, i, end)
+                if i == 0 or end > self.now + SHORT:
+                    yield from self._step(activity, step, i, end)
         finally:
             if activity.alone:
                 self._leave_rooms(activity)
