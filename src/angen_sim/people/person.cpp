@@ -63,7 +63,9 @@ std::optional<Seat> read_seat(Params& params) {
   const std::vector<std::vector<double>> stands =
       params.rows("stands_at", 3, "m", "x y z where it gets up to, of one who sits or lies");
   if (word == kPostures[0]) return std::nullopt;
-  Seat seat{word == kPostures[1] ? Posture::kSit : Posture::kLie, {}, Vec3::Constant(kUnknown)};
+  const Vec3 unknown = Vec3::Constant(kUnknown);
+  Seat seat{
+      word == kPostures[1] ? Posture::kSit : Posture::kLie, {unknown, Quat::Identity()}, unknown};
   if (!stands.empty()) seat.stand = Vec3(stands.back()[0], stands.back()[1], stands.back()[2]);
   return seat;
 }
@@ -191,7 +193,7 @@ void Person::start(const LinkView& body) {
   progress_.count_from(body.pose.position.head<2>());
   shown_ = body;
   if (!stroll_.has_path()) stroll_.stay_at(body.pose);
-  if (!seat_) return;
+  if (!seat_ || !std::isnan(seat_->at.position.x())) return;  // a command has come before
   seat_->at = body.pose;
   if (std::isnan(seat_->stand.x())) seat_->stand = body.pose.position;
 }
