@@ -18,11 +18,13 @@ PAUSE = 6.0  # s between them
 STUCK = 150.0  # s at one place, as of a cat before a door, and it gives up
 PUSHES = 5.0  # s against something that does not move
 BESIDE = 2.5  # m to others, against whom nobody pushes, and who may be in the way
+RISES = 20.0  # s, at most, for room to get up
 LIFT_WAIT = 90.0  # s for somebody else in the elevator
 LIFT_ROOM = 1.6  # m around cabin and landings, where a robot uses the elevator
 ASIDE = 0.55  # m between the middles of two people
 LEGS = 0.4  # m before a seat
 BACK = 0.25  # m: a step back
+ABOVE = 0.002  # m between a floor or seat and who appears on it
 
 Process = Iterator[float]
 
@@ -66,7 +68,7 @@ class Mover:
         return [other for other in self.household.residents
                 if other is not self and not other.away and other.storey == self.storey]
 
-    def enter(self, spot: Spot) -> None:
+    def enter(self, spot: Spot, settled: bool = False) -> None:
         """Appears standing at a place, or beside it where others are: outside the entrance, or at
         the start of a run."""
         self.storey, self.spot, self.posture = spot.storey, spot, 'stand'
@@ -74,8 +76,11 @@ class Mover:
         places = [at for at in (spot.stand, *self.floors.around(spot.stand, spot.storey))
                   if all(math.dist(at, other) > ASIDE for other in taken)]
         yaw = self._habits.uniform(-math.pi, math.pi)
-        self.simulator.appear(self.name, *(places or [spot.stand])[0], spot.z, yaw,
-                              self.profile.speed, self.profile.body)
+        x, y, z = *(places or [spot.stand])[0], spot.z
+        if settled and spot.place is not None and self.profile.body == 'person':
+            (x, y, z, yaw), self.posture = spot.place.pose, spot.place.posture
+        self.simulator.appear(self.name, x, y, z + ABOVE, yaw, self.profile.speed,
+                              self.profile.body, self.posture)
         self.away = False
         self.look()
 
@@ -97,6 +102,7 @@ class Mover:
     def go(self, goal: Point, storey: int) -> Process:
         """Walks there; `self.arrived` says whether it succeeded."""
         self.arrived = False
+        yield from self._rise()
         rides = storey != self.storey
         if rides and not (yield from self._waits_for_lift()):
             return
@@ -117,6 +123,14 @@ class Mover:
         finally:
             if rides:
                 self.household.leave('elevator', self.name)
+
+    def _rise(self) -> Process:
+        """Gets up, once others leave it room."""
+        until = self.now + RISES
+        while self.posture != 'stand' and self.now < until:
+            self.posture = 'stand' if self._order('Stand') else self.posture
+            yield self.now + 0.3
+            self.look()
 
     def _push_out(self) -> Process:
         """Goes to the open floor of its room straight, against a chair that shuts it in."""

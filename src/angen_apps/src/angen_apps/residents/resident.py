@@ -132,9 +132,7 @@ class Resident(User):
         spot = self._choose(spots[0]) or (first.activity == 'sleep' and self._choose(
             self.household.places.on_floor)) or self.household.places.anywhere()
         self.storey = spot.storey
-        self.enter(spot)
-        if first.activity == 'sleep':
-            self.settle(spot)
+        self.enter(spot, first.activity == 'sleep')
         self._note('does', first.activity)
 
     def _do(self, item: Item) -> Process:
