@@ -132,7 +132,9 @@ class Resident(User):
         spot = self._choose(spots[0]) or (first.activity == 'sleep' and self._choose(
             self.household.places.on_floor)) or self.household.places.anywhere()
         self.storey = spot.storey
-        self.enter(spot, first.activity == 'sleep')
+        self.enter(spot)
+        if first.activity == 'sleep':
+            self.settle(spot)
         self._note('does', first.activity)
 
     def _do(self, item: Item) -> Process:
@@ -174,7 +176,7 @@ class Resident(User):
         pause = PAUSE
         yield from self._reach(spot, activity.name)
         while not self.arrived:
-            self.diary.note(f'gave up the way: {self.why}')
+            self.diary.note('gave up the way')
             yield from self._stay(min(end, self.now + pause), step, 0)
             if self.now > end - LATE:
                 return
@@ -183,7 +185,6 @@ class Resident(User):
         if spot.place is not None and self.profile.body == 'person':
             try:
                 self.settle(spot)
-                yield self.now + 0.1
             except Rejected as error:
                 remark = str(error)
         self._note('does', activity.name, index)
@@ -266,7 +267,7 @@ class Resident(User):
             spot = spots[0] if spots else self.household.places.anywhere(self._habits)
             yield from self._reach(spot, activity.name)
             if not self.arrived:
-                self.diary.note(f'gave up the way: {self.why}')
+                self.diary.note('gave up the way')
                 yield self.now + 5.0
                 continue
             self._note('does', activity.name, index)
@@ -306,7 +307,7 @@ class Resident(User):
                 if entrance is not None:  # it closes by itself
                     self.household.do(self.name, 'door', entrance.name, 'CloseByHand')
             else:
-                self.diary.note(f'gave up the way out: {self.why}')
+                self.diary.note('gave up the way out')
         if until > self.now:
             yield until
 
