@@ -176,7 +176,7 @@ class Resident(User):
         pause = PAUSE
         yield from self._reach(spot, activity.name)
         while not self.arrived:
-            self.diary.note('gave up the way')
+            self.diary.note(f'gave up the way: {self.why}')
             yield from self._stay(min(end, self.now + pause), step, 0)
             if self.now > end - LATE:
                 return
@@ -267,7 +267,7 @@ class Resident(User):
             spot = spots[0] if spots else self.household.places.anywhere(self._habits)
             yield from self._reach(spot, activity.name)
             if not self.arrived:
-                self.diary.note('gave up the way')
+                self.diary.note(f'gave up the way: {self.why}')
                 yield self.now + 5.0
                 continue
             self._note('does', activity.name, index)
@@ -307,7 +307,7 @@ class Resident(User):
                 if entrance is not None:  # it closes by itself
                     self.household.do(self.name, 'door', entrance.name, 'CloseByHand')
             else:
-                self.diary.note('gave up the way out')
+                self.diary.note(f'gave up the way out: {self.why}')
         if until > self.now:
             yield until
 
