@@ -201,8 +201,12 @@ void Person::start(const Step& step) {
   const Storey* storey = storey_at(step.view.home().storeys, step.feet().z());
   const double floor = storey != nullptr ? storey->elevation : step.feet().z();
   const Vec2 reach = Vec2::Constant(1.5);  // m
-  const auto beside = best_place(step.view, {at - reach, at + reach}, floor,
-                                 [&](const Vec2& place) { return 3.0 - (place - at).norm(); });
+  const auto beside =
+      best_place(step.view, {at - reach, at + reach}, floor, [&](const Vec2& place) {
+        const Vec3 low(place.x(), place.y(), floor + kLow);  // a bed may be a thing that can move
+        const bool taken = !step.view.crossings(low + Vec3::UnitZ(), low).empty();
+        return taken ? 0.0 : 3.0 - (place - at).norm();
+      });
   const Vec2 stand = beside.value_or(at);
   seat_->stand = Vec3(stand.x(), stand.y(), floor);
 }
