@@ -59,6 +59,13 @@ def test_it_takes_a_place_and_gets_up_to_go_on(world: World, order: str, start: 
         assert state(each)['mode'] == 'STANDING' and abs(state(each)['z']) < 0.01
 
 
+def test_who_appears_can_sit_at_once(world: World) -> None:
+    w = world(SOFA + person('0 -0.8 0 0 0 0'))
+    w.command('person', 'ann', 'Sit')
+    w.run(1.0)
+    assert state(w)['z'] == pytest.approx(0.4, abs=0.02)
+
+
 def test_the_body_of_its_posture_is_what_rays_hit(world: World) -> None:
     w = made(world, person('3.1 0 0 0 0 0'))
     heights = []

@@ -63,7 +63,9 @@ std::optional<Seat> read_seat(Params& params) {
   const std::vector<std::vector<double>> stands =
       params.rows("stands_at", 3, "m", "x y z where it gets up to, of one who sits or lies");
   if (word == kPostures[0]) return std::nullopt;
-  Seat seat{word == kPostures[1] ? Posture::kSit : Posture::kLie, {}, Vec3::Constant(kUnknown)};
+  const Vec3 unknown = Vec3::Constant(kUnknown);
+  Seat seat{
+      word == kPostures[1] ? Posture::kSit : Posture::kLie, {unknown, Quat::Identity()}, unknown};
   if (!stands.empty()) seat.stand = Vec3(stands.back()[0], stands.back()[1], stands.back()[2]);
   return seat;
 }
@@ -168,7 +170,7 @@ void Person::update(const View& view, Outputs& outputs) {
   const bool renew = refresh_.due(view.time(), view.step());
   walker_.begin(view.step());
   const Step step{view, view.link(link_), outputs, renew};
-  if (!started_) start(step.body);
+  if (!started_) start(step);
   gives_.update(view, step.body, outputs);
   if (seat_ && sits(step)) return;
   if (paused_) {
@@ -186,14 +188,27 @@ void Person::update(const View& view, Outputs& outputs) {
   stroll(place, step);
 }
 
-void Person::start(const LinkView& body) {
+void Person::start(const Step& step) {
+  const LinkView& body = step.body;
   started_ = true;
   progress_.count_from(body.pose.position.head<2>());
   shown_ = body;
   if (!stroll_.has_path()) stroll_.stay_at(body.pose);
-  if (!seat_) return;
+  if (!seat_ || !std::isnan(seat_->at.position.x())) return;  // a command has come before
   seat_->at = body.pose;
-  if (std::isnan(seat_->stand.x())) seat_->stand = body.pose.position;
+  if (!std::isnan(seat_->stand.x())) return;
+  const Vec2 at = step.at();
+  const Storey* storey = storey_at(step.view.home().storeys, step.feet().z());
+  const double floor = storey != nullptr ? storey->elevation : step.feet().z();
+  const Vec2 reach = Vec2::Constant(1.5);  // m
+  const auto beside =
+      best_place(step.view, {at - reach, at + reach}, floor, [&](const Vec2& place) {
+        const Vec3 low(place.x(), place.y(), floor + kLow);  // a bed may be a thing that can move
+        const bool taken = !step.view.crossings(low + Vec3::UnitZ(), low).empty();
+        return taken ? 0.0 : 3.0 - (place - at).norm();
+      });
+  const Vec2 stand = beside.value_or(at);
+  seat_->stand = Vec3(stand.x(), stand.y(), floor);
 }
 
 void Person::stand(Outputs& outputs) {

@@ -68,7 +68,7 @@ class Person : public Device {
   bool is() const {
     return std::holds_alternative<T>(state_);
   }
-  void start(const LinkView& body);
+  void start(const Step& step);
   void start_anew();
   void behave();
   Nanoseconds rests_until(const View& view) const;

@@ -30,7 +30,6 @@ from angen_tools.session.in_process import InProcess
 from angen_tools.world import sdf
 
 SPEED = 1.0  # m/s of people of a script
-ABOVE = 0.002  # m between a seat and who is placed on it
 CORNER = 1  # the number of the one where added sensors are
 FEEDS = ('plug',)  # sensors that devices need
 
@@ -62,10 +61,9 @@ class Actor:
         room = self._home.site.home.room_at(body.x, body.y, body.z + 0.5)
         return f'{room.name if room else ""}||{self.posture}'
 
-    def appear(self, at: tuple[float, float], z: float = 0.0, yaw: float = 0.0,
-               posture: str = 'stand') -> None:
-        self._home.simulator.appear(self.name, *at, z, yaw, SPEED, 'person', posture)
-        self.posture, self.away = posture, False
+    def appear(self, at: tuple[float, float]) -> None:
+        self._home.simulator.appear(self.name, *at, 0.0, 0.0, SPEED, 'person')
+        self.posture, self.away = 'stand', False
 
     def act(self, text: str) -> None:
         """Executes a line of the script; ValueError with what would be right."""
@@ -86,8 +84,8 @@ class Actor:
             place = self._home.seat(words[2], words[0][:-1])
             if self.posture == 'stand':
                 self._before = None if self.away else self._home.at(self.name)
-            x, y, z, yaw = place.pose
-            self.appear((x, y), z + ABOVE, yaw, place.posture)
+            self._home.simulator.settle(self.name, place)
+            self.posture, self.away = place.posture, False
         elif words == ['fidgets'] and self.posture != 'stand' and not self.away:
             self._home.simulator.fidget(self.name, 0.12)
         else:

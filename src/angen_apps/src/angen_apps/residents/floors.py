@@ -98,13 +98,6 @@ class Floors:
         return (0 <= row < rows and 0 <= column < columns
                 and bool(self.free[storey][row, column]))
 
-    def around(self, point: Point, storey: int) -> list[Point]:
-        """Places beside one where people can stay, the nearest first."""
-        places = [(point[0] + away * math.cos(k * math.pi / 4),
-                   point[1] + away * math.sin(k * math.pi / 4))
-                  for away in (0.4, 0.7, 1.0) for k in range(8)]
-        return [place for place in places if self.is_free(place, storey)]
-
     def support(self, place: Place) -> float:
         """z of the surface under a sitting or lying person, m."""
         x, y, z, yaw = place.pose

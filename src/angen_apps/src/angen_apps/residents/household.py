@@ -16,6 +16,7 @@ from angen_tools.common.home import Home
 Process = Iterator[float]  # yields when it continues, s
 LIT = 100.0  # lx of a lamp, in rooms without a sensor
 LATITUDE = 48.0  # degrees, of homes without a latitude of their own
+CLEAR = 1.2  # m: a door with a person nearer is not shut
 
 
 class Household:
@@ -117,11 +118,18 @@ class Household:
         """Whether another person is awake in a room."""
         return any(r.room == room and r.name != who and not r.away for r in self.residents)
 
-    def robot_near(self, x: float, y: float, reach: float) -> bool:
-        """Whether a robot is within `reach` (m) of a place, on any storey."""
+    def doorway_free(self, x: float, y: float, storey: int, who: str) -> bool:
+        """Whether no other person and no robot is in the swing of a leaf."""
+        return all((r.at[0] - x) ** 2 + (r.at[1] - y) ** 2 > CLEAR ** 2
+                   for r in self.residents if r.name != who and not r.away and r.storey == storey
+                   ) and not self.robot_near(x, y, CLEAR, storey)
+
+    def robot_near(self, x: float, y: float, reach: float, storey: int | None = None) -> bool:
+        """Whether a robot is within `reach` (m) of a place, on this storey or on any."""
         robots = [self.simulator.body(model) for kind, _, model, _ in self.simulator.devices()
                   if kind == 'drive']
-        return any((r.x - x) ** 2 + (r.y - y) ** 2 < reach ** 2 for r in robots)
+        return any((r.x - x) ** 2 + (r.y - y) ** 2 < reach ** 2
+                   and (storey is None or self.home.storey_at(r.z) == storey) for r in robots)
 
     def lux(self, room: str) -> float:
         """The illuminance in a room: by its sensor, or else by its lamps and the sun."""

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple, Protocol
 
-from angen_tools.common.home import Home
+from angen_tools.common.home import Home, Place
 
 
 class Body(NamedTuple):
@@ -40,9 +40,12 @@ class Simulator(Protocol):
     def command(self, kind: str, name: str, text: str) -> None:
         """Commands a device; Rejected says why not."""
 
-    def appear(self, name: str, x: float, y: float, z: float, yaw: float, speed: float, body: str,
-               posture: str = 'stand') -> None:
-        """Places a resident there, wherever it was."""
+    def appear(self, name: str, x: float, y: float, z: float, yaw: float, speed: float, body: str
+               ) -> None:
+        """Places a standing resident there, whatever its posture was."""
+
+    def settle(self, name: str, place: Place) -> None:
+        """Makes a resident sit or lie at a place."""
 
     def vanish(self, name: str) -> None:
         """Removes a resident from the home."""

@@ -5,13 +5,14 @@ import json
 import time
 from typing import Any
 
-from angen_apps.residents.figures import walker
+from angen_apps.residents.figures import figure, walker
 from angen_apps.residents.interface import Body, Rejected
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import quaternion, yaw_of
-from angen_tools.common.home import Home
+from angen_tools.common.home import Home, Place
 from angen_tools.session.live import CONNECT_LIMIT, Live as Client
 
+ABOVE = 0.002  # m between the support and a placed figure
 LOOK = 0.02  # s of wall time between two looks at the clock
 START = 120.0  # s of wall time until the simulator has started, which is started beside this
 SILENCE = 10.0  # s of wall time without a clock: the simulator has ended
@@ -96,12 +97,18 @@ class Live:
         from angen_msgs.srv import SendCommand
         self._call('angen/command', SendCommand, target=f'{kind}/{name}', text=text)
 
-    def appear(self, name: str, x: float, y: float, z: float, yaw: float, speed: float, body: str,
-               posture: str = 'stand') -> None:
+    def appear(self, name: str, x: float, y: float, z: float, yaw: float, speed: float, body: str
+               ) -> None:
+        self._put(name, walker(name, speed, body), x, y, z, yaw)
+
+    def settle(self, name: str, place: Place) -> None:
+        x, y, z, yaw = place.pose
+        self._put(name, figure(name, place.posture), x, y, z + ABOVE, yaw)
+
+    def _put(self, name: str, sdf: str, x: float, y: float, z: float, yaw: float) -> None:
         from angen_msgs.srv import Spawn
         self.vanish(name)
-        self._call('angen/spawn', Spawn, name=name, xml=walker(name, speed, body, posture), on='',
-                   pose=_pose(x, y, z, yaw))
+        self._call('angen/spawn', Spawn, name=name, xml=sdf, on='', pose=_pose(x, y, z, yaw))
         self._here.add(name)
 
     def vanish(self, name: str) -> None:

@@ -183,7 +183,7 @@ class Resident(User):
                 or self.household.places.beside(self._tasks[activity.name][index], self._habits)
         if not (yield from self._gets_to(spot, activity, end)):
             return
-        remark = (yield from self._sits(spot)) or remark
+        remark = self._sits(spot) or remark
         self._note('does', activity.name, index)
         self.diary.note(remark)
         self._lamps(activity.dark)
@@ -207,13 +207,12 @@ class Resident(User):
             yield from self._reach(spot, activity.name)
         return True
 
-    def _sits(self, spot: Spot) -> Generator[float, None, str]:
+    def _sits(self, spot: Spot) -> str:
         """Sits or lies down where a spot is for that; returns what was in the way."""
         if spot.place is not None and self.profile.body == 'person':
             try:
                 self.settle(spot)
                 self._turned = 0.0
-                yield self.now + 0.1
             except Rejected as error:
                 return str(error)
         return ''
@@ -242,7 +241,7 @@ class Resident(User):
             yield from self._visit(activity, index, other, lasts)
             if not (yield from self._gets_to(spot, activity, end)):
                 return
-            remark = yield from self._sits(spot)
+            remark = self._sits(spot)
             self._note('does', activity.name, index)
             self.diary.note(remark)
         yield from self._stay(end, CAT if self.profile.body != 'person' else moves)

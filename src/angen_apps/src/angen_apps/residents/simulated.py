@@ -3,11 +3,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from angen_apps.residents.figures import walker
+from angen_apps.residents.figures import figure, walker
 from angen_apps.residents.interface import Body, Rejected
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.geometry import yaw as yaw_of
-from angen_tools.common.home import Home
+from angen_tools.common.home import Home, Place
+
+ABOVE = 0.002  # m between the support and a placed figure
 
 
 class Simulated:
@@ -44,11 +46,18 @@ class Simulated:
         except self._error as error:
             raise Rejected(str(error)) from None
 
-    def appear(self, name: str, x: float, y: float, z: float, yaw: float, speed: float, body: str,
-               posture: str = 'stand') -> None:
+    def appear(self, name: str, x: float, y: float, z: float, yaw: float, speed: float, body: str
+               ) -> None:
+        self._put(name, walker(name, speed, body), (x, y, z, 0.0, 0.0, yaw))
+
+    def settle(self, name: str, place: Place) -> None:
+        x, y, z, yaw = place.pose
+        self._put(name, figure(name, place.posture), (x, y, z + ABOVE, 0.0, 0.0, yaw))
+
+    def _put(self, name: str, sdf: str, pose: tuple[float, ...]) -> None:
         self.vanish(name)
         try:
-            self.world.spawn(walker(name, speed, body, posture), name, (x, y, z, 0.0, 0.0, yaw))
+            self.world.spawn(sdf, name, pose)
         except self._error as error:
             raise Rejected(str(error)) from None
 
