@@ -10,7 +10,7 @@ namespace angen::light {
 /// A lamp and its light.
 struct Solved {
   LampId id;
-  std::uint64_t version = 0;  // of the lamp: grows when it is moved
+  std::uint64_t version = 0;  // grows when the lamp is moved
   std::shared_ptr<const Solution> solution;
 };
 
@@ -28,7 +28,7 @@ struct Request {
     Lamp lamp;
     bool lit = false;
   };
-  std::shared_ptr<const rays::Scene> scene;  // of standing shapes
+  std::shared_ptr<const rays::Scene> scene;  // has the standing shapes
   std::vector<Changes::Moved> moved;         // shapes that differ from the scene before
   std::vector<Of> lamps;
 };

@@ -62,7 +62,7 @@ Sampling sampling_of(const Patch& patch) {
           static_cast<float>(std::sqrt(count * patch.area))};
 }
 
-/// As light goes both ways, links to a patch and those back are samples of the same exchange, form
+/// Light goes both ways: links to a patch and those back are samples of the same exchange, form
 /// factor times area, and rare ones count for both. Of many links the evenly spread ones of one
 /// patch are more accurate. Few are to be expected between patches that are far apart for their
 /// size; in narrow gaps parts of cells see each other by many.
@@ -107,7 +107,7 @@ Field::Link Field::link_of(const rays::Ray& ray, const rays::Hit& hit) {
           static_cast<float>(hit.range)};
 }
 
-/// Of the patch's own links.
+/// Weighs one of the patch's own links.
 void Field::weigh(std::uint32_t patch, Link& link) const {
   if (link.patch != kNoPatch) set_exchange(surfaces_[patch], surfaces_[link.patch], link);
 }

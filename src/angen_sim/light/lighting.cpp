@@ -29,7 +29,7 @@ std::uint64_t next_id() {
 struct Entry {
   Lamp lamp;
   double level;
-  std::shared_ptr<const Solution> solution;  // of the scene that was taken over last, or null
+  std::shared_ptr<const Solution> solution;  // in the scene that was taken over last, or null
   std::uint64_t solved = 0;                  // the version for which it is
   std::uint64_t version = 0;                 // grows when the lamp is moved
   std::uint64_t geometry = 0;                // see Source
@@ -198,7 +198,7 @@ void Lighting::Impl::check_switched() {
   });
 }
 
-/// Of the light of the present scene. Appends the lamps that will be known.
+/// Asks for the light of the present scene. Appends the lamps that will be known.
 Request Lighting::Impl::request(std::vector<LampId>& lit) {
   waiting = changed = switched = lacking = false;
   lamps.each([&](LampId, Entry& entry) {

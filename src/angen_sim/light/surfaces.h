@@ -100,7 +100,7 @@ class Surfaces {
     std::shared_ptr<const Form> form;
     std::vector<std::uint32_t> cells;
     std::unordered_map<std::uint64_t, std::uint32_t> far;  // looked up: places in `cells`
-    std::vector<Key> far_keys;                             // of the cells after those of the faces
+    std::vector<Key> far_keys;  // keys of the cells after those of the faces
     std::vector<std::vector<std::uint32_t>> blocks;
     std::vector<std::uint32_t> free_blocks;
   };

@@ -41,8 +41,8 @@ struct SceneQuery {
     return (among & only(mobility_of(candidate, fixed))) != 0;
   }
 
-  /// Of a solid in a fixed layer or in another one. A fixed one can contain anchored solids, which
-  /// do not move while it exists.
+  /// The mobility of a solid in a fixed layer or in another one. A fixed one can contain anchored
+  /// solids, which do not move while it exists.
   static Mobility mobility_of(const Solid& solid, bool fixed) {
     if (solid.anchored) return Mobility::kAnchored;
     return fixed ? Mobility::kStatic : Mobility::kMoving;

@@ -12,9 +12,9 @@ struct Solid;
 /// cost a tenth of those of the scene, and give the same answers.
 class Nearby {
  public:
-  /// As Scene::blocked() among these mobilities, for a segment within the box.
+  /// Equals Scene::blocked() among these mobilities, for a segment within the box.
   bool blocked(const Vec3& from, const Vec3& to, double margin, Mobilities among) const;
-  /// As Scene::covered(), for a point within the box.
+  /// Equals Scene::covered(), for a point within the box.
   bool covered(const Vec3& point, std::uint32_t except) const;
 
  private:
