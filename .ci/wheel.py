@@ -29,9 +29,9 @@ SYSTEM = re.compile(r'(ld-linux|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+|z)\.so)')
 FILES = ('share/angen_sim/worlds', 'share/angen_apps/config', 'lib/angen_sim/angen_mesh')
 # Names on PyPI of Debian's packages in dependencies.apt; those of ROS, of the page and of MQTT are
 # not needed without ROS. Arrays of NumPy 2 differ from those that Debian's pybind11 reads.
-PYPI = {'numpy': 'numpy<2; python_version<"3.12"', 'lxml': 'lxml', 'argcomplete': 'argcomplete', 'rich': 'rich',
-        'psutil': 'psutil', 'matplotlib': 'matplotlib', 'scipy': 'scipy', 'shapely': 'shapely',
-        'yaml': 'pyyaml', 'pil': 'pillow'}
+PYPI = {'numpy': 'numpy<2; python_version<"3.12"', 'lxml': 'lxml', 'argcomplete': 'argcomplete',
+        'rich': 'rich', 'psutil': 'psutil', 'matplotlib': 'matplotlib', 'scipy': 'scipy',
+        'shapely': 'shapely', 'yaml': 'pyyaml', 'pil': 'pillow'}
 
 ABOUT = """# Angen
 

@@ -28,7 +28,7 @@ def add_automation_test(commands: Any) -> None:
     made = command(commands, 'automation-test', run_test,
                    'tries home automations on simulated people, and judges what they do; needs no '
                    'simulator, no broker and no Home Assistant',
-                   'automation-test examples/automation/motion_light.yaml',
+                   'automation-test examples/automation/hall_light.yaml',
                    'automation-test my_scenario.yaml --automation my_automations.yaml',
                    'automation-test month.yaml --compare naive.yaml good.yaml',
                    more='exit code: 0 all expectations hold, 1 one failed, 2 a mistake in a file, '
