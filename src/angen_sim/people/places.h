@@ -29,8 +29,8 @@ Found find_goal(const Command& command, const View& view, const Vec3& feet);
 /// Whether two names differ at most in upper and lower case.
 bool is_same(const std::string& a, const std::string& b);
 
-/// Of the places of a box on a floor where a person fits, the first of those that `rate` likes
-/// best; it likes none at 0.
+/// The best place, by `rate`, in a box on a floor for a person to fit in; the first if several are
+/// equal. A place rated 0 is never chosen.
 std::optional<Surroundings::Vec2> best_place(
     const View& view, const Eigen::AlignedBox2d& box, double floor,
     const std::function<double(const Surroundings::Vec2&)>& rate);

@@ -24,8 +24,8 @@ class Ride {
 
   struct Advice {
     enum class Step { kWalk, kStand, kLeft, kFailed } step = Step::kStand;
-    Vec2 to = Vec2::Zero();  // where it walks next: of kWalk and kLeft
-    std::string why = {};    // of kFailed
+    Vec2 to = Vec2::Zero();  // where it walks next, for kWalk and kLeft
+    std::string why = {};    // the reason, for kFailed
   };
   /// The next step; `errand` is the walk of the last one.
   Advice update(const View& view, const Errand& errand, Outputs& outputs);

@@ -31,7 +31,7 @@ PUBLISHED = {
     'events an hour at night (1-5 h)': (8.0, 29.0, 'AL sample home 8 to 29'),
     'events in the busiest hour': (279.0, 322.0, 'AL sample home 302, 322, 279 at 8, 12, 18 h'),
 }
-# of the labeled activities of Aruba, its only figures that are published: half to twice these
+# Figures of Aruba's labeled activities are the only ones published: half to twice each is in range.
 ARUBA = {'cook: a day': 7.3, 'cook: median, min': 5.0, 'cook: CV of the count a day': 0.5,
          'eat: CV of the count a day': 1.21, 'wash_dishes: CV of the count a day': 1.99,
          'all: CV of the count a day': 0.24, 'getting up: standard deviation, h': 1.27,

@@ -18,11 +18,11 @@ from angen_tools.common.failure import Failure
 USES = ('kitchen', 'living', 'bedroom', 'bathroom', 'work', 'hall')
 OTHER = 'hall'  # use of a sensor of no room
 KINDS = {'M': 'ON', 'D': 'OPEN', 'I': 'PRESENT'}  # sensors by letter, and what they report
-MINUTES = 1440  # of a day
+MINUTES = 1440  # a day
 AROUND = 10  # minutes before and after, whose sums are features, too
 LONG = 240.0  # minutes since something moved, at most
 EARLIER = 0.6  # share of a real home's days from which one learns; the others are for the test
-SHARES = (0.05, 0.1)  # of these days, with ours
+SHARES = (0.05, 0.1)  # share of these days that is added to ours
 WINDOWS = 60_000  # minutes from which one learns, at most
 TREES = 100
 LIFT = 1.5  # times that a sensor reports more in activities of a use, if it belongs there

@@ -12,10 +12,12 @@ from angen_apps.residents.chance import chance, spread
 from angen_apps.residents.profiles import Profile
 
 WEEK, MONTH, YEAR = 7, 28, 365.25  # days
-LIKES = 0.4  # of the logarithm of how often somebody does a thing, from person to person
-PACES = 0.15, 0.2  # of the logarithm of durations, from person to person and from day to day
+# Standard deviations of logarithms: how often somebody does a thing, from person to person;
+# durations, from person to person and from day to day.
+LIKES = 0.4
+PACES = 0.15, 0.2
 DRIFT = 0.6  # correlation of a day's deviation with a mean that changes from week to week
-SPIRITS = 0.5  # of the logarithm of the odds that one does a thing of effort 1
+SPIRITS = 0.5  # logarithm of the odds by which spirits of 1 favor a thing of effort 1
 ILL = -3.0  # spirits of an ill person
 SPELL = 2, 7  # days of an illness; a cold lasts about a week (CDC)
 STAYS = 0.1  # how often an ill person leaves home, compared with others

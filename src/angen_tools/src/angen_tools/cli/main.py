@@ -119,7 +119,7 @@ def run(arguments: Sequence[str]) -> int:
         angen = sys.modules.get('angen')
         if angen is None or not isinstance(error, angen.Error):
             raise
-        print(f'angen: {error}', file=sys.stderr)  # of a world that cannot be loaded
+        print(f'angen: {error}', file=sys.stderr)  # a world cannot be loaded
         return 1
 
 
