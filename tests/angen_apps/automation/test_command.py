@@ -36,6 +36,18 @@ def test_a_radiator_and_an_open_window() -> None:
     assert again.house.site.world.fingerprint == good.house.site.world.fingerprint
 
 
+def test_weather_is_that_of_the_whole_home(tmp_path: Path) -> None:
+    path = tmp_path / 'cold.yaml'
+    path.write_text("""lasts: 10 s
+weather: [{at: 0 s, outside: 3}, {at: 5 s, outside: -7.5}]
+expect: [{never: nobody in kitchen0}]
+""" + f'automation: {FOLDER / "forgotten_stove_good.yaml"}\n')
+    record, _ = run_scenario(read_scenario(path))
+    outdoors = {record.house.world.state('climate', name)['outside_temperature']
+                for name in record.house.site.world.devices('climate')}
+    assert outdoors == {-7.5}
+
+
 def test_a_forgotten_stove(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """By the command: exit code, JUnit XML, picture, tables."""
     scenario = [FOLDER / 'forgotten_stove.yaml']

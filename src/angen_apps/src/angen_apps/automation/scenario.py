@@ -15,13 +15,15 @@ from angen_tools.common.clock import DAY, duration, time_of_day
 from angen_tools.common.yaml_file import YamlFile, is_list, is_text, line_of
 
 KEYS = ('home', 'start', 'lasts', 'seed', 'residents', 'lamps', 'people', 'add', 'delete',
-        'script', 'faults', 'automation', 'program', 'expect')
+        'script', 'weather', 'faults', 'automation', 'program', 'expect')
 GENERATED = 'generated'
 LONGEST = 366 * DAY
 KINDS = ('expect', 'never', 'always', 'at_most', 'at_least')
 COUNTED = ('changes_of', 'times', 'energy_of', 'time_of', 'notes')
 PLACES = {'at': 'appears at', 'sits_on': 'sits on', 'lies_on': 'lies on'}
 ANSWERS = ('barrier', 'quiet')
+# What weather sets, in all devices of a kind.
+WEATHER = {'outside': 'climate/all Outside', 'daylight': 'daylight/all Set'}  # °C, lx
 
 
 @dataclass(frozen=True)
@@ -133,7 +135,9 @@ class _Reader(YamlFile):
             self._all(top, 'people', self._person), self._all(top, 'add', self._added),
             tuple((self.text(node, 'delete'), line_of(node)) for node in (
                 self.list(top['delete'], 'delete') if 'delete' in top else ())),
-            tuple(sorted(self._all(top, 'script', self._order), key=lambda each: each.time)),
+            tuple(sorted((*self._all(top, 'script', self._order),
+                          *sum(self._all(top, 'weather', self._weather), ())),
+                         key=lambda each: each.time)),
             self._beside(self.text(top['faults'], 'faults')) if 'faults' in top else None,
             tuple(self._beside(one) for one in self._texts(top, 'automation')),
             self._program(top['program']) if 'program' in top else None,
@@ -195,20 +199,32 @@ class _Reader(YamlFile):
 
     def _order(self, node: Any) -> Order:
         parts = self.entries(node, 'a line of the script', ('at', 'do'), ('at', 'do'))
-        text = self.text(parts['at'], 'at')
+        return Order(self._time(parts['at']), self.text(parts['do'], 'do'), line_of(node))
+
+    def _weather(self, node: Any) -> tuple[Order, ...]:
+        parts = self.entries(node, 'a line of the weather', ('at', *WEATHER), ('at',))
+        if len(parts) == 1:
+            raise self.fail(node, f'a line of the weather has {" or ".join(WEATHER)}')
+        time = self._time(parts['at'])
+        return tuple(Order(time, f'{command} {self.number(parts[key], key, -1e6, 1e6):g}',
+                           line_of(node)) for key, command in WEATHER.items() if key in parts)
+
+    def _time(self, node: Any) -> float:
+        """s from the start, of a line at a time."""
+        text = self.text(node, 'at')
         if ':' in text:
             if not self._has_start:
-                raise self.fail(parts['at'], "a time of day needs the scenario's start; or write "
+                raise self.fail(node, "a time of day needs the scenario's start; or write "
                                 'it from there on, as 10 min')
             days, _, clock = text.rpartition('d ')
-            time = self._said(parts['at'], 'at', lambda _: time_of_day(clock.strip()))
+            time = self._said(node, 'at', lambda _: time_of_day(clock.strip()))
             time += DAY * int(days if days.isdigit() else 0) - self._since
         else:
-            time = self._said(parts['at'], 'at', duration)
+            time = self._said(node, 'at', duration)
         if not 0.0 <= time < self._lasts:
-            raise self.fail(parts['at'], f'{text} is not within the scenario, which lasts '
+            raise self.fail(node, f'{text} is not within the scenario, which lasts '
                             f'{self._lasts:g} s')
-        return Order(time, self.text(parts['do'], 'do'), line_of(node))
+        return time
 
     def _program(self, node: Any) -> Program:
         parts = self.entries(node, 'a program', ('run', 'answers', 'quiet', 'rate'), ('run',))
