@@ -26,6 +26,9 @@ def test_lamps_are_where_they_hang(tmp_path: Path) -> None:
     at = {each['entity']: [float(each['style'][key].rstrip('%')) for key in ('left', 'top')]
           for each in card['elements']}
     assert len(at) == len(card['elements']) > 100
+    kinds = {each['entity']: each['type'] for each in card['elements']}
+    assert kinds['sensor.kitchen_light_sensor'] == 'state-label'
+    assert kinds['sensor.entrance_rfid_reader'] == kinds['light.kitchen_lamp'] == 'state-icon'
     poses = {name: pose for _, name, _, pose in angen.World(str(world)).entities('lamp')}
     (x0, y0), (x1, y1) = (poses[name][:2] for name in ('kitchen0', 'workroom0'))
     (a0, b0), (a1, b1) = at['light.kitchen_lamp'], at['light.work_room_lamp']

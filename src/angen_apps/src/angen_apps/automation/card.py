@@ -20,9 +20,10 @@ RINGS = 4     # rounds of places about one that is taken
 
 
 class Element(NamedTuple):
-    """An entity in the picture; left and top in %."""
+    """An entity in the picture, as an icon or a number; left and top in %."""
 
     entity: str
+    is_number: bool
     left: float
     top: float
 
@@ -35,7 +36,7 @@ def write(path: Path, world: Path, axes: Axes, image: str) -> None:
     lines = ['type: picture-elements', f'image: /local/{image}', 'elements:']
     for each in found:
         domain = each.entity.partition('.')[0]
-        kind = 'state-icon' if domain in ICONS else 'state-label'
+        kind = 'state-label' if each.is_number else 'state-icon'
         lines += [f'  - type: {kind}', f'    entity: {each.entity}']
         if domain in TOGGLED:
             lines.append('    tap_action: {action: toggle}')
@@ -62,7 +63,7 @@ def _elements(world: InProcess, axes: Axes) -> Iterator[Element]:
         left, top = _free(100.0 * across, 100.0 * (1.0 - up), taken, wide / high)
         taken.append((left, top))
         seen.add(thing.key)
-        yield Element(name, left, top)
+        yield Element(name, 'unit_of_measurement' in component.config, left, top)
 
 
 def storey_of(home: Home, at: tuple[float, float, float]) -> int:
