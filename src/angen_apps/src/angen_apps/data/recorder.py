@@ -23,6 +23,7 @@ RECENT = 3.0  # s: a resident who moved within this time may have caused motion
 PUSHED = 0.02  # m
 HAND = 30.0  # s: a resident who commanded a device within this time has moved it
 NEAR = 1.5  # m: a resident within this distance may have sat down there
+CLOSE = 2.0  # m: a resident who moves within this distance may have been detected
 HEIGHTS = (0.4, 1.0, 1.6)  # m above the floor, of parts of a person
 WIDE = 0.3  # m: half the width of a person
 HOUSING, FARTHEST = 0.1, 30.0  # m from a sensor to the begin and the end of its sight
@@ -210,17 +211,17 @@ class Recorder:
             resident = next((r for r in self.household.residents if r.name == who), None)
             return (who, resident.item.activity, 'hand') if resident else ('', '', 'noise')
         near = sorted((math.dist(r.at, (sensor.x, sensor.y)), r.number, r) for r in residents)
-        for away, _, resident in near:
-            if sensor.kind == 'item':
-                if away < NEAR:
-                    return resident.name, resident.item.activity, 'seat'
-            elif self._moves(resident, time) and (away < 2.0 or resident.room == sensor.room):
-                return resident.name, resident.item.activity, 'motion'
-        moving = [resident for _, _, resident in near
-                  if sensor.kind == 'area' and self._moves(resident, time)]
-        for resident in [one for one in moving[1:] and moving if self._sees(sensor, one)] or moving:
-            return resident.name, resident.item.activity, 'motion'  # seen through a doorway
-        return '', '', 'noise'
+        if sensor.kind == 'item':
+            sits = next((r for away, _, r in near if away < NEAR), None)
+            return (sits.name, sits.item.activity, 'seat') if sits else ('', '', 'noise')
+        moving = [(away, r) for away, _, r in near if self._moves(r, time)]
+        close = [r for away, r in moving if away < CLOSE or r.room == sensor.room]
+        if not close and sensor.kind == 'area':  # seen through a doorway
+            close = [r for _, r in moving]
+        seen = [r for r in close if r.room == sensor.room or self._sees(sensor, r)] \
+            if len(close) > 1 else close
+        who = next(iter(seen or close), None)
+        return (who.name, who.item.activity, 'motion') if who else ('', '', 'noise')
 
     def _sees(self, sensor: Sensor, resident: Any) -> bool:
         """Whether no wall is between a sensor and a resident."""
