@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <future>
 #include <memory>
 #include <vector>
 
@@ -18,6 +20,7 @@ struct Solved {
 struct Balance {
   Field field;
   std::vector<Solved> solved;
+  std::vector<Solved> ahead;  // found before it was asked for; null if it is outdated
 };
 
 /// What there is to balance.
@@ -37,7 +40,24 @@ struct Request {
 bool any_in(const Eigen::AlignedBox3d& box, const std::vector<Changes::Moved>& moved);
 
 /// The light of all lit lamps, and of others whose light is still that of before. The same request
-/// gives the same light, whatever is known before; on any thread.
+/// gives the same light, whatever is known before and was found ahead; on any thread.
 Balance balance(Balance before, const Request& request);
+
+/// Finds the light of lamps before it is asked for, on another thread, until it is stopped.
+class LookAhead {
+ public:
+  LookAhead(Balance from, std::vector<Request::Of> lamps);
+  ~LookAhead() { stop_ = true; }
+  LookAhead(const LookAhead&) = delete;
+  LookAhead& operator=(const LookAhead&) = delete;
+
+  void stop() { stop_ = true; }
+  /// What it was given and has found. Once.
+  Balance take() { return result_.get(); }
+
+ private:
+  std::atomic<bool> stop_{false};
+  std::future<Balance> result_;  // its destructor waits for the thread
+};
 
 }  // namespace angen::light

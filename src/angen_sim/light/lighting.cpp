@@ -64,6 +64,7 @@ struct Lighting::Impl {
   void balance_now();
   void start(Nanoseconds now);
   bool is_due(Nanoseconds now) const;
+  std::vector<Request::Of> unforeseen() const;
 
   Receiver& receiver(Probe& probe, const Pose& pose);
   void drop_near(const Eigen::AlignedBox3d& box) const;
@@ -89,6 +90,8 @@ struct Lighting::Impl {
   // The lit_revision, and the patches forgotten before, of `reflected`.
   std::pair<std::uint64_t, std::uint64_t> reflected_revision{0, 0};
   std::uint64_t lit_revision = 0;
+  std::vector<Solved> ahead;           // see Balance
+  std::unique_ptr<LookAhead> looking;  // from what is known, until the next balance is started
 };
 
 Lighting::Lighting(const rays::Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
@@ -217,7 +220,7 @@ Request Lighting::Impl::request(std::vector<LampId>& lit) {
 }
 
 Balance Lighting::Impl::base() const {
-  Balance known{field, {}};
+  Balance known{field, {}, ahead};
   lamps.each([&](LampId lamp, const Entry& entry) {
     if (entry.solution) known.solved.push_back({lamp, entry.solved, entry.solution});
   });
@@ -226,6 +229,7 @@ Balance Lighting::Impl::base() const {
 
 void Lighting::Impl::take(const Balance& balance, const std::vector<LampId>& lit) {
   field = balance.field;
+  ahead = balance.ahead;
   ++lit_revision;
   lamps.each([](LampId, Entry& entry) { entry.solution = nullptr; });
   for (const Solved& each : balance.solved) {
@@ -259,7 +263,12 @@ void Lighting::Impl::start(Nanoseconds now) {
   Request of = request(next.lit);
   next.moved = of.moved;
   const auto shared = std::make_shared<const Request>(std::move(of));
-  if (pending.empty()) {
+  if (looking) {
+    looking->stop();
+    next.result = std::async(std::launch::async, [before = std::move(looking), shared] {
+                    return std::make_shared<const Balance>(balance(before->take(), *shared));
+                  }).share();
+  } else if (pending.empty()) {
     next.result = std::async(std::launch::async, [before = base(), shared]() mutable {
                     return std::make_shared<const Balance>(balance(std::move(before), *shared));
                   }).share();
@@ -269,6 +278,36 @@ void Lighting::Impl::start(Nanoseconds now) {
                   }).share();
   }
   pending.push_back(std::move(next));
+}
+
+/// The lamps without light, for which it was not looked for either.
+std::vector<Request::Of> Lighting::Impl::unforeseen() const {
+  std::vector<Request::Of> of;
+  lamps.each([&](LampId lamp, const Entry& entry) {
+    const auto is_of = [&](const Solved& each) { return each.id == lamp; };
+    if (entry.solution || std::any_of(ahead.begin(), ahead.end(), is_of)) return;
+    of.push_back({lamp, entry.version, entry.lamp, false});
+  });
+  return of;
+}
+
+bool Lighting::may_look_ahead() const {
+  return impl_->keeps_time && !impl_->looking && impl_->pending.empty() &&
+         !impl_->unforeseen().empty();
+}
+
+void Lighting::look_ahead() {
+  Impl& own = *impl_;
+  own.follow();
+  Balance from = own.base();
+  if (own.changes.any()) {
+    if (!dark() || !from.solved.empty()) return;  // a balance will take them over
+    std::vector<LampId> none;
+    const Request of = own.request(none);
+    own.field.update(of.scene, of.moved);
+    from.field = own.field;
+  }
+  own.looking = std::make_unique<LookAhead>(std::move(from), own.unforeseen());
 }
 
 void Lighting::keep_time() {

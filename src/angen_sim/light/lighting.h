@@ -60,6 +60,11 @@ class Lighting {
   /// it waits for that light and takes it over as a whole: until then lamps have the light of
   /// before, and a lamp without one is dark. The scene must be committed.
   void advance(Nanoseconds now);
+  /// Begins to find the light of lamps that were dark so far, on another thread, so that less is
+  /// left to find when they are lit. No result depends on it. The scene must be committed.
+  void look_ahead();
+  /// Whether look_ahead() may have something to do; it needs keep_time().
+  bool may_look_ahead() const;
   /// When advance() has something to do, if no standing shape changes before.
   std::optional<Nanoseconds> next() const;
 

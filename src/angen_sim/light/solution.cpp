@@ -43,20 +43,26 @@ std::uint32_t place_in(const Field& field, const Solution& solution, std::uint32
 
 class Solver {
  public:
-  Solver(const Unsolved& of, Field& field)
-      : of_(of), lamp_(of.lamp), field_(field), world_(field.scene().static_bounds()) {}
+  /// All ends soon, with nothing of use, once `stop` is set.
+  Solver(const Unsolved& of, Field& field, const std::atomic<bool>& stop)
+      : of_(of),
+        lamp_(of.lamp),
+        field_(field),
+        stop_(stop),
+        world_(field.scene().static_bounds()) {}
 
   /// Adds patches and links to the field.
   void find_patches() {
     light_first();
-    for (std::size_t i = 0; i < out_.patches.size(); ++i) follow(i);
+    for (std::size_t i = 0; i < out_.patches.size() && !stop_; ++i) follow(i);
   }
 
   /// After find_patches(); reads the field only.
   Solution solve() {
+    if (stop_) return {};
     list_arrivals();
     list_exchanges();
-    for (int i = 0; i < kMaxBounces && !out_.patches.empty() && bounce(); ++i) {
+    for (int i = 0; i < kMaxBounces && !out_.patches.empty() && !stop_ && bounce(); ++i) {
     }
     finish();
     return std::move(out_);
@@ -85,7 +91,9 @@ class Solver {
     const std::vector<rays::Ray> rays = first_rays(lamp_, world_);
     std::vector<rays::Hit> hits(rays.size());
     field_.scene().cast(rays.data(), hits.data(), rays.size(), kStanding);
-    for (std::size_t i = 0; i < rays.size(); ++i) reach(field_.link_of(rays[i], hits[i]).patch);
+    for (std::size_t i = 0; i < rays.size() && !stop_; ++i) {
+      reach(field_.link_of(rays[i], hits[i]).patch);
+    }
   }
 
   bool is_near(std::uint32_t patch) const {
@@ -245,6 +253,7 @@ class Solver {
   const Unsolved of_;
   const Lamp& lamp_;
   Field& field_;
+  const std::atomic<bool>& stop_;
   Eigen::AlignedBox3d world_;  // m, bounds of static shapes
   Solution out_;
   std::vector<std::uint32_t> places_;  // by patch: its index in the solution, or kNoPatch
@@ -281,7 +290,8 @@ std::vector<std::shared_ptr<const Solution>> solve(const std::vector<Unsolved>& 
                                                    Field& field) {
   std::vector<Solver> solvers;
   solvers.reserve(lamps.size());
-  for (const Unsolved& each : lamps) solvers.emplace_back(each, field).find_patches();
+  const std::atomic<bool> stop{false};
+  for (const Unsolved& each : lamps) solvers.emplace_back(each, field, stop).find_patches();
   std::vector<std::shared_ptr<const Solution>> solved(lamps.size());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
@@ -297,6 +307,15 @@ std::vector<std::shared_ptr<const Solution>> solve(const std::vector<Unsolved>& 
   work();
   for (std::future<void>& other : others) other.get();
   return solved;
+}
+
+std::shared_ptr<const Solution> solve(const Lamp& lamp, Field& field,
+                                      const std::atomic<bool>& stop) {
+  const std::vector<Changes::Moved> none;
+  Solver solver({lamp, nullptr, none}, field, stop);
+  solver.find_patches();
+  auto solved = std::make_shared<const Solution>(solver.solve());
+  return stop ? nullptr : solved;
 }
 
 float direct_on(const Field& field, const Solution& solution, std::uint32_t patch) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <unordered_map>
@@ -38,6 +39,10 @@ struct Unsolved {
 /// whatever is known.
 std::vector<std::shared_ptr<const Solution>> solve(const std::vector<Unsolved>& lamps,
                                                    Field& field);
+
+/// The light of one lamp of which nothing is known, found on this thread; null once `stop` is set.
+std::shared_ptr<const Solution> solve(const Lamp& lamp, Field& field,
+                                      const std::atomic<bool>& stop);
 
 /// lx on a patch directly from the lamp; 0 if the solution does not contain the patch.
 float direct_on(const Field& field, const Solution& solution, std::uint32_t patch);

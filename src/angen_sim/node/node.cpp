@@ -102,6 +102,7 @@ Node::End Node::run(const std::atomic<bool>& stop) {
       master.emplace();
     }
     if (Registrar::instance().idle()) inbox_.published();
+    if (rate_ > 0.0) simulation_.look_ahead();
     pace(*snapshot, stop);
   }
   return master && master->lost() ? End::kMasterLost : End::kStopped;

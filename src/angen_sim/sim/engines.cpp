@@ -16,6 +16,7 @@ namespace angen::sim {
 
 namespace {
 
+constexpr Nanoseconds kSettled = 6 * kSecond;  // loose objects of the world have come to rest
 constexpr float kNight = 0.1F;  // least of SDF's ambient: the light of a dark world for cameras
 
 Eigen::Vector3f with_luminance_one(const Eigen::Vector3f& color) {
@@ -247,6 +248,12 @@ void Engines::advance_light(Nanoseconds now) {
   light_followed_ = movers.now() + 1;
   rays.commit();
   light.advance(now);
+}
+
+void Engines::look_ahead(Nanoseconds now) {
+  if (now < kSettled || !light.may_look_ahead()) return;
+  rays.commit();
+  light.look_ahead();
 }
 
 void Engines::follow(const Parts& parts, std::uint32_t link) {

@@ -71,6 +71,8 @@ class Engines {
   void advance_light(Nanoseconds now);
   /// When advance_light() has something to do, at the earliest.
   Nanoseconds next_light() const;
+  /// To be called after ticks that follow a clock: see light::Lighting::look_ahead().
+  void look_ahead(Nanoseconds now);
   /// Where the limbs of a link are in its frame from now on.
   void place_limbs(physics::LinkId link, std::shared_ptr<const std::vector<Pose>> limbs);
   /// To be called before an image: limbs follow their links.

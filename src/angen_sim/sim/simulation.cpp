@@ -309,6 +309,8 @@ std::shared_ptr<const Snapshot> Simulation::leap(Nanoseconds until, bool long_st
   return impl_->take_tick(until, long_steps);
 }
 
+void Simulation::look_ahead() { impl_->building.engines().look_ahead(impl_->next.time); }
+
 std::shared_ptr<const Snapshot> Simulation::snapshot() const {
   const std::lock_guard<std::mutex> lock(impl_->latest_mutex);
   return impl_->latest;

@@ -43,6 +43,10 @@ class Simulation {
   /// where they would be.
   std::shared_ptr<const Snapshot> leap(Nanoseconds until, bool long_steps);
 
+  /// To be called after ticks that follow a clock: spare CPU time is used to find light sooner. No
+  /// result depends on it. The thread that ticks.
+  void look_ahead();
+
   /// The latest snapshot; never null.
   std::shared_ptr<const Snapshot> snapshot() const;
 

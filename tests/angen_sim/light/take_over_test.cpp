@@ -1,7 +1,9 @@
 // Light over time: when lamps and moved shapes are taken over, and the readings meanwhile.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <thread>
 #include <vector>
 
 #include "core/random.h"
@@ -232,6 +234,44 @@ TEST(TakeOver, AnotherReaderChangesNoReading) {
     if (i > 0 && alone[i].illuminance != alone[i - 1].illuminance) ++different;
   }
   EXPECT_GT(different, 15);
+}
+
+/// The other lamp is lit at 20: until then all of its light was found, or a part.
+TEST(TakeOver, LookingAheadChangesNoReading) {
+  const auto alone = readings_while_things_change([](TwoRooms&, int) {});
+  for (const int wait : {2000, 0}) {  // ms
+    int begun = 0;
+    const auto ahead = readings_while_things_change([&](TwoRooms& rooms, int i) {
+      if (rooms.lighting.may_look_ahead()) {
+        rooms.lighting.look_ahead();
+        ++begun;
+      }
+      if (i == 18) std::this_thread::sleep_for(std::chrono::milliseconds(wait));
+    });
+    EXPECT_GT(begun, 0);
+    ASSERT_EQ(alone.size(), ahead.size());
+    for (std::size_t i = 0; i < alone.size(); ++i) expect_same_bits(alone[i], ahead[i]);
+  }
+}
+
+TEST(TakeOver, WhatWasFoundAheadIsOfTheShapesThatAreThereWhenALampIsLit) {
+  TwoRooms rooms, fresh;
+  fresh.open();
+  rooms.lighting.set_level(rooms.lamp_id, 0.0);
+  rooms.lighting.keep_time();
+  Ticks ticks;
+  rooms.scene.move(rooms.door, {Vec3(4.3, 1.6, 1.005), from_rpy(0, 0, 0.7)});
+  rooms.scene.commit();
+  ASSERT_TRUE(rooms.lighting.may_look_ahead());
+  rooms.lighting.look_ahead();
+  EXPECT_FALSE(rooms.lighting.may_look_ahead());
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  rooms.open();
+  ticks.advance(rooms.lighting);
+  rooms.lighting.set_level(rooms.lamp_id, 1.0);
+  ticks.advance(rooms.lighting, 101);
+  expect_same_bits(measure(rooms.lighting, rooms.dark_sensor),
+                   measure(fresh.lighting, fresh.dark_sensor));
 }
 
 TEST(TakeOver, ADoorThatMovedInTheDarkIsKnownWhenALampIsLit) {
