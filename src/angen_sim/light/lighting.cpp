@@ -91,6 +91,7 @@ struct Lighting::Impl {
   std::pair<std::uint64_t, std::uint64_t> reflected_revision{0, 0};
   std::uint64_t lit_revision = 0;
   std::vector<Solved> ahead;           // see Balance
+  bool foreseen = false;               // unforeseen() was empty, and no lamp is new since
   std::unique_ptr<LookAhead> looking;  // from what is known, until the next balance is started
 };
 
@@ -114,6 +115,7 @@ LampId Lighting::add(const Lamp& lamp, double level) {
   Entry entry{lamp, level, nullptr};
   entry.switched_on = entry.lit();
   impl_->switched = impl_->switched || entry.lit();
+  impl_->foreseen = false;
   return impl_->lamps.add(std::move(entry));
 }
 
@@ -230,6 +232,7 @@ Balance Lighting::Impl::base() const {
 void Lighting::Impl::take(const Balance& balance, const std::vector<LampId>& lit) {
   field = balance.field;
   ahead = balance.ahead;
+  foreseen = false;
   ++lit_revision;
   lamps.each([](LampId, Entry& entry) { entry.solution = nullptr; });
   for (const Solved& each : balance.solved) {
@@ -292,8 +295,11 @@ std::vector<Request::Of> Lighting::Impl::unforeseen() const {
 }
 
 bool Lighting::may_look_ahead() const {
-  return impl_->keeps_time && !impl_->looking && impl_->pending.empty() &&
-         !impl_->unforeseen().empty();
+  if (!impl_->keeps_time || impl_->foreseen || impl_->looking || !impl_->pending.empty()) {
+    return false;
+  }
+  impl_->foreseen = impl_->unforeseen().empty();
+  return !impl_->foreseen;
 }
 
 void Lighting::look_ahead() {

@@ -11,6 +11,8 @@ constexpr int kKeptInAll = 64 << 20;    // bytes
 
 }  // namespace
 
+void use_one_heap() { mallopt(M_ARENA_MAX, 1); }
+
 // Once set, malloc does not raise the limits with freed blocks.
 void keep_freed_memory(bool keep) {
   mallopt(M_MMAP_THRESHOLD, keep ? kLargestKept : kReturned);

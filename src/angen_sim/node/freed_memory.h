@@ -7,4 +7,8 @@ namespace angen::node {
 /// more than the messages that are written to them.
 void keep_freed_memory(bool keep);
 
+/// All threads use one heap. Threads that find light free what others have made: with a heap each,
+/// a node of lamps that come and go keeps 370 MB instead of 180.
+void use_one_heap();
+
 }  // namespace angen::node

@@ -296,7 +296,8 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
 
 int main(int argc, char** argv) {
   std::setlocale(LC_NUMERIC, "C");
-  std::setlocale(LC_CTYPE, "C.UTF-8");    // log4cxx writes other letters as ? otherwise
+  std::setlocale(LC_CTYPE, "C.UTF-8");  // log4cxx writes other letters as ? otherwise
+  angen::node::use_one_heap();
   angen::node::keep_freed_memory(false);  // by itself malloc comes to keep 64 MB
   try {
     const std::vector<std::string> raw(argv + 1, argv + argc);
