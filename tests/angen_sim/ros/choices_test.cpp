@@ -23,10 +23,12 @@ std::vector<std::string> words_of(const std::string& kind, const std::string& fi
 TEST(Choices, OfAPerson) {
   using State = angen_msgs::PersonState;
   const std::vector<std::string> words = words_of("person", "mode");
-  ASSERT_EQ(words.size(), 3U);
+  ASSERT_EQ(words.size(), 5U);
   EXPECT_EQ(words[State::STANDING], "STANDING");
   EXPECT_EQ(words[State::WALKING], "WALKING");
   EXPECT_EQ(words[State::BLOCKED], "BLOCKED");
+  EXPECT_EQ(words[State::SITTING], "SITTING");
+  EXPECT_EQ(words[State::LYING], "LYING");
 }
 
 TEST(Choices, OfDoorsWindowsAndCabinets) {

@@ -168,7 +168,7 @@ TEST(DeviceMaker, DescribesTheBodyThatAPlugInDeclares) {
   EXPECT_GT(body.anatomy.side_stiffness, 0.0);
   std::set<std::string> visuals;
   for (const desc::Visual& visual : body.visuals) visuals.insert(visual.name);
-  EXPECT_EQ(body.anatomy.limbs.size(), 8U);
+  EXPECT_EQ(body.anatomy.limbs.size(), 9U);
   for (const Anatomy::Names& limb : body.anatomy.limbs) {
     for (const std::string& visual : limb) EXPECT_EQ(visuals.count(visual), 1U) << visual;
   }
