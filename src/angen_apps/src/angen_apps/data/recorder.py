@@ -220,8 +220,8 @@ class Recorder:
             close = [r for _, r in moving]
         seen = [r for r in close if r.room == sensor.room or self._sees(sensor, r)] \
             if len(close) > 1 else close
-        who = next(iter(seen or close), None)
-        return (who.name, who.item.activity, 'motion') if who else ('', '', 'noise')
+        one = next(iter(seen or close), None)
+        return (one.name, one.item.activity, 'motion') if one else ('', '', 'noise')
 
     def _sees(self, sensor: Sensor, resident: Any) -> bool:
         """Whether no wall is between a sensor and a resident."""
