@@ -222,3 +222,6 @@ def test_a_wall_is_between_a_sensor_and_who_is_in_another_room(home):
         at=site.floors.spots(room, 1, Random(1))[0], storey=0))
         for room in ('kitchen0', 'bathroom0', 'bedroom0')}
     assert sees == {'kitchen0': True, 'bathroom0': False, 'bedroom0': False}
+    door = next(door for door in site.home.doors if door.name == 'kitchen0')
+    at = door.pose[0], door.pose[1] + 0.5
+    assert recorder._to_room(SimpleNamespace(at=at), 'kitchen0') == pytest.approx(0.5)

@@ -214,14 +214,13 @@ class Recorder:
         if sensor.kind == 'item':
             sits = next((r for away, _, r in near if away < NEAR), None)
             return (sits.name, sits.item.activity, 'seat') if sits else ('', '', 'noise')
-        moving = [(away, r) for away, _, r in near if self._moves(r, time)]
-        close = [r for away, r in moving if away < CLOSE or r.room == sensor.room]
-        if not close and sensor.kind == 'area':  # seen through a doorway
-            close = [r for _, r in moving]
-        seen = [r for r in close if r.room == sensor.room or self._sees(sensor, r)] \
-            if len(close) > 1 else close
-        one = next(iter(seen or close), None)
-        return (one.name, one.item.activity, 'motion') if one else ('', '', 'noise')
+        moving = [r for away, _, r in near if self._moves(r, time) and (
+            sensor.kind == 'area' or away < CLOSE or r.room == sensor.room)]
+        if sensor.kind == 'area' and len(moving) > 1:  # it sees through doorways
+            moving = [r for r in moving if r.room == sensor.room or self._sees(sensor, r)] \
+                or sorted(moving, key=lambda r: self._to_room(r, sensor.room))
+        return (moving[0].name, moving[0].item.activity, 'motion') if moving \
+            else ('', '', 'noise')
 
     def _sees(self, sensor: Sensor, resident: Any) -> bool:
         """Whether no wall is between a sensor and a resident."""
@@ -235,6 +234,11 @@ class Recorder:
         begin = (sensor.x, sensor.y, sensor.z) + HOUSING * ways
         clear = HOUSING + self.site.world.cast(begin, ways, FARTHEST)
         return bool((clear > lengths - WIDE).any())
+
+    def _to_room(self, resident: Any, room: str) -> float:
+        """m from a resident to the nearest doorway of a room; 0 if it has none."""
+        return min((math.dist(resident.at, door.pose[:2]) for door in self.site.home.doors
+                    if door.kind != 'window' and room in door.rooms), default=0.0)
 
     def _moves(self, resident: Any, time: float) -> bool:
         """Whether a resident walks, has moved a moment before, or was pushed by a leaf."""

@@ -250,9 +250,15 @@ def _fronts(findings: Findings, home: Written) -> None:
         begin = float(row['start'])
         if near:
             findings.say('who uses a thing opens it', any(
-                value in ON and begin - LATE < time < begin + FULL
-                for s in near for time, value in home.states(s['id'])),
+                _is_open(home.states(s['id']), begin - LATE, begin + FULL) for s in near),
                 f'{row["resident"]} at {row["start"]}: {row["activity"]} at {row["thing"]}')
+
+
+def _is_open(states: list[tuple[float, str]], begin: float, end: float) -> bool:
+    """Whether a front opens between two times, or is open then: it may not have shut yet."""
+    last = bisect_left(states, (end, ''))
+    first = bisect_right(states, (begin, '~'))
+    return any(value in ON for _, value in states[max(first - 1, 0):last])
 
 
 def _plug_of(home: Written) -> dict[str, str]:
