@@ -217,8 +217,9 @@ class Recorder:
         moving = [r for away, _, r in near if self._moves(r, time) and (
             sensor.kind == 'area' or away < CLOSE or r.room == sensor.room)]
         if sensor.kind == 'area' and len(moving) > 1:  # it sees through doorways
-            moving = [r for r in moving if r.room == sensor.room or self._sees(sensor, r)] \
-                or sorted(moving, key=lambda r: self._to_room(r, sensor.room))
+            moving = [r for r in moving if r.room == sensor.room] or sorted(
+                moving, key=lambda r: (not r.walks, not self._sees(sensor, r),
+                                       self._to_room(r, sensor.room)))
         return (moving[0].name, moving[0].item.activity, 'motion') if moving \
             else ('', '', 'noise')
 
