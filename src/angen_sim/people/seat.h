@@ -17,9 +17,9 @@ struct Seat {
   Vec3 stand = Vec3::Zero();  // m, world: its feet before it sat down
 };
 
-/// The seat of a command Sit or Lie to a person whose body would stand at `body` (world): a place
-/// of a thing within its reach that nobody is at, or to lie the floor that it stands on; or why
-/// there is none.
+/// The seat of a command Sit or Lie to a person whose body would stand at `body` (world). It is a
+/// free seat or bed within reach, or for Lie the floor below the person. If there is none,
+/// `why_not` says why.
 struct FoundSeat {
   std::optional<Seat> seat;
   std::string why_not;
