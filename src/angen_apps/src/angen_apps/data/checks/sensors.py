@@ -255,10 +255,10 @@ def _fronts(findings: Findings, home: Written) -> None:
 
 
 def _is_open(states: list[tuple[float, str]], begin: float, end: float) -> bool:
-    """Whether a front opens between two times, or is open then: it may not have shut yet."""
+    """Whether a front opens between two times, or opened a short time before and is open still."""
     last = bisect_left(states, (end, ''))
-    first = bisect_right(states, (begin, '~'))
-    return any(value in ON for _, value in states[max(first - 1, 0):last])
+    first = max(bisect_right(states, (begin, '~')) - 1, 0)
+    return any(value in ON and time > begin - SHUTS for time, value in states[first:last])
 
 
 def _plug_of(home: Written) -> dict[str, str]:
