@@ -121,7 +121,7 @@ std::string Person::why_no_way(const Step& step) const {
   return navigator_.why_not(step.view, step.feet(), errand_->to());
 }
 
-// What is in the way of a person who does not get on.
+// What blocks a person who makes no progress.
 std::string Person::what_holds(const Step& step) const {
   const Vec2 way = navigator_.target().value_or(errand_->to()) - step.at();
   const std::string model = Surroundings::model_ahead(step.view, step.feet(), way.normalized());
