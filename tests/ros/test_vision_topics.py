@@ -79,14 +79,16 @@ def test_the_bumper_and_the_joints_are_published(angen: Angen) -> None:
     assert contacts.states == []
     joints = angen.wait("/joint_states", JointState)
     assert joints.name == ["left_wheel_joint", "right_wheel_joint"]
-    assert len(joints.position) == len(joints.velocity) == 2
+    assert len(joints.position) == len(joints.velocity) == len(joints.effort) == 2
 
 
 def test_wheels_turn_as_fast_as_the_robot_drives(angen: Angen) -> None:
     with Inbox("/joint_states", JointState) as states:
         angen.send("/cmd_vel", Twist(linear=Vector3(x=0.2)))
+        states.wait(lambda s: min(s.effort) > 0.0, "wheels that drive", 20)
         turning = states.wait(lambda s: min(s.velocity) > 3.0, "wheels that turn", 20)
         angen.send("/cmd_vel", Twist())
+        states.wait(lambda s: max(s.effort) < 0.0, "wheels that brake", 20)
     angen.wait("/joint_states", JointState, lambda s: max(map(abs, s.velocity)) == 0.0)
     assert turning.velocity[0] == pytest.approx(turning.velocity[1], rel=0.05)
 

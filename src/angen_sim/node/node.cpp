@@ -84,7 +84,7 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       markers_(handle_, readings_),
       scene_(handle_),
       publishers_(handle_, simulation, settings.topics, readings_),
-      joints_(handle_),
+      joints_(handle_, simulation),
       commands_(handle_, inbox_, settings.plugins),
       services_(inbox_, events_, settings.models, settings.topics),
       gazebo_(make_extension("libangen_gazebo.so",

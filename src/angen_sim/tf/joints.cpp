@@ -20,12 +20,11 @@ void JointStates::on_structure(const sim::Snapshot& snapshot, const std::vector<
   sources_.clear();
   for (const Robot& robot : robots) {
     Source source;
-    for (std::uint32_t i = 0; i < structure.joints.size(); ++i) {
-      const sim::JointEntry& entry = structure.joints[i];
+    for (const sim::JointEntry& entry : structure.joints) {
       if (entry.model != robot.model) continue;
       const desc::Joint& joint = structure.models[entry.model]->joints[entry.joint];
       if (joint.axes.size() != 1) continue;
-      source.joints.push_back(i);
+      source.joints.joints.push_back(entry.name);
       source.names.push_back(joint.name);
     }
     for (const std::string& topic : robot_topics(robot, "joint_states")) {
@@ -44,25 +43,19 @@ void JointStates::publish(const sim::Snapshot& snapshot) {
   const Nanoseconds slot = snapshot.time / kJointPeriod;
   if (slot == slot_) return;
   slot_ = slot;
-  const double since = to_seconds(snapshot.time - std::exchange(time_, snapshot.time));
-  for (Source& source : sources_) {
-    const std::vector<double> before = std::exchange(source.before, {});
-    for (const std::uint32_t joint : source.joints) {
-      source.before.push_back(snapshot.joint_positions[joint]);
-    }
-    for (const LazyPublisher& made : source.publishers) {
-      made.publish([&] {
-        sensor_msgs::JointState message;
-        message.header.stamp = to_ros(snapshot.time);
-        message.name = source.names;
-        message.position = source.before;
-        for (std::size_t i = 0; i < source.before.size(); ++i) {
-          const bool known = before.size() == source.before.size() && since > 0.0;
-          message.velocity.push_back(known ? (source.before[i] - before[i]) / since : 0.0);
-        }
-        return message;
-      });
-    }
+  for (const Source& source : sources_) {
+    const auto message = [&] {
+      sensor_msgs::JointState states;
+      states.header.stamp = to_ros(snapshot.time);
+      states.name = source.names;
+      for (const physics::JointState& joint : simulation_.observe(source.joints).joints) {
+        states.position.push_back(joint.position);
+        states.velocity.push_back(joint.velocity);
+        states.effort.push_back(joint.effort);
+      }
+      return states;
+    };
+    for (const LazyPublisher& made : source.publishers) made.publish(message);
   }
 }
 

@@ -6,32 +6,35 @@
 #include <vector>
 
 #include "ros/lazy_publisher.h"
+#include "sim/simulation.h"
 #include "tf/frames.h"
 
 namespace angen::node {
 
-/// Positions of each robot's joints (rad or m), 50 times per simulated second while it has
-/// subscribers, as robot_state_publisher expects them.
+/// Positions (rad or m), velocities and efforts (N m or N, of joint and motor along the axis) of
+/// each robot's joints, 50 times per simulated second while it has subscribers, as
+/// robot_state_publisher expects them.
 class JointStates {
  public:
-  explicit JointStates(ros::NodeHandle& node) : node_(node) {}
+  /// The simulation is asked on the thread that ticks it.
+  JointStates(ros::NodeHandle& node, const sim::Simulation& simulation)
+      : node_(node), simulation_(simulation) {}
 
   void on_structure(const sim::Snapshot& snapshot, const std::vector<Robot>& robots);
   void publish(const sim::Snapshot& snapshot);
 
  private:
   struct Source {
-    std::vector<std::uint32_t> joints;  // in Structure::joints
-    std::vector<std::string> names;     // without the model's
+    sim::Observation joints;
+    std::vector<std::string> names;  // without the model's
     std::vector<LazyPublisher> publishers;
-    std::vector<double> before;  // their positions at the last message; empty: there was none
   };
 
   ros::NodeHandle& node_;
+  const sim::Simulation& simulation_;
   std::map<std::string, LazyPublisher> publishers_;  // by topic
   std::vector<Source> sources_;
   Nanoseconds slot_ = -1;
-  Nanoseconds time_ = 0;  // time of the last message
 };
 
 }  // namespace angen::node
