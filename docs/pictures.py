@@ -44,6 +44,7 @@ PICTURES = {
                   'examples/automation/lights_naive.yaml examples/automation/lights_good.yaml '
                   '--out OUT', {'compare.png': 'automation_compare.png'}),
     'home_assistant': Made('python3 bench/automation/home_assistant.py picture'),
+    'node_red': Made('python3 bench/automation/node_red.py picture'),
     'task': Made('angen task patrol --out OUT', {'floor_0.png': 'patrol_floor_0.png',
                                                  'floor_1.png': 'patrol_floor_1.png'}),
     'controllers': Made('angen pid door --out OUT && angen pid elevator --out OUT',

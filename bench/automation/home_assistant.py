@@ -25,15 +25,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Iterator
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path += [str(ROOT), str(ROOT / 'tests/ros')]
-from harness import Master, end, free_port, until  # noqa: E402
-from shipped import EXAMPLES, each_variant  # noqa: E402
+from bridged import ROOT, bridged, save
+from shipped import EXAMPLES, each_variant
 
-from angen_tools.cli.main import run  # noqa: E402
-from tests.angen_apps.mqtt.mosquitto import Client, Mosquitto  # noqa: E402
+from angen_tools.cli.main import run
+from harness import free_port
+from tests.angen_apps.mqtt.mosquitto import Client
 
-SCRIPT = ROOT / 'src/angen_apps/scripts/mqtt'
 VERSION = '2024.3.3'
 NEEDED = ('paho-mqtt==1.6.1', 'janus', 'aiohttp-fast-url-dispatcher', 'aiohttp-zlib-ng', 'numpy',
           'home-assistant-frontend', 'Pillow', 'psutil-home-assistant', 'SQLAlchemy',
@@ -62,31 +60,17 @@ def installed(folder: Path) -> Path:
 def beside_bridge(python: Path, folder: Path) -> Iterator[tuple[dict[str, Any], Client]]:
     """Home Assistant beside the bridge of the built-in building: what it says, and the broker's
     client."""
-    mosquitto, master = Mosquitto(folder), Master(folder)
-    os.environ.update(master.environment)
-    node = master.node(ROOT / 'worlds/angen.world', folder / 'log')
-    client = Client(mosquitto.port)
-    bridge = subprocess.Popen([sys.executable, str(SCRIPT), '--broker',
-                               f'127.0.0.1:{mosquitto.port}'], env=master.environment, text=True)
-    try:
-        client.has('angen/bridge/state', 'online', 120.0)
-        until(lambda: 'angen/lamp/kitchen0/state' in client.retained, 'the lamp', 60.0)
+    with bridged(folder) as (port, client):
         http = free_port()
         with subprocess.Popen(
                 [python, str(Path(__file__).with_name('in_home_assistant.py')), str(folder),
-                 str(mosquitto.port), str(http)], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                 str(port), str(http)], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                 text=True, env=plain_environment()) as assistant:
             assert assistant.stdout is not None
             found = json.loads(assistant.stdout.readline())
             client.has('angen/lamp/kitchen0/brightness', '40')
             yield {**found, 'messages': len(client.configs()), 'http': http}, client
             assistant.communicate()
-    finally:
-        end(bridge)
-        end(node)
-        client.close()
-        mosquitto.stop()
-        end(master.process)
 
 
 def plain_environment() -> dict[str, str]:
@@ -102,7 +86,7 @@ def entities(python: Path) -> int:
 
 def picture(python: Path) -> int:
     """The plan as a card, with some entities beside it."""
-    from browser import LIMIT, Page
+    from browser import Page
     with tempfile.TemporaryDirectory(prefix='angen_home_assistant_') as name:
         folder = Path(name)
         (folder / 'www').mkdir()
@@ -120,19 +104,10 @@ def picture(python: Path) -> int:
                 page.until(LOADED)
                 client.send('angen/simulation/simulation/paused/set', 'ON')  # it is drawn in peace
                 time.sleep(ICONS)
-                until(lambda: saved(page), 'the picture', LIMIT)
+                save(page, 'home_assistant.png')
             finally:
                 page.close()
     return 0
-
-
-def saved(page: Any) -> bool:
-    """Whether the picture is made: on a busy machine the browser may not answer in time."""
-    from selenium.common.exceptions import TimeoutException
-    try:
-        return bool(page.driver.save_screenshot(str(ROOT / 'docs/images/home_assistant.png')))
-    except TimeoutException:
-        return False
 
 
 def tested(python: Path, automations: Path, *words: str) -> str:
