@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any, Iterator
 
@@ -20,22 +20,20 @@ SCRIPT = ROOT / 'src/angen_apps/scripts/mqtt'
 @contextmanager
 def bridged(folder: Path) -> Iterator[tuple[int, Client]]:
     """The port of the broker and a client of it, after the bridge has sent all states."""
-    mosquitto, master = Mosquitto(folder), Master(folder)
-    os.environ.update(master.environment)
-    node = master.node(ROOT / 'worlds/angen.world', folder / 'log')
-    client = Client(mosquitto.port)
-    bridge = subprocess.Popen([sys.executable, str(SCRIPT), '--broker',
-                               f'127.0.0.1:{mosquitto.port}'], env=master.environment, text=True)
-    try:
+    with ExitStack() as ends:
+        mosquitto = Mosquitto(folder)
+        ends.callback(mosquitto.stop)
+        master = ends.enter_context(Master(folder))
+        os.environ.update(master.environment)
+        client = Client(mosquitto.port)
+        ends.callback(client.close)
+        ends.callback(end, master.node(ROOT / 'worlds/angen.world', folder / 'log'))
+        ends.callback(end, subprocess.Popen(
+            [sys.executable, str(SCRIPT), '--broker', f'127.0.0.1:{mosquitto.port}'],
+            env=master.environment, text=True))
         client.has('angen/bridge/state', 'online', 120.0)
         until(lambda: 'angen/lamp/kitchen0/state' in client.retained, 'the lamp', 60.0)
         yield mosquitto.port, client
-    finally:
-        end(bridge)
-        end(node)
-        client.close()
-        mosquitto.stop()
-        end(master.process)
 
 
 def save(page: Any, name: str) -> None:

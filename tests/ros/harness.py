@@ -196,7 +196,11 @@ class Master:
             publishers = dict(self.api.getSystemState("/test")[2][0]).get("/angen/ready", [])
             return any(self._pid_of(name) == process.pid for name in publishers)
 
-        until(serves, "the node serves")
+        try:
+            until(serves, "the node serves")
+        except BaseException:
+            end(process)
+            raise
         return process
 
     @contextmanager
