@@ -122,17 +122,3 @@ def test_a_saved_appliance_stays_on(world):
     w.run(0.1)
     again = state(angen.World.from_text(w.save()), 'tv')
     assert again['on'] and again['level'] == 70
-
-
-def test_a_plug_that_rests_reads_as_one_that_samples(world):
-    """A television on standby, then on, with a plug that has noise: in ticks, and in leaps."""
-    text = include('tv', 'tv') + plug('<noise_stddev>0.5</noise_stddev>', 1)
-    leaping, ticking = world(text), world(text)
-    for command in ('Volume 50', 'On', 'Off'):
-        for w in (leaping, ticking):
-            w.command('appliance', 'tv', command)
-        leaping.run(3.5)
-        for _ in range(3500):
-            ticking.run(0.001)
-        assert leaping.sensor('plug', 'p') == ticking.sensor('plug', 'p')
-    assert leaping.events() == ticking.events()

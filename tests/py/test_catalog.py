@@ -11,28 +11,22 @@ from sdf_text import DOORS, air, box, holder, include, sensor
 
 # proximity
 
-@pytest.mark.parametrize('distance', [0.1, 1.0, 3.5])
-def test_proximity_reads_the_distance_of_a_wall(world, distance):
-    w = world(include('proximity', 'p', '0 0 1 0 0 0')
-              + box('wall', f'{distance + 0.5} 0 1 0 0 0', '1 4 4', static=True))
+ASIDE = box('aside', '1 0.4 1 0 0 0', '0.2 0.2 2', static=True)   # 17 degrees off at least
+AHEAD = box('ahead', '2 0.1 1 0 0 0', '0.2 0.2 2', static=True)
+
+
+def wall(x: float) -> str:
+    return box('wall', f'{x + 0.5} 0 1 0 0 0', '1 4 4', static=True)
+
+
+@pytest.mark.parametrize('things, distance, error', [
+    (wall(0.1), 0.1, 0.01), (wall(1.0), 1.0, 0.01), (wall(3.5), 3.5, 0.01),
+    (ASIDE + AHEAD, 1.9, 0.02), (wall(4.6), float('inf'), 0)])
+def test_proximity_reads_the_nearest_in_its_cone(world, things, distance, error):
+    w = world(include('proximity', 'p', '0 0 1 0 0 0') + things)
     for _ in range(20):
         w.run(0.1)
-        assert w.sensor('proximity', 'p')['range'] == pytest.approx(distance, abs=0.01)
-
-
-def test_proximity_sees_the_nearest_in_its_cone_only(world):
-    w = world(include('proximity', 'p', '0 0 1 0 0 0')
-              + box('aside', '1 0.4 1 0 0 0', '0.2 0.2 2', static=True)    # 17 degrees off at least
-              + box('ahead', '2 0.1 1 0 0 0', '0.2 0.2 2', static=True))
-    w.run(0.1)
-    assert w.sensor('proximity', 'p')['range'] == pytest.approx(1.9, abs=0.02)
-
-
-def test_proximity_reads_nothing_as_infinite(world):
-    w = world(include('proximity', 'p', '0 0 1 0 0 0')
-              + box('wall', '5.1 0 1 0 0 0', '1 4 4', static=True))
-    w.run(0.1)
-    assert w.sensor('proximity', 'p')['range'] == float('inf')
+        assert w.sensor('proximity', 'p')['range'] == pytest.approx(distance, abs=error)
 
 
 # pressure mat

@@ -28,14 +28,6 @@ def test_where_one_rejects_none_moves(world):
     assert w.device('door', 'wide0')['mode'] == 'CLOSED'
 
 
-def test_where_all_can_all_move(world):
-    w = world(door('wide', 0, -1.57) + door('narrow', 3, -0.8))
-    w.command('door', 'all', 'Set -0.7')
-    w.run(3)
-    for name in ('wide0', 'narrow0'):
-        assert w.device('door', name)['position'] == pytest.approx(-0.7, abs=0.005)
-
-
 def test_soft_limits_hold_a_door_back(world):
     """It opens to -1.2 rad, where its <safety_controller> leaves no force to go on."""
     guarded = door('hall', 0, -1.57).replace('</limit>', '''</limit><angen:safety_controller>

@@ -121,14 +121,6 @@ def test_neither_a_low_bed_is_a_floor_nor_a_shaft_the_only_room(world: Make) -> 
     assert [room.floor for room in home.rooms] == [0.0, 0.0]
 
 
-def test_floors_that_are_found_at_two_heights_are_storeys(world: Make) -> None:
-    slab = box('slab', '2 2 2.9 0 0 0', '4.1 4.1 0.2', static=True)
-    made = world(walls_of('low', 0, 0, 4, 0, 2.8) + slab + walls_of('high', 0, 0, 4, 3, 2.5))
-    home = Home.of_world(made)
-    assert [(storey.number, storey.elevation) for storey in home.storeys] == [(0, 0), (1, 3)]
-    assert home.storey_at(3.1) == 1 and home.elevation(1) == 3
-
-
 def test_doorways_as_high_as_walls_separate_rooms_too(world: Make) -> None:
     parts = HOUSE.split('</model>')
     open_house = '</model>'.join(part for part in parts if '_c"' not in part)

@@ -202,22 +202,6 @@ def test_names_of_100000_characters(world) -> None:
     there.step(10)
 
 
-def test_two_names_in_an_include_defeat_nothing(world) -> None:
-    """Spawning uses the requested name, and checks names."""
-    there = world('')
-    text = '<include><uri>model://chair</uri><name>good</name><name>b/c d</name></include>'
-    with pytest.raises(angen.Error, match='a second <name> in one <include>'):
-        there.spawn(text, 'asked')
-    with pytest.raises(angen.Error, match="contains '/'"):
-        there.spawn('<include><uri>model://chair</uri><name>b/c d</name></include>')
-    nested = '<include><uri>model://chair</uri><name>b/c d</name></include>'
-    with pytest.raises(angen.Error, match="contains '/'"):
-        there.spawn(f'<model name="m">{nested}</model>', 'asked')
-    with pytest.raises(angen.Error, match='a second <name> in one <include>'):
-        there.spawn(f'<model name="m">{text}</model>', 'asked')
-    assert there.models == ['floor']
-
-
 @pytest.mark.parametrize('value', ['0.2:', '0.2 0.3', '', 'x', '1e', '0x10', '1e400', 'nan', '0,2'])
 def test_a_mass_of_a_urdf_that_is_not_a_number(world, value) -> None:
     """No message of the standard library comes through."""

@@ -54,34 +54,23 @@ def kelvin_of(w, reference: float, air: float) -> float:
     return (flux(w) / reference * (320.0 ** 4 - air ** 4) + air ** 4) ** 0.25
 
 
-def test_a_heater_warms_over_the_air_of_its_room(world):
+@pytest.mark.parametrize('kind, extra, name, text, most, time_constant', [
+    ('heater', '<surface_rise>40</surface_rise><surface_time_constant>100</surface_time_constant>',
+     'kitchen_heater0', 'On', 40.0, 100.0),
+    ('stove', '', 'kitchen0', 'Set 60', 600.0 / 3.0, 900.0 / 3.0)])
+def test_it_is_seen_as_hot_as_it_is_over_the_air_of_its_room(world, kind, extra, name, text, most,
+                                                             time_constant):
     air = 273.15 + 12.0
     w = world(flat(12.0) + thing('warm_surface', '<temperature>320</temperature>') + EYE)
     w.run(1.0)
     reference = flux(w)
-    w = world(flat(12.0) + thing('heater', '<surface_rise>40</surface_rise>'
-                                 '<surface_time_constant>100</surface_time_constant>') + EYE)
+    w = world(flat(12.0) + thing(kind, extra) + EYE)
     w.run(1.0)
-    w.command('heater', 'kitchen_heater0', 'On')
+    w.command(kind, name, text)
     start = w.time
     for _ in range(3):
         w.run(60.0)
-        rise = 40.0 * (1.0 - exp(-(w.time - start) / 100.0))
-        assert kelvin_of(w, reference, air) == pytest.approx(air + rise, abs=0.2)
-
-
-def test_a_stoves_plate_is_seen_as_hot_as_it_is(world):
-    air = 273.15 + 12.0
-    w = world(flat(12.0) + thing('warm_surface', '<temperature>320</temperature>') + EYE)
-    w.run(1.0)
-    reference = flux(w)
-    w = world(flat(12.0) + thing('stove') + EYE)
-    w.run(1.0)
-    w.command('stove', 'kitchen0', 'Set 60')
-    start = w.time
-    for _ in range(3):
-        w.run(50.0)
-        rise = 600.0 / 3.0 * (1.0 - exp(-(w.time - start) * 3.0 / 900.0))
+        rise = most * (1.0 - exp(-(w.time - start) / time_constant))
         assert kelvin_of(w, reference, air) == pytest.approx(air + rise, abs=0.2)
 
 
