@@ -34,11 +34,6 @@ def test_a_lamp_dims_by_either_topic(angen: Angen) -> None:
         lamp.wait(lambda m: m.level == 0 and not m.on, "dark")
 
 
-def test_latecomers_get_the_latched_state(angen: Angen) -> None:
-    assert angen.wait(DOOR, DoorState).name == "bathroom0"
-    assert angen.wait(DOOR, DoorState).name == "bathroom0"
-
-
 def rests(door: Inbox) -> bool:
     """Whether it has published nothing for a second."""
     count = len(door.messages)

@@ -308,16 +308,13 @@ def test_the_update_rate_is_the_rate_of_time(gazebo: Gazebo) -> None:
 
 
 def test_unknown_joints_of_a_configuration_are_passed_over(gazebo: Gazebo) -> None:
-    done = gazebo.call("set_model_configuration", model_name="slide",
-                       joint_names=["none", "along"], joint_positions=[0.5, 0.25])
-    assert done.status_message == "SetModelConfiguration: success"
-    assert gazebo.call("get_joint_properties", joint_name="slide::along").position == near([0.25])
-
-
-def test_a_joint_of_a_configuration_may_name_its_model(gazebo: Gazebo) -> None:
-    gazebo.call("set_model_configuration", model_name="slide", joint_names=["slide::along"],
-                joint_positions=[0.75])  # as in Gazebo, whose joints have scoped names
-    assert gazebo.call("get_joint_properties", joint_name="slide::along").position == near([0.75])
+    # Names may be scoped, as in Gazebo.
+    for names, positions in ((["none", "along"], [0.5, 0.25]), (["slide::along"], [0.75])):
+        done = gazebo.call("set_model_configuration", model_name="slide", joint_names=names,
+                           joint_positions=positions)
+        assert done.status_message == "SetModelConfiguration: success"
+        joint = gazebo.call("get_joint_properties", joint_name="slide::along")
+        assert joint.position == near(positions[-1:])
 
 
 def test_topics_have_the_rate_that_was_set(gazebo: Gazebo) -> None:
@@ -366,21 +363,3 @@ def test_a_reset_brings_back_what_moved_and_ends_what_pushes(gazebo: Gazebo, ang
     gazebo.step(50)
     state = gazebo.call("get_model_state", model_name="crate")
     assert place(state.pose) == near((0, 0, 5)) and speed(state.twist) == near((0, 0, 0))
-
-
-def test_a_static_model_that_is_put_elsewhere_is_seen_there(gazebo: Gazebo, angen: Angen) -> None:
-    from angen_msgs.srv import Spawn
-    from sensor_msgs.msg import Range
-    wall = CRATE.replace("<link", "<static>1</static><link", 1).replace("0.2 0.2 0.2", "0.2 2 2")
-    gazebo.spawn("wall", wall, at(60, 0, 1))
-    answer = angen.call("/angen/spawn", Spawn, name="ahead", xml="model://proximity",
-                        pose=at(50, 0, 1))
-    assert answer.success, answer.message
-    gazebo.unpause()
-    with Inbox("/angen/proximity/ahead", Range) as inbox:
-        inbox.wait(lambda m: m.range > 2.0, "nothing is near")
-        gazebo.call("set_model_state",
-                    model_state=ModelState(model_name="wall", pose=at(51, 0, 1)))
-        inbox.wait(lambda m: abs(m.range - 0.9) < 0.05, "the wall is 0.9 m away")
-    for name in ("wall", "ahead"):
-        gazebo.call("delete_model", model_name=name)

@@ -128,12 +128,6 @@ def test_odometry_is_reported_at_each_tenth_of_a_second(angen: Angen, paused: No
             odometry.wait(lambda m: m.header.stamp == end, f"odometry of {end.to_sec()} s")
 
 
-def test_a_paused_world_can_be_built(angen: Angen, paused: None) -> None:
-    assert angen.call("/angen/spawn", Spawn, name="p4", xml=PIR, pose=at(1, 1, 1)).success
-    assert "p4" in names(angen, "pir")
-    assert angen.call("/angen/delete", Delete, name="p4").success
-
-
 def test_no_client_can_ask_for_the_list_of_loggers_that_ends_a_node(angen: Angen) -> None:
     with pytest.raises(MasterException):
         Master("/test").lookupService("/angen/get_loggers")
@@ -174,13 +168,6 @@ def test_ready_says_that_everything_is_there(angen: Angen) -> None:
     assert angen.wait("/angen/ready", Bool).data
     services = {name for name, _ in angen.master.api.getSystemState("/test")[2][2]}
     assert {"/angen/spawn", "/angen/save", "/gazebo/pause_physics"} <= services
-
-
-def test_what_is_saved_can_be_spawned_from(angen: Angen) -> None:
-    saved = angen.call("/angen/save", Save)
-    assert saved.success, saved.message
-    for name in ("bathroom_door0", "kitchen_lamp0", "turtlebot", "eye", "libdoor_world_plugin.so"):
-        assert name in saved.xml
 
 
 def test_diagnostics_warn_of_a_sensor_with_a_fault(angen: Angen) -> None:

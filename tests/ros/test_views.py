@@ -76,16 +76,6 @@ def test_only_what_changes_follows(angen: Angen) -> None:
     assert sorted(changed) == sorted(lights + leaf)
 
 
-def test_what_is_deleted_disappears(angen: Angen) -> None:
-    with Inbox("/angen/markers", MarkerArray) as inbox:
-        until(lambda: inbox.messages, "the whole world")
-        before = keyed(inbox.messages).keys()
-        assert angen.call("/angen/spawn", Spawn, name="chair1", xml="model://pir").success
-        until(lambda: len(keyed(inbox.messages)) > len(before), "more markers")
-        assert angen.call("/angen/delete", Delete, name="chair1").success
-        until(lambda: keyed(inbox.messages).keys() == before, "as before")
-
-
 def test_a_spawn_sends_what_it_adds_and_no_more(angen: Angen) -> None:
     angen.wait("/angen/stats", Stats, lambda stats: stats.awake_bodies == 0)
     with Inbox("/angen/markers", MarkerArray) as inbox:
