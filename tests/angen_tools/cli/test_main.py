@@ -49,14 +49,6 @@ def angen(*words: str, **options: object) -> subprocess.CompletedProcess[str]:
                           stdin=subprocess.DEVNULL, **{'capture_output': True, **options})
 
 
-def usage_error(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:
-    with pytest.raises(SystemExit) as end:
-        cli.run(words)
-    assert end.value.code == 2
-    line, = capsys.readouterr().err.splitlines()
-    return line
-
-
 @pytest.mark.parametrize('words', ['', 'spawn', 'set door'])
 def test_help_is_a_command_too(words: str, capsys: pytest.CaptureFixture[str]) -> None:
     pages = []
@@ -117,33 +109,6 @@ def test_without_a_simulator_one_line_says_so(
     assert done.returncode == 1 and done.stdout == ''
     assert done.stderr == (f'angen: no simulator is running at {no_master}; '
                            'start one with ./angen run\n')
-
-
-@pytest.mark.parametrize('words, part', [
-    ([], 'COMMAND'),
-    (['dance'], 'dance'),
-    (['spawn', 'pir', 'p1'], '--pose'),
-    (['spawn', 'pir', 'p1', '--pose', '1 2'], '2 numbers'),
-    (['spawn', 'pir', 'a::b', '--pose', '1 2 3'], 'a::b'),
-    (['spawn', 'pir', 'p1', '--pose', '1 2 3', '--set', 'threshold'], 'KEY=VALUE'),
-    (['spawn', 'pir', 'p1', '--pose', '1 2 3', '--on', 'table'], 'MODEL::LINK'),
-    (['spawn', 'contact', 'c1'], '--on'),
-    (['spawn', 'reed', 'r1', '--pose', '1 2 3'], '--on'),
-    (['set', 'door', 'kitchen0', 'ajar'], 'closebyhand, unlatch or radians'),
-    (['set', 'door', 'kitchen0', 'nan'], 'closebyhand, unlatch or radians'),
-    (['set', 'elevator', 'elevator', '1.5'], 'not a number of floor'),
-    (['set', 'lamp', 'kitchen0', '101'], '0 to 100'),
-    (['set', 'heater', 'h1', 'warm'], '0 to 100'),
-    (['set', 'dor', 'kitchen0', 'open'], 'did you mean door'),
-    (['set', 'drive', 'turtlebot', '1'], 'a number of m/s'),
-    (['spawn', 'pirr', 'p1'], 'did you mean pir'),
-    (['spawn', 'pir', 'a/b', '--pose', '1 2 3'], 'a/b'),
-    (['delete'], 'NAME'),
-    (['completion', 'fish'], 'bash'),
-])
-def test_wrong_words_are_reported_in_one_line(words: list[str], part: str,
-                                              capsys: pytest.CaptureFixture[str]) -> None:
-    assert part in usage_error(words, capsys)
 
 
 def completed(line: str) -> list[str]:

@@ -32,16 +32,6 @@ def test_check_of_a_pipe_does_not_wait_for_a_writer(command: Command, tmp_path: 
     assert str(pipe) in done.stderr
 
 
-def test_check_of_a_broken_world_names_file_and_line(command: Command, tmp_path: Path) -> None:
-    broken = tmp_path / 'broken.world'
-    broken.write_text('<sdf version="1.6"><world name="w">\n'
-                      '<include><uri>model://no_such_model</uri></include>\n</world></sdf>')
-    done = command('check', str(broken))
-    assert done.returncode == 1 and done.stdout == ''
-    line, = done.stderr.splitlines()
-    assert line.startswith(f'{broken}:2: ') and 'no_such_model' in line
-
-
 def test_check_of_the_worlds_includes_under_the_names_of_the_source(command: Command) -> None:
     done = command('check', str(SNIPPETS / 'two_floors.world'))
     assert (done.returncode, done.stderr) == (0, '')
@@ -142,14 +132,3 @@ def test_check_lists_ignored_elements(command: Command, tmp_path: Path) -> None:
     first, second = done.stdout.splitlines()
     assert first == f'ignored: {model}:2: <enable_wind> in <model>'
     assert 'no errors; model m' in second
-
-
-@pytest.mark.parametrize('words', [['check'], ['check', '--no-such-option', 'x']])
-def test_wrong_words_end_with_2(command: Command, words: list[str]) -> None:
-    assert command(*words).returncode == 2
-
-
-def test_an_empty_path_is_named(command: Command) -> None:
-    done = command('check', '')
-    assert (done.returncode, done.stdout) == (1, '')
-    assert done.stderr == "'': not a path; give a file, a folder or model://NAME\n"

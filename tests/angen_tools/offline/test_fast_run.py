@@ -11,7 +11,7 @@ import sys
 import time
 import zlib
 from pathlib import Path
-from typing import Any, Callable
+from typing import Any
 
 import angen
 import pandas
@@ -21,7 +21,6 @@ from angen_tools.offline import events, fast_run
 
 ROOT = Path(__file__).resolve().parents[3]
 SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
-Command = Callable[..., subprocess.CompletedProcess[str]]
 WORLD = '''<sdf version="1.6"><world name="w">
   <include><uri>model://pir</uri><name>eye</name><pose>0 0 1.5 0 0 0</pose></include>
   <actor name="ann"><script><loop>true</loop><trajectory id="0" type="walk">
@@ -63,27 +62,6 @@ def test_it_leaves_the_events_that_all_ticks_would_tell(world: Path, tmp_path: P
     assert {'motion'} <= {row[3] for row in rows[1:] if row[1] == 'eye'}
     assert done.stdout.startswith('55.5 s in ')
     assert f'{walked.readings} readings, {len(expected)} events in {tmp_path}' in done.stdout
-
-
-def test_errors_are_reported_in_a_line(command: Command, world: Path, tmp_path: Path) -> None:
-    world.write_text(WORLD.replace('model://pir', 'model://no_such_model')
-                     .replace('name="w"', 'name="w" angen:strict="true"'))
-    done = command('run', '--fast', world, '--for', '1', '--out', tmp_path)
-    assert done.returncode == 1 and done.stdout == ''
-    line, = done.stderr.splitlines()
-    assert 'walk.world:2: ' in line and 'no_such_model' in line
-
-
-def test_a_place_that_cannot_be_written_is_named(command: Command, world: Path) -> None:
-    done = command('run', '--fast', world, '--for', '1', '--out', '/dev/null')
-    assert done.returncode == 1 and done.stderr.count('\n') == 1
-    assert '/dev/null' in done.stderr
-
-
-@pytest.mark.parametrize('words', [['--for', '0'], ['--for', 'soon'], ['--for', 'inf'], []])
-def test_a_time_is_needed(command: Command, world: Path, words: list[str]) -> None:
-    done = command('run', '--fast', world, *words)
-    assert done.returncode == 2 and '--for' in done.stderr
 
 
 @pytest.fixture(scope='module')
@@ -197,20 +175,6 @@ def test_pandas_reads_the_readings_with_types(tmp_path: Path) -> None:
     assert motion[:39].max() == 0 and motion[40:45].max() == 1  # she walks by from 40 to 44 s
 
 
-@pytest.mark.parametrize('line, part', [
-    ('0:01,door/bathrom0,Open', "no door is named 'bathrom0'; did you mean bathroom0"),
-    ('0:01,dor/bathroom0,Open', "there is no kind 'dor'; did you mean door"),
-    ('0:01,door/bathroom0,Opne', "'Opne' is not a command of a door")])
-def test_a_wrong_order_is_reported_before_the_day(command: Command, line: str, part: str,
-                                                  tmp_path: Path) -> None:
-    path, day = tmp_path / 'flat.world', tmp_path / 'day.csv'
-    path.write_text(FLAT)
-    day.write_text(f'time,target,command\n{line}\n')
-    done = command('run', '--fast', path, '--for', '30', '--day', day, '--out', tmp_path)
-    said, = done.stderr.splitlines()
-    assert done.returncode == 1 and said.startswith(f'angen: {day}:2: ') and part in said
-
-
 def test_ctrl_c_reports_the_kept_files(world: Path, tmp_path: Path) -> None:
     readings = tmp_path / 'r.csv.gz'
     process = subprocess.Popen(
@@ -254,9 +218,3 @@ class Interrupting:
         if data and self._left == -1:
             signal.raise_signal(signal.SIGINT)
         return zlib.crc32(data, *before)
-
-
-def test_a_table_needs_a_known_ending(command: Command, world: Path, tmp_path: Path) -> None:
-    done = command('run', '--fast', world, '--for', '1', '--readings', tmp_path / 'r.xlsx', '--out',
-                   tmp_path)
-    assert done.returncode == 1 and '.csv.gz or .parquet' in done.stderr

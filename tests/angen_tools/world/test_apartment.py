@@ -127,13 +127,3 @@ def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert cli.run(words) == 0
     assert capsys.readouterr().out == f'wrote {file}: 1 floor, 3 sensors\n'
     assert len(angen.World(str(file)).sensors('pir')) == 3
-
-
-def test_the_command_rejects_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]
-                                         ) -> None:
-    file = tmp_path / 'out.world'
-    words = ['world', 'apartment', '--floors', '1', '-o', str(file)]
-    assert cli.run([*words, '--pir', '5000']) == 1
-    assert cli.run([*words, '--elevator']) == 1
-    said = capsys.readouterr()
-    assert said.out == '' and len(said.err.splitlines()) == 2 and not file.exists()
