@@ -85,62 +85,53 @@ def test_the_same_morning_has_the_same_bytes(lived, home):
     assert [i.row() for i in again.truth] == [i.row() for i in lived.truth]
 
 
-def test_validate_finds_walls_and_seats(lived, tmp_path):
-    FORMATS['csv'](tmp_path, lived)
-    write_truth(tmp_path, lived)
-    track = tmp_path / 'track.csv.gz'
-    with gzip.open(track, 'rt') as file:
-        lines = file.read().splitlines()
-    lines += ['5000.0,anna,3.900,2.000,0', '5000.4,anna,4.100,2.000,0']  # kitchen to living room
-    with gzip.open(track, 'wt') as file:
-        file.write('\n'.join(lines) + '\n')
-    assert len(validate(tmp_path).wrong['no resident crossed a wall']) == 1
+def crossed(lived: Data, folder: Path, rows: list[str], change=None) -> list[str]:
+    """The steps across walls that validate finds in a track, in a layout that is changed."""
+    FORMATS['csv'](folder, lived)
+    write_truth(folder, lived)
+    if change:
+        layout = json.loads((folder / 'layout.json').read_text())
+        (folder / 'layout.json').write_text(json.dumps(layout | change(layout['rooms'][0])))
+    with gzip.open(folder / 'track.csv.gz', 'wt') as file:
+        file.write('\n'.join(['time,resident,x,y,storey', *rows]) + '\n')
+    return validate(folder).wrong['no resident crossed a wall']
+
+
+def test_validate_finds_walls(lived, tmp_path):
+    rows = ['5000.0,anna,3.900,2.000,0', '5000.4,anna,4.100,2.000,0']  # kitchen to living room
+    assert len(crossed(lived, tmp_path, rows)) == 1
 
 
 def test_validate_knows_a_room_within_another(lived, tmp_path):
-    FORMATS['csv'](tmp_path, lived)
-    write_truth(tmp_path, lived)
-    layout = json.loads((tmp_path / 'layout.json').read_text())
     core = [[2.0, 2.0], [4.0, 2.0], [4.0, 4.0], [2.0, 4.0]]
     ring = [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0]]
-    layout |= {'doors': [], 'rooms': [
-        {**layout['rooms'][0], 'name': name, 'storey': 0, 'polygon': polygon, 'holes': holes}
-        for name, polygon, holes in (('hall', ring, [core]), ('bathroom', core, []))]}
-    (tmp_path / 'layout.json').write_text(json.dumps(layout))
-    with gzip.open(tmp_path / 'track.csv.gz', 'wt') as file:
-        file.write('time,resident,x,y,storey\n5000.0,anna,1.9,3.0,0\n5000.4,anna,2.1,3.0,0\n')
-    wrong, = validate(tmp_path).wrong['no resident crossed a wall']
+    wrong, = crossed(
+        lived, tmp_path, ['5000.0,anna,1.9,3.0,0', '5000.4,anna,2.1,3.0,0'],
+        lambda room: {'doors': [], 'rooms': [
+            {**room, 'name': name, 'storey': 0, 'polygon': polygon, 'holes': holes}
+            for name, polygon, holes in (('hall', ring, [core]), ('bathroom', core, []))]})
     assert 'from hall' in wrong and 'to bathroom' in wrong
 
 
 def test_validate_lets_a_step_board_an_elevator(lived, tmp_path):
     """The cabin is in no room, and the landing's edge is no wall before it."""
-    FORMATS['csv'](tmp_path, lived)
-    write_truth(tmp_path, lived)
-    layout = json.loads((tmp_path / 'layout.json').read_text())
-    layout |= {'doors': [], 'landings': [{'elevator': 'e', 'storey': 0,
-                                          'pose': [1.0, 3.0, 0.0, math.pi]}],
-               'rooms': [{**layout['rooms'][0], 'name': 'landing', 'storey': 0, 'holes': [],
-                          'polygon': [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0]]}]}
-    (tmp_path / 'layout.json').write_text(json.dumps(layout))
-    with gzip.open(tmp_path / 'track.csv.gz', 'wt') as file:
-        file.write('time,resident,x,y,storey\n5000.0,anna,0.1,3.1,0\n5000.4,anna,-0.2,3.1,0\n'
-                   '6000.0,anna,0.1,4.1,0\n6000.4,anna,-0.2,4.1,0\n')
-    wrong, = validate(tmp_path).wrong['no resident crossed a wall']
+    wrong, = crossed(
+        lived, tmp_path, ['5000.0,anna,0.1,3.1,0', '5000.4,anna,-0.2,3.1,0',
+                          '6000.0,anna,0.1,4.1,0', '6000.4,anna,-0.2,4.1,0'],
+        lambda room: {
+            'doors': [], 'landings': [{'elevator': 'e', 'storey': 0,
+                                       'pose': [1.0, 3.0, 0.0, math.pi]}],
+            'rooms': [{**room, 'name': 'landing', 'storey': 0, 'holes': [],
+                       'polygon': [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0]]}]})
     assert wrong.startswith('anna at 6000.4')
 
 
 def test_validate_lets_a_step_pass_an_opening_aslant(lived, tmp_path):
-    FORMATS['csv'](tmp_path, lived)
-    write_truth(tmp_path, lived)
     door = next(d for d in lived.home.doors if d.name == 'kitchen0')
     x, y = door.pose[0] + 0.45 * door.width, door.pose[1]  # of its edge; its leaf is along x
-    lines = ['time,resident,x,y,storey', f'5000.0,anna,{x - 0.1},{y - 0.1},0',
-             f'5000.5,anna,{x + 0.35},{y + 0.4},0', f'6000.0,anna,{x + 0.3},{y - 0.1},0',
-             f'6000.5,anna,{x + 0.35},{y + 0.4},0']
-    with gzip.open(tmp_path / 'track.csv.gz', 'wt') as file:
-        file.write('\n'.join(lines) + '\n')
-    wrong, = validate(tmp_path).wrong['no resident crossed a wall']
+    wrong, = crossed(lived, tmp_path, [
+        f'5000.0,anna,{x - 0.1},{y - 0.1},0', f'5000.5,anna,{x + 0.35},{y + 0.4},0',
+        f'6000.0,anna,{x + 0.3},{y - 0.1},0', f'6000.5,anna,{x + 0.35},{y + 0.4},0'])
     assert wrong.startswith('anna at 6000.5')
 
 

@@ -26,6 +26,7 @@ BYTES = 16  # bytes a pixel: a picture of 20 million pixels takes less than 400 
 SCALE = 0.025  # m a pixel
 # inner faces of the rooms in m, from the lower left: walls of 0.2 m around and 0.15 m between
 ROOMS = ((0.2, 0.2, 4.2, 3.2), (4.35, 0.2, 8.0, 3.2), (0.2, 3.35, 8.0, 5.35))
+AREAS = sorted((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in ROOMS)
 DOORS = ((4.2, 1.0, 4.35, 1.9), (2.0, 3.2, 2.8, 3.35), (6.0, 5.35, 7.0, 5.55))
 
 
@@ -44,31 +45,32 @@ def picture(noise: float, seed: int = 3) -> np.ndarray:
     return np.clip(gray, 0, 255).astype(np.uint8)
 
 
-@pytest.mark.parametrize('noise', [0.0, 0.25, 0.5, 0.75])
-def test_rooms_and_doors_of_a_noisy_scan(noise: float, tmp_path: Path) -> None:
-    path = tmp_path / 'scan.png'
-    Image.fromarray(picture(noise)).save(path)
-    plan = read_picture(path, SCALE, True)
-    made = sorted(area(room.polygon) for room in plan.all_rooms())
-    said = sorted((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in ROOMS)
-    assert len(made) == len(said)
-    assert max(abs(a - b) / b for a, b in zip(made, said)) < 0.05
-    doors = sorted(opening.width for opening in plan.all_openings() if opening.kind == 'door')
-    assert doors == pytest.approx([0.8, 0.9, 1.0], abs=0.08)
-    assert plan.entrance
+def scanned(folder: Path, gray: np.ndarray | Image.Image, scale: float = SCALE) -> Plan:
+    """The plan of a scan in that folder."""
+    (gray if isinstance(gray, Image.Image) else Image.fromarray(gray)).save(folder / 'scan.png')
+    return read_picture(folder / 'scan.png', scale, True)
 
 
 def areas(plan: Plan) -> list[float]:
     return sorted(area(room.polygon) for room in plan.all_rooms())
 
 
+@pytest.mark.parametrize('noise', [0.0, 0.25, 0.5, 0.75])
+def test_rooms_and_doors_of_a_noisy_scan(noise: float, tmp_path: Path) -> None:
+    plan = scanned(tmp_path, picture(noise))
+    made = areas(plan)
+    assert len(made) == len(AREAS)
+    assert max(abs(a - b) / b for a, b in zip(made, AREAS)) < 0.05
+    doors = sorted(opening.width for opening in plan.all_openings() if opening.kind == 'door')
+    assert doors == pytest.approx([0.8, 0.9, 1.0], abs=0.08)
+    assert plan.entrance
+
+
 @pytest.mark.parametrize('degrees', [1, -3, 20, 45])
 def test_a_scan_that_is_askew_is_put_upright(degrees: int, tmp_path: Path) -> None:
-    path = tmp_path / 'scan.png'
-    Image.fromarray(picture(0.25)).rotate(degrees, expand=True, fillcolor=235).save(path)
-    plan = read_picture(path, SCALE, True)
-    said = sorted((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in ROOMS)
-    assert areas(plan) == pytest.approx(said, rel=0.05)
+    plan = scanned(tmp_path, Image.fromarray(picture(0.25)).rotate(degrees, expand=True,
+                                                                   fillcolor=235))
+    assert areas(plan) == pytest.approx(AREAS, rel=0.05)
     assert len([o for o in plan.all_openings() if o.kind == 'door']) == 3
     assert 'the picture is put upright' in plan.remarks[0]
     corners = [p for room in plan.all_rooms() for p in room.polygon]
@@ -78,8 +80,7 @@ def test_a_scan_that_is_askew_is_put_upright(degrees: int, tmp_path: Path) -> No
 def test_a_map_with_walls_askew_keeps_its_frame(tmp_path: Path) -> None:
     """Robots are localized in it."""
     straight = picture(0.0)
-    Image.fromarray(straight).save(tmp_path / 'scan.png')
-    said = read_picture(tmp_path / 'scan.png', SCALE, True)
+    said = scanned(tmp_path, straight)
     askew = np.asarray(Image.fromarray(straight).rotate(20, expand=True, fillcolor=235))
     plan = read_map(write_map(tmp_path, askew, 'map.pgm', 'origin: [-3.0, -2.0, 0.0]\n'), True)
     assert areas(plan) == pytest.approx(areas(said), rel=0.02)
@@ -94,9 +95,8 @@ def test_a_map_with_walls_askew_keeps_its_frame(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize('walls, paper', [(150, 250), (10, 100)])
 def test_pale_and_dim_pictures_have_the_same_rooms(walls: int, paper: int, tmp_path: Path) -> None:
-    path = tmp_path / 'scan.png'
-    Image.fromarray(np.where(picture(0.0) < 128, walls, paper).astype(np.uint8)).save(path)
-    assert len(areas(read_picture(path, SCALE, True))) == len(ROOMS)
+    gray = np.where(picture(0.0) < 128, walls, paper).astype(np.uint8)
+    assert len(areas(scanned(tmp_path, gray))) == len(ROOMS)
 
 
 @pytest.mark.parametrize('gray, what', [
@@ -105,17 +105,13 @@ def test_pale_and_dim_pictures_have_the_same_rooms(walls: int, paper: int, tmp_p
     (np.zeros((200, 300), np.uint8), 'more than half of it is dark')])
 def test_a_picture_without_walls_on_light_paper_is_rejected(gray: np.ndarray, what: str,
                                                             tmp_path: Path) -> None:
-    path = tmp_path / 'scan.png'
-    Image.fromarray(gray).save(path)
     with pytest.raises(Failure, match=what):
-        read_picture(path, SCALE, True)
+        scanned(tmp_path, gray)
 
 
 def test_a_fine_picture_is_read_by_blocks_of_pixels(tmp_path: Path) -> None:
-    path = tmp_path / 'scan.png'
-    Image.fromarray(picture(0.0).repeat(5, 0).repeat(5, 1)).save(path)
-    said = sorted((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in ROOMS)
-    assert areas(read_picture(path, SCALE / 5, True)) == pytest.approx(said, rel=0.02)
+    plan = scanned(tmp_path, picture(0.0).repeat(5, 0).repeat(5, 1), SCALE / 5)
+    assert areas(plan) == pytest.approx(AREAS, rel=0.02)
 
 
 @pytest.mark.parametrize('closed', [0, 1])
@@ -125,18 +121,13 @@ def test_a_plan_with_no_room_or_a_spot_of_one_is_an_error(closed: int, tmp_path:
     if closed:
         gray[100:150, 100:150] = 20
         gray[106:144, 106:144] = 235
-    path = tmp_path / 'scan.png'
-    Image.fromarray(gray).save(path)
     with pytest.raises(Failure, match='its walls close .* between the outermost of them'):
-        read_picture(path, SCALE, True)
+        scanned(tmp_path, gray)
 
 
 def test_a_map_has_its_origin_and_resolution(tmp_path: Path) -> None:
-    Image.fromarray(picture(0.0)).save(tmp_path / 'map.pgm')
-    path = tmp_path / 'map.yaml'
-    path.write_text('image: map.pgm\nresolution: 0.025\norigin: [-3.0, -2.0, 0.0]\nnegate: 0\n'
-                    'occupied_thresh: 0.65\nfree_thresh: 0.196\n')
-    plan = read_map(path, False)
+    plan = read_map(write_map(tmp_path, picture(0.0), 'map.pgm', 'origin: [-3.0, -2.0, 0.0]\n'
+                              'negate: 0\noccupied_thresh: 0.65\n'), False)
     x = [p[0] for room in plan.all_rooms() for p in room.polygon]
     assert min(x) == pytest.approx(-3.0 + 0.2 + 12 * 0.025, abs=0.06)
     assert {opening.kind for opening in plan.all_openings()} == {'opening'}
@@ -195,8 +186,7 @@ def test_a_gap_beside_furniture_is_no_door(tmp_path: Path) -> None:
     for x in (1.0, 2.1):  # two sideboards, 0.8 m apart, in the room of 4 m x 3 m
         rows, columns = slice(-80, -72), slice(round(x / SCALE), round((x + 0.3) / SCALE))
         gray[rows, columns] = 20
-    Image.fromarray(gray).save(tmp_path / 'scan.png')
-    plan = read_picture(tmp_path / 'scan.png', SCALE, True)
+    plan = scanned(tmp_path, gray)
     assert len(plan.all_rooms()) == 3
     assert sorted(o.width for o in plan.all_openings()) == pytest.approx([0.8, 0.9, 1.0], abs=0.08)
     assert any('from a room into itself' in remark for remark in plan.remarks)
@@ -216,13 +206,11 @@ def test_what_touches_no_wall_is_furniture(tmp_path: Path) -> None:
     outline(1.3, 1.5, 1.6, 1.8)  # with a plate
     outline(7.2, 3.35, 8.0, 4.35)  # a cupboard at two walls
     outline(-0.3, 2.0, -0.05, 2.6)  # a letter beside the plan
-    Image.fromarray(gray).save(tmp_path / 'scan.png')
-    plan = read_picture(tmp_path / 'scan.png', SCALE, True)
+    plan = scanned(tmp_path, gray)
     (table,) = plan.storeys[0].pieces
     assert (table.depth, table.width) == pytest.approx((1.8, 0.9), abs=0.051)
     assert (table.x, table.y) == pytest.approx((1.9 + 12 * SCALE, 1.65 + 12 * SCALE), abs=0.026)
-    made = sorted(area(room.polygon) for room in plan.all_rooms())
-    assert made[-2:] == pytest.approx([12.0, 14.8], rel=0.05)  # the cupboard is wall
+    assert areas(plan)[-2:] == pytest.approx([12.0, 14.8], rel=0.05)  # the cupboard is wall
     assert not any(room.holes for room in plan.all_rooms())
     assert any('1 things that touch no wall are furniture' in remark for remark in plan.remarks)
     assert '2 dark spots at walls are read as wall, the largest 1.2' in plan.remarks[-1]  # + letter
@@ -237,8 +225,7 @@ def test_a_wall_between_two_doors_is_no_furniture(tmp_path: Path) -> None:
         columns = slice(12 + round(x / SCALE), 12 + round((x + 0.9) / SCALE))
         gray[gray.shape[0] - 12 - round(3.35 / SCALE):gray.shape[0] - 12 - round(3.2 / SCALE),
              columns] = 235
-    Image.fromarray(gray).save(tmp_path / 'scan.png')
-    plan = read_picture(tmp_path / 'scan.png', SCALE, True)
+    plan = scanned(tmp_path, gray)
     assert len(plan.all_rooms()) == 3 and not plan.storeys[0].pieces
     assert not any('spots' in remark for remark in plan.remarks)
 
@@ -250,9 +237,7 @@ def test_rooms_of_a_map_end_where_it_is_unknown(tmp_path: Path) -> None:
     gray[:, :12], gray[:, -12:], gray[-12:] = 205, 205, 205  # what the robot has not seen
     gray[-60:-40, :22] = 205  # no wall there: it was not seen either
     seen = read_map(write_map(tmp_path, gray, 'map.pgm', 'origin: [0, 0, 0]\n'), True)
-    before, after = (sorted(area(room.polygon) for room in plan.all_rooms())
-                     for plan in (inside, seen))
-    assert after == pytest.approx(before, abs=0.2)
+    assert areas(seen) == pytest.approx(areas(inside), abs=0.2)
 
 
 def test_a_map_of_another_machine_names_a_picture_beside_it(tmp_path: Path) -> None:
@@ -305,8 +290,7 @@ def test_a_scan_of_a_home_by_seed_has_its_rooms_and_doors(tmp_path: Path) -> Non
     """Doors beside corners leave stubs of wall that are shorter than a wall has to be."""
     for case in plans.scans(tmp_path):
         plan = case.read()
-        made = sorted(area(room.polygon) for room in plan.all_rooms())
-        assert made == pytest.approx(sorted(case.areas or []), rel=0.05), case.name
+        assert areas(plan) == pytest.approx(sorted(case.areas or []), rel=0.05), case.name
         doors = [opening for opening in plan.all_openings() if opening.kind == 'door']
         assert len(doors) == case.said['door'], case.name
 

@@ -63,6 +63,22 @@ def small(tmp_path: Path, *parts: str) -> Path:
     return path
 
 
+def door(x: float, y: float, name: str = 'Door') -> str:
+    return (f'<doorOrWindow catalogId="eTeks#door" name="{name}" x="{x}" y="{y}" width="90" '
+            f'depth="20" height="208">{SASH}</doorOrWindow>')
+
+
+def on_levels(path: Path, walls: str, rooms: str) -> None:
+    path.write_text(path.read_text().replace('<wall ', f'<wall level="{walls}" ')
+                    .replace('<room ', f'<room level="{rooms}" '))
+
+
+def built(plan: Plan, folder: Path) -> Any:
+    """The world of a plan."""
+    write_world(plan, folder / 'a.world', 'none')
+    return angen.World(str(folder / 'a.world'))
+
+
 def test_all_nine_are_tested(xml: dict[str, bytes]) -> None:
     assert tuple(xml) == NAMES
 
@@ -123,11 +139,8 @@ def test_layers_of_one_height_are_one_storey(tmp_path: Path) -> None:
     """Programs draw walls on one level, and rooms and doors on another one at the same height."""
     path = small(tmp_path, '<level id="a" name="A" elevation="0" height="250"/>'
                  '<level id="b" name="B" elevation="0" height="250"/>',
-                 '<doorOrWindow level="b" catalogId="eTeks#door" name="Door" x="200" y="300" '
-                 f'width="90" depth="20" height="208">{SASH}</doorOrWindow>')
-    text = path.read_text().replace('<wall ', '<wall level="a" ').replace(
-        '<room ', '<room level="b" ')
-    path.write_text(text)
+                 door(200, 300).replace('<doorOrWindow', '<doorOrWindow level="b"'))
+    on_levels(path, 'a', 'b')
     plan = read_sweethome(path)
     below, above = plan.storeys
     assert [o.name for o in below.openings] == ['kitchen0'] == [r.name for r in below.rooms]
@@ -139,28 +152,22 @@ def test_layers_of_one_height_are_one_storey(tmp_path: Path) -> None:
                                          ('x' * 300, 'x' * 40)])
 def test_odd_names_of_levels_are_one_line(name: str, shown: str, tmp_path: Path) -> None:
     path = small(tmp_path, f'<level id="a" name="{name}" elevation="0" height="250"/>')
-    text = path.read_text().replace('<wall ', '<wall level="a" ').replace('<room ',
-                                                                          '<room level="a" ')
-    path.write_text(text)
-    write_world(read_sweethome(path), tmp_path / 'a.world', 'none')
-    storey, = angen.World(str(tmp_path / 'a.world')).home['storeys']
+    on_levels(path, 'a', 'a')
+    storey, = built(read_sweethome(path), tmp_path).home['storeys']
     assert storey['name'] == shown
 
 
 def test_a_door_ends_below_the_ceiling(tmp_path: Path) -> None:
-    path = small(tmp_path, '<doorOrWindow catalogId="eTeks#door" name="Door" x="200" y="300" '
-                 f'width="90" depth="20" height="400">{SASH}</doorOrWindow>')
-    plan = read_sweethome(path)
-    write_world(plan, tmp_path / 'a.world', 'none')
+    plan = read_sweethome(small(tmp_path, door(200, 300).replace('"208"', '"400"')))
+    world = built(plan, tmp_path)
     assert plan.remarks == ['the door "Door" at 2.00 -3.00 is higher than the ceiling, and ends '
                             'below it']
-    states = homes.open_all(angen.World(str(tmp_path / 'a.world')))
+    states = homes.open_all(world)
     assert [mode for mode, _, _ in states.values()] == ['OPEN']
 
 
 def test_rooms_are_found_beside_a_door_in_a_thicker_wall(tmp_path: Path) -> None:
-    path = small(tmp_path, '<doorOrWindow catalogId="eTeks#door" name="Door" x="200" y="300" '
-                 f'width="90" depth="10" height="208">{SASH}</doorOrWindow>')
+    path = small(tmp_path, door(200, 300).replace('depth="20"', 'depth="10"'))
     path.write_text(path.read_text().replace('thickness="20"', 'thickness="90"').replace(
         '"10"', '"45"').replace('"390"', '"355"').replace('"290"', '"255"'))
     plan = read_sweethome(path)
@@ -219,9 +226,7 @@ def test_a_door_opens_to_the_side_of_its_sash(tmp_path: Path, mirrored: str, ang
     opening, = read_sweethome(path).all_openings()
     leaf, = opening.leaves
     assert leaf.turn == pytest.approx(turn, abs=1e-3)
-    out = tmp_path / 'home.world'
-    write_world(read_sweethome(path), out, 'none')
-    world = angen.World(str(out))
+    world = built(read_sweethome(path), tmp_path)
     world.command('door', 'kitchen0', 'Open')
     world.run(6)
     assert world.device('door', 'kitchen0')['mode'] == 'OPEN'
@@ -235,9 +240,7 @@ def test_a_door_opens_to_the_side_of_its_sash(tmp_path: Path, mirrored: str, ang
 def test_a_slider_slides_before_its_fixed_pane(tmp_path: Path) -> None:
     path = small(tmp_path, '<doorOrWindow catalogId="sliderWindow" name="Slider window" x="200" '
                  'y="300" width="200" depth="20" height="210"/>')
-    out = tmp_path / 'home.world'
-    write_world(read_sweethome(path), out, 'none')
-    world = angen.World(str(out))
+    world = built(read_sweethome(path), tmp_path)
     assert len(world.devices('door')) + len(world.devices('window')) == 1
     kind = 'door' if world.devices('door') else 'window'
     name, = world.devices(kind)
@@ -251,15 +254,11 @@ def test_a_slider_slides_before_its_fixed_pane(tmp_path: Path) -> None:
 def test_a_leaf_stops_before_an_obstacle(tmp_path: Path) -> None:
     box = ('<pieceOfFurniture catalogId="x#box" name="Box" x="{}" y="350" width="20" depth="20" '
            'height="100"/>')
-    door = ('<doorOrWindow catalogId="door" name="Door" x="200" y="300" width="100" depth="20" '
-            f'height="210">{SASH}</doorOrWindow>')
-    path = small(tmp_path, door, box.format(190))
-    plan = read_sweethome(path)
-    out = tmp_path / 'home.world'
-    write_world(plan, out, 'none')
+    plan = read_sweethome(small(
+        tmp_path, door(200, 300).replace('width="90"', 'width="100"'), box.format(190)))
+    world = built(plan, tmp_path)
     remark, = (r for r in plan.remarks if 'degrees only' in r)
     assert 'the Box is in its way' in remark
-    world = angen.World(str(out))
     world.command('door', 'kitchen0', 'Open')
     world.run(6)
     state = world.device('door', 'kitchen0')
@@ -302,17 +301,11 @@ def test_a_frame_that_a_piece_closes_is_no_way_and_odd_doors_are_reported(tmp_pa
     gate = '<pieceOfFurniture name="Gate" x="200" y="0" width="250" depth="10" height="205"/>'
     plan = read_sweethome(small(tmp_path, opening(200, 0, '', 250), gate, opening(200, 300, SASH),
                                 opening(210, 300, SASH), opening(900, 900, SASH)))
-    write_world(plan, tmp_path / 'small.world', 'none')
-    home = angen.World(str(tmp_path / 'small.world')).home
+    home = built(plan, tmp_path).home
     assert sorted(door['kind'] for door in home['doors']) == ['door', 'door']
     assert sum('is drawn over another one' in remark for remark in plan.remarks) == 1
     assert sum('is in no wall' in remark for remark in plan.remarks) == 1
     assert sum('is closed by the piece "Gate"' in remark for remark in plan.remarks) == 1
-
-
-def door(x: float, y: float, name: str = 'Door') -> str:
-    return (f'<doorOrWindow catalogId="eTeks#door" name="{name}" x="{x}" y="{y}" width="90" '
-            f'depth="20" height="208">{SASH}</doorOrWindow>')
 
 
 @pytest.mark.parametrize('encoding', ['utf-16', 'utf-8-sig'])
@@ -336,8 +329,7 @@ def test_what_is_no_furniture_is_left_out(tmp_path: Path) -> None:
     path = small(tmp_path, '<level id="a" name="A" elevation="0" height="250"/>',
                  f'<pieceOfFurniture level="b" name="Chest" {box}/>',
                  f'<pieceOfFurniture level="a" name="Standing woman" {box}/>')
-    path.write_text(path.read_text().replace('<wall ', '<wall level="a" ').replace(
-        '<room ', '<room level="a" '))
+    on_levels(path, 'a', 'a')
     plan = read_sweethome(path)
     assert not plan.storeys[0].pieces
     assert [remark.partition(': ')[2] for remark in plan.remarks] == [
@@ -366,8 +358,7 @@ def test_the_main_entrance_leads_outside_and_opens(tmp_path: Path) -> None:
                                    'depth="60" height="90"/>' for y in (257, 343)))
     plan = read_sweethome(path)
     assert plan.entrances == ['kitchen_b0', 'kitchen_c0'] and plan.entrance == 'kitchen_b0'
-    write_world(plan, tmp_path / 'a.world', 'none')
-    assert angen.World(str(tmp_path / 'a.world')).home['entrance'] == 'kitchen_c0'
+    assert built(plan, tmp_path).home['entrance'] == 'kitchen_c0'
 
 
 def test_a_large_building_is_divided_into_models(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
