@@ -13,6 +13,7 @@ TEST(Expand, WithTwoNamesIsRejected) {
     text += "\n<" + twice + ">" + value + "</" + twice + "></include>";
     const std::string message = error_of(in_world(text), folder.paths());
     EXPECT_EQ(message.find("w.world:2: a second <" + twice + "> in one <include>"), 0U) << message;
+    EXPECT_THROW(model(text, "asked", {}, folder.paths()), Error) << "a spawned model";
   }
 }
 

@@ -145,23 +145,16 @@ TEST(Joint, RevoluteWithLimitsAndDynamics) {
   EXPECT_DOUBLE_EQ(j.axes[0].friction, 0.5);
 }
 
-TEST(Joint, WithoutLimitsIsFree) {
-  const desc::JointAxis a =
-      read_model(joint("revolute", "<axis><xyz>0 0 1</xyz></axis>")).joints[0].axes.at(0);
-  EXPECT_DOUBLE_EQ(a.lower, -1e16);
-  EXPECT_DOUBLE_EQ(a.upper, 1e16);
-  EXPECT_LT(a.effort, 0.0);
-}
-
-TEST(Joint, InfiniteLimitsAreNone) {
-  const desc::JointAxis a =
-      read_model(joint("revolute",
-                       "<axis><xyz>0 0 1</xyz><limit><lower>-inf</lower><upper>inf"
-                       "</upper></limit></axis>"))
-          .joints[0]
-          .axes.at(0);
-  EXPECT_DOUBLE_EQ(a.lower, -1e16);
-  EXPECT_DOUBLE_EQ(a.upper, 1e16);
+TEST(Joint, WithoutLimitsOrWithInfiniteOnesIsFree) {
+  for (const std::string limit : {"", "<limit><lower>-inf</lower><upper>inf</upper></limit>"}) {
+    const desc::JointAxis a =
+        read_model(joint("revolute", "<axis><xyz>0 0 1</xyz>" + limit + "</axis>"))
+            .joints[0]
+            .axes.at(0);
+    EXPECT_DOUBLE_EQ(a.lower, -1e16);
+    EXPECT_DOUBLE_EQ(a.upper, 1e16);
+    EXPECT_LT(a.effort, 0.0);
+  }
 }
 
 TEST(Joint, EveryType) {

@@ -106,22 +106,6 @@ TEST(Ignored, OfAModelThatIsIncludedTwiceIsListedOnce) {
       << found[0];
 }
 
-TEST(Ignored, AMisspelledElementIsAnErrorWithTheOneThatIsMeant) {
-  const auto said = [](const std::string& xml) -> std::string {
-    try {
-      SearchPaths strict;
-      world_from_text(xml, "test.world", strict);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_NE(said(in_model("<sttic>true</sttic><link name='l'/>")).find("did you mean <static>?"),
-            std::string::npos);
-  EXPECT_NE(said(in_link("<visaul name='v'/>")).find("did you mean <visual>?"), std::string::npos);
-  EXPECT_EQ(said(in_model("<link name='l'/>")), "");
-}
-
 TEST(Ignored, WrittenIntoAnIncludeIsAWarning) {
   const Folder folder;
   folder.model("thing", sdf("<model name='thing'><link name='l'/></model>"));

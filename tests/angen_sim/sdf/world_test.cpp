@@ -117,16 +117,6 @@ TEST(World, UnknownElementIsAWarningWithItsLine) {
   EXPECT_NE(w.warnings[0].message.find("wings"), std::string::npos);
 }
 
-TEST(World, PoseRelativeToAnotherModel) {
-  const desc::World w =
-      read(in_world("<model name='a'><pose>1 0 0 0 0 1.5707963267948966</pose>"
-                    "<link name='l'/></model><model name='b'>"
-                    "<pose relative_to='a'>2 0 0 0 0 0</pose><link name='l'/>"
-                    "</model>",
-                    "1.8"));
-  expect_near(w.models[1].pose.position, {1.0, 2.0, 0.0});
-}
-
 TEST(Include, GivesNamePoseStaticAndPlugins) {
   const Folder folder;
   const std::string file =
