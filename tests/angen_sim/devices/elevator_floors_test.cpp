@@ -45,11 +45,6 @@ TEST(ElevatorFloors, AreTheStoreysWithinItsTravel) {
   EXPECT_THROW(stops({}), Error);
 }
 
-TEST(ElevatorFloors, AreNoMoreThanItsLiftReaches) {
-  Bench bench;
-  EXPECT_THROW(add_elevator(bench, 400.0, {{"floors", "3"}, {"floor_height", "4"}}), Error);
-}
-
 TEST(ElevatorFloors, AreAtTheHeightsThatAreGiven) {
   Bench bench;
   Rig& rig = add_elevator(bench, 400.0, {{"stop", "0"}, {"stop", "1.5"}, {"stop", "4"}});

@@ -142,17 +142,6 @@ TEST(Pyroelectric, IsOnForTheHoldTimeAndThenDeafForTheLockoutTime) {
   EXPECT_EQ(lengths, (std::vector<int>{1, 50, 100, 50, 100, 50, 49}));
 }
 
-TEST(Pyroelectric, EachCrossingProlongsMotionWhereItRetriggers) {
-  const std::vector<int> lengths = run_lengths({{"hold_time", "0.5"}}, 200, 400);
-  // The last one that fires is sample 199, the 200th.
-  EXPECT_EQ(lengths, (std::vector<int>{1, 198 + 50, 151}));
-}
-
-TEST(Pyroelectric, IsDeafWhileItWarmsUp) {
-  const std::vector<int> lengths = run_lengths(Parameters{{"warm_up", "2"}}, 400, 300);
-  EXPECT_EQ(lengths, (std::vector<int>{200, 100}));
-}
-
 TEST(Pyroelectric, FalseAlarmsComeAtTheirRate) {
   Bench bench(
       kPir,
