@@ -120,47 +120,6 @@ TEST(Drive, StandingPersonSleepsAndIsPushedByNobody) {
   EXPECT_NEAR(world.link(body).pose.position.y() - before.y(), 0.77, 0.02);
 }
 
-TEST(Drive, PersonPushesAFreeDoorOpen) {
-  TestWorld world;
-  world.add(floor_model());
-  const ModelId door = world.add(door_model("door"));
-  const LinkId body = world.only_link(world.add(person_model("person", {0.55, 1.0, 0.001})));
-  world.drive(body, {0, -0.8, 0}, 0.0, 150.0);
-  world.run(3.0);
-  EXPECT_LT(world.joint(world.joints(door)[1]).position, -0.8);
-}
-
-TEST(Robot, DrivesByFrictionAsFarAsItsWheelsTurn) {
-  TestWorld world;
-  world.add(floor_model());
-  const ModelId robot = world.add(robot_model("robot"));
-  const auto& joints = world.joints(robot);
-  world.run(0.2);
-  for (const JointId joint : joints) world.set_motor(joint, 0.3 / 0.035, 1.0);
-  world.run(4.0);
-  const Vec3 at = world.link(world.links(robot)[0]).pose.position;
-  EXPECT_NEAR(world.joint(joints[0]).position * 0.035, at.x(), 0.02);
-  EXPECT_NEAR(at.x(), 1.2, 0.05);
-  EXPECT_NEAR(at.y(), 0.0, 0.01);
-  EXPECT_NEAR(at.z(), 0.0, 2e-3);
-  EXPECT_EQ(world.failed_steps(), 0U);
-}
-
-TEST(Robot, TurnsOnTheSpotByTheDifferenceOfItsWheels) {
-  TestWorld world;
-  world.add(floor_model());
-  const ModelId robot = world.add(robot_model("robot"));
-  const auto& joints = world.joints(robot);
-  world.run(0.2);
-  world.set_motor(joints[0], -2.0, 1.0);
-  world.set_motor(joints[1], 2.0, 1.0);
-  world.run(5.0);
-  const Pose pose = world.link(world.links(robot)[0]).pose;
-  const double expected = 2.0 * 5.0 * 0.035 * 2.0 / 0.23;
-  EXPECT_NEAR(std::remainder(yaw_of(pose.rotation) - expected, 2 * M_PI), 0.0, 0.1);
-  EXPECT_LT(pose.position.head<2>().norm(), 0.02);
-}
-
 TEST(Robot, RidesALiftAndKeepsItsPlace) {
   TestWorld world;
   const ModelId lift = world.add(lift_model("lift"));
@@ -193,28 +152,6 @@ TEST(Robot, DrivesOnALiftFloorToo) {
   for (const JointId wheel : world.joints(robot)) world.set_motor(wheel, 0.2 / 0.035, 1.0);
   world.run(2.0);
   EXPECT_NEAR(world.link(world.links(robot)[0]).pose.position.x(), 0.2, 0.02);
-}
-
-TEST(Lift, LiftedByAForceTakesABoxAlongThatKeepsItsPlace) {
-  TestWorld world;
-  const ModelId lift = world.add(lift_model("lift"));
-  const LinkId box =
-      world.only_link(world.add(box_model("box", 5.0, {0.3, 0.3, 0.3}, {0.2, -0.1, 0.15})));
-  const JointId joint = world.joints(lift)[0];
-  double setpoint = 0.0;
-  for (int i = 0; i < 5000; ++i) {
-    setpoint = std::min(2.0, setpoint + 0.5 * kStep);
-    const JointState s = world.joint(joint);
-    const double speed = setpoint < 2.0 ? 0.5 : 0.0;
-    world.add_force(joint,
-                    15.0 * (9.81 + 200.0 * (setpoint - s.position) + 25.0 * (speed - s.velocity)));
-    world.run(kStep);
-  }
-  EXPECT_NEAR(world.joint(joint).position, 2.0, 1e-3);
-  const Vec3 at = world.link(box).pose.position;
-  EXPECT_NEAR(at.z(), 2.15, 2e-3);
-  EXPECT_NEAR(at.x(), 0.2, 1e-3);
-  EXPECT_NEAR(at.y(), -0.1, 1e-3);
 }
 
 TEST(Door, FreeSwingLosesEnergyOnlyByDamping) {

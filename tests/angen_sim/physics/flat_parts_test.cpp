@@ -11,38 +11,7 @@
 namespace angen::physics::testing {
 namespace {
 
-desc::Model ground(const Shape& shape) {
-  desc::Link link = box_link("link", 1.0, {1, 1, 1});
-  link.collisions = {collision(shape, 0.3)};
-  desc::Model model = model_of("ground", {link});
-  model.is_static = true;
-  return model;
-}
-
-Shape plane() {
-  Shape shape;
-  shape.type = Shape::Type::kPlane;
-  return shape;
-}
-
-/// A square of 2 m at z = 0 about the origin, of cells of `cell` m with two triangles each.
-Shape mesh_floor(double cell) {
-  auto mesh = std::make_shared<TriangleMesh>();
-  const auto count = static_cast<std::uint32_t>(std::lround(2.0 / cell));
-  for (std::uint32_t y = 0; y <= count; ++y) {
-    for (std::uint32_t x = 0; x <= count; ++x) {
-      mesh->vertices.push_back(Vec3(cell * x - 1.0, cell * y - 1.0, 0.0).cast<float>());
-      if (x == count || y == count) continue;
-      const std::uint32_t at = y * (count + 1) + x;
-      mesh->triangles.push_back({at, at + 1, at + count + 2});
-      mesh->triangles.push_back({at, at + count + 2, at + count + 1});
-    }
-  }
-  Shape shape;
-  shape.type = Shape::Type::kMesh;
-  shape.mesh = mesh;
-  return shape;
-}
+desc::Model ground(const Shape& shape) { return static_shape("ground", shape, 0.3); }
 
 desc::Model thing(const Shape& shape, const Pose& pose) {
   desc::Link link = box_link("link", 1.0, {0.2, 0.2, 0.2});
@@ -78,8 +47,8 @@ TEST(FlatParts, SlideAndRollAsOnAPlane) {
         SCOPED_TRACE(std::to_string(i) + " on cells of " + std::to_string(cell));
         const auto& [shape, turned] = things[i];
         const Pose start{{-0.413, -0.107, 0.1}, turned};
-        const LinkState on_plane = pushed(ground(plane()), shape, start, first);
-        const LinkState on_mesh = pushed(ground(mesh_floor(cell)), shape, start, first);
+        const LinkState on_plane = pushed(ground(plane_shape()), shape, start, first);
+        const LinkState on_mesh = pushed(ground(mesh_floor(cell, 1.0)), shape, start, first);
         EXPECT_GT(on_plane.pose.position.x(), -0.4);
         EXPECT_NEAR((on_mesh.pose.position - on_plane.pose.position).norm(), 0.0, 2e-3);
         EXPECT_LT(on_mesh.pose.rotation.angularDistance(on_plane.pose.rotation), 0.02);
@@ -91,7 +60,7 @@ TEST(FlatParts, SlideAndRollAsOnAPlane) {
 TEST(FlatParts, EndAtTheirBorder) {
   for (const auto& [x, falls] : {std::pair(0.95, false), std::pair(1.05, true)}) {
     TestWorld world;
-    world.add(ground(mesh_floor(0.1)));
+    world.add(ground(mesh_floor(0.1, 1.0)));
     const LinkId link = world.only_link(
         world.add(thing(box_shape({0.3, 0.2, 0.1}), {{x, 0.013, 0.051}, Quat::Identity()})));
     world.run(1.0);
@@ -101,19 +70,9 @@ TEST(FlatParts, EndAtTheirBorder) {
 
 // A body that is partly below a table has its lower corners far below the plane of its top.
 TEST(FlatParts, ATableIsMetAtItsEdge) {
-  auto top = std::make_shared<TriangleMesh>();
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner((i & 1) - 0.5, (i >> 1 & 1) - 0.5, 0.7 + 0.03 * (i >> 2));
-    top->vertices.push_back(corner.cast<float>());
-  }
-  top->triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  Shape shape;
-  shape.type = Shape::Type::kMesh;
-  shape.mesh = top;
   for (const double y : {0.0, 0.45}) {
     TestWorld world({}, Vec3::Zero());
-    world.add(ground(shape));
+    world.add(ground(mesh_box({1.0, 1.0, 0.03}, {0.0, 0.0, 0.715})));
     const LinkId link = world.only_link(
         world.add(thing(box_shape({0.3, 0.3, 1.2}), {{-0.8, y, 0.6}, Quat::Identity()})));
     world.set_velocity(link, {1.0, 0.0, 0.0}, Vec3::Zero());
@@ -125,18 +84,16 @@ TEST(FlatParts, ATableIsMetAtItsEdge) {
 
 // A wall on the floor, of the same mesh: its edges stop a moving body.
 TEST(FlatParts, WallsStop) {
-  Shape shape = mesh_floor(0.1);
-  auto mesh = std::make_shared<TriangleMesh>(*shape.mesh);
-  const auto at = static_cast<std::uint32_t>(mesh->vertices.size());
+  TriangleMesh mesh = *mesh_floor(0.1, 1.0).mesh;
+  const auto at = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const Vec3& corner : {Vec3(0, -1, 0), Vec3(0, 1, 0), Vec3(0, 1, 0.5), Vec3(0, -1, 0.5)}) {
-    mesh->vertices.push_back(corner.cast<float>());
+    mesh.vertices.push_back(corner.cast<float>());
   }
-  mesh->triangles.push_back({at, at + 2, at + 1});
-  mesh->triangles.push_back({at, at + 3, at + 2});
-  shape.mesh = mesh;
+  mesh.triangles.push_back({at, at + 2, at + 1});
+  mesh.triangles.push_back({at, at + 3, at + 2});
   for (const Shape& solid : {box_shape({0.2, 0.2, 0.2}), round_shape(Shape::Type::kSphere, 0.1)}) {
     TestWorld world;
-    world.add(ground(shape));
+    world.add(ground(mesh_shape(mesh)));
     const LinkId link =
         world.only_link(world.add(thing(solid, {{-0.3, 0.013, 0.1}, Quat::Identity()})));
     world.run(0.1);

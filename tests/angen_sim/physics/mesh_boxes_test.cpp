@@ -60,11 +60,8 @@ TEST(MeshBoxes, CountAtLeastThePairsThatOverlapAndLittleWhereNoneDo) {
 }
 
 desc::Model mesh_model(const char* name, const TriangleMesh& mesh, double z, bool is_static) {
-  Shape shape;
-  shape.type = Shape::Type::kMesh;
-  shape.mesh = std::make_shared<TriangleMesh>(mesh);
   desc::Link link = box_link("link", 1.0, {1.0, 1.0, 1.0});
-  link.collisions = {collision(shape)};
+  link.collisions = {collision(mesh_shape(mesh))};
   desc::Model model = model_of(name, {link}, {{0, 0, z}, Quat::Identity()});
   model.is_static = is_static;
   return model;

@@ -12,34 +12,27 @@ namespace {
 
 /// A cylinder along z: `sides` corners at each end, which are fans.
 Shape mesh_cylinder(double radius, double length, std::uint32_t sides) {
-  auto mesh = std::make_shared<TriangleMesh>();
+  TriangleMesh mesh;
   for (std::uint32_t i = 0; i < sides; ++i) {
     const double angle = 2.0 * M_PI * i / sides;
     for (const double z : {-length / 2.0, length / 2.0}) {
-      mesh->vertices.push_back(
+      mesh.vertices.push_back(
           Vec3(radius * std::cos(angle), radius * std::sin(angle), z).cast<float>());
     }
     const std::uint32_t a = 2 * i;
     const std::uint32_t b = 2 * ((i + 1) % sides);
-    mesh->triangles.push_back({a, b, a + 1});
-    mesh->triangles.push_back({b, b + 1, a + 1});
+    mesh.triangles.push_back({a, b, a + 1});
+    mesh.triangles.push_back({b, b + 1, a + 1});
     if (i == 0) continue;
-    mesh->triangles.push_back({0, b, a});
-    mesh->triangles.push_back({1, a + 1, b + 1});
+    mesh.triangles.push_back({0, b, a});
+    mesh.triangles.push_back({1, a + 1, b + 1});
   }
-  Shape shape;
-  shape.type = Shape::Type::kMesh;
-  shape.mesh = mesh;
-  return shape;
+  return mesh_shape(std::move(mesh));
 }
 
 desc::Model turned_plane(const Quat& turned) {
-  Shape shape;
-  shape.type = Shape::Type::kPlane;
-  desc::Link link = box_link("link", 1.0, {1, 1, 1});
-  link.collisions = {collision(shape)};
-  desc::Model model = model_of("plane", {link}, {Vec3::Zero(), turned});
-  model.is_static = true;
+  desc::Model model = static_shape("plane", plane_shape());
+  model.pose.rotation = turned;
   return model;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cmath>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/time.h"
@@ -26,6 +29,47 @@ inline Shape round_shape(Shape::Type type, double radius, double length = 0.0) {
   shape.radius = radius;
   shape.length = length;
   return shape;
+}
+
+inline Shape plane_shape() {
+  Shape shape;
+  shape.type = Shape::Type::kPlane;
+  return shape;
+}
+
+inline Shape mesh_shape(TriangleMesh mesh) {
+  Shape shape;
+  shape.type = Shape::Type::kMesh;
+  shape.mesh = std::make_shared<TriangleMesh>(std::move(mesh));
+  return shape;
+}
+
+/// A square of cells of `cell` m, with two triangles each, from -half to half at z = 0.
+inline Shape mesh_floor(double cell, double half) {
+  TriangleMesh mesh;
+  const auto count = static_cast<std::uint32_t>(std::lround(2.0 * half / cell));
+  for (std::uint32_t y = 0; y <= count; ++y) {
+    for (std::uint32_t x = 0; x <= count; ++x) {
+      mesh.vertices.push_back(Vec3(cell * x - half, cell * y - half, 0.0).cast<float>());
+      if (x == count || y == count) continue;
+      const std::uint32_t at = y * (count + 1) + x;
+      mesh.triangles.push_back({at, at + 1, at + count + 2});
+      mesh.triangles.push_back({at, at + count + 2, at + count + 1});
+    }
+  }
+  return mesh_shape(std::move(mesh));
+}
+
+/// A closed box of twelve triangles, outside counter-clockwise.
+inline Shape mesh_box(const Vec3& size, const Vec3& middle = Vec3::Zero()) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 corner((i & 1) - 0.5, (i >> 1 & 1) - 0.5, (i >> 2) - 0.5);
+    mesh.vertices.emplace_back((middle + corner.cwiseProduct(size)).cast<float>());
+  }
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh_shape(std::move(mesh));
 }
 
 inline desc::Collision collision(const Shape& shape, double mu = 1.0, const Pose& pose = {}) {
@@ -85,6 +129,12 @@ inline desc::Model static_box(const std::string& name, const Vec3& size,
                               const Vec3& at = Vec3::Zero(), double mu = 1.0) {
   desc::Model model = box_model(name, 1.0, size, at, mu);
   model.is_static = true;
+  return model;
+}
+
+inline desc::Model static_shape(const std::string& name, const Shape& shape, double mu = 1.0) {
+  desc::Model model = static_box(name, {1, 1, 1});
+  model.links[0].collisions = {collision(shape, mu)};
   return model;
 }
 

@@ -6,45 +6,6 @@
 namespace angen::physics::testing {
 namespace {
 
-/// A closed box of twelve triangles, outside counter-clockwise.
-Shape mesh_box(const Vec3& size) {
-  auto mesh = std::make_shared<TriangleMesh>();
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner((i & 1) != 0 ? 0.5 : -0.5, (i & 2) != 0 ? 0.5 : -0.5,
-                      (i & 4) != 0 ? 0.5 : -0.5);
-    mesh->vertices.emplace_back(corner.cwiseProduct(size).cast<float>());
-  }
-  mesh->triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  Shape shape;
-  shape.type = Shape::Type::kMesh;
-  shape.mesh = mesh;
-  return shape;
-}
-
-/// A flat grid of triangles at z = 0, 1 m apart, as a heightmap makes it.
-Shape mesh_ground(int half) {
-  auto mesh = std::make_shared<TriangleMesh>();
-  const int n = 2 * half + 1;
-  for (int y = 0; y < n; ++y) {
-    for (int x = 0; x < n; ++x) {
-      mesh->vertices.emplace_back(static_cast<float>(x - half), static_cast<float>(y - half), 0.0F);
-    }
-  }
-  for (int y = 0; y + 1 < n; ++y) {
-    for (int x = 0; x + 1 < n; ++x) {
-      const auto at = static_cast<std::uint32_t>(y * n + x);
-      const auto up = static_cast<std::uint32_t>(at + static_cast<std::uint32_t>(n));
-      mesh->triangles.push_back({at, at + 1, up + 1});
-      mesh->triangles.push_back({at, up + 1, up});
-    }
-  }
-  Shape shape;
-  shape.type = Shape::Type::kMesh;
-  shape.mesh = mesh;
-  return shape;
-}
-
 /// A heightmap of `cells` by `cells`, of `size` m, all of it at height 0 but a corner.
 Shape height_ground(std::uint32_t cells, double size) {
   auto grid = std::make_shared<HeightGrid>();
@@ -56,18 +17,7 @@ Shape height_ground(std::uint32_t cells, double size) {
   return shape;
 }
 
-desc::Model static_shape(const std::string& name, const Shape& shape) {
-  desc::Model model = static_box(name, {1, 1, 1});
-  model.links[0].collisions[0].shape = shape;
-  return model;
-}
-
-desc::Model plane_model() {
-  Shape plane;
-  plane.type = Shape::Type::kPlane;
-  plane.size = {1, 1, 0};
-  return static_shape("plane", plane);
-}
+desc::Model plane_model() { return static_shape("plane", plane_shape()); }
 
 struct Rest {
   const char* name;
@@ -106,7 +56,7 @@ TEST(Shapes, RestOnAPlane) {
 TEST(Shapes, RestOnAHeightmap) {
   for (const Rest& solid : solids()) {
     if (solid.shape.type == Shape::Type::kMesh) continue;
-    expect_rest(static_shape("ground", mesh_ground(3)), solid);
+    expect_rest(static_shape("ground", mesh_floor(1.0, 3.0)), solid);
     expect_rest(static_shape("ground", height_ground(6, 6.0)), solid);
     expect_rest(static_shape("ground", height_ground(600, 6.0)), solid);  // across many tiles
   }
@@ -126,19 +76,18 @@ TEST(Shapes, AHeightmapMeetsAsTheMeshOfItsTriangles) {
       ground.type = Shape::Type::kHeightmap;
       ground.heights = grid;
     } else {
-      auto mesh = std::make_shared<TriangleMesh>();
+      TriangleMesh mesh;
       for (std::uint32_t r = 0; r < 41; ++r) {
-        for (std::uint32_t c = 0; c < 41; ++c) mesh->vertices.push_back(grid->vertex(c, r));
+        for (std::uint32_t c = 0; c < 41; ++c) mesh.vertices.push_back(grid->vertex(c, r));
       }
       for (std::uint32_t r = 0; r < 40; ++r) {
         for (std::uint32_t c = 0; c < 40; ++c) {
           const std::uint32_t a = r * 41 + c;
-          mesh->triangles.push_back({a, a + 41, a + 1});
-          mesh->triangles.push_back({a + 1, a + 41, a + 42});
+          mesh.triangles.push_back({a, a + 41, a + 1});
+          mesh.triangles.push_back({a + 1, a + 41, a + 42});
         }
       }
-      ground.type = Shape::Type::kMesh;
-      ground.mesh = mesh;
+      ground = mesh_shape(mesh);
     }
     TestWorld world;
     world.add(static_shape("ground", ground));
@@ -168,7 +117,7 @@ TEST(Shapes, AHeightmapThatIsTurnedAndMovedIsMetThere) {
 
 TEST(Shapes, RobotDrivesOnAMesh) {
   TestWorld world;
-  world.add(static_shape("ground", mesh_ground(3)));
+  world.add(static_shape("ground", mesh_floor(1.0, 3.0)));
   const ModelId robot = world.add(robot_model("robot", {0.05, 0.03, 0}));
   world.run(0.2);
   for (const JointId wheel : world.joints(robot)) world.set_motor(wheel, 0.3 / 0.035, 1.0);
@@ -210,25 +159,6 @@ TEST(Shapes, FarAwayAndHugeOnesTouchToo) {
   EXPECT_NEAR(world.link(near).pose.position.z(), 0.1, 1e-3);
   EXPECT_NEAR(world.link(far).pose.position.z(), 0.1, 1e-3);
   EXPECT_EQ(world.awake_count(), 0U);
-}
-
-TEST(Shapes, BounceAsTheirRestitutionSays) {
-  TestWorld world;
-  desc::Model ground = floor_model();
-  ground.links[0].collisions[0].restitution = 1.0;
-  world.add(ground);
-  desc::Model ball = box_model("ball", 1, {0.1, 0.1, 0.1}, {0, 0, 1.1});
-  ball.links[0].collisions[0].shape = round_shape(Shape::Type::kSphere, 0.1);
-  ball.links[0].collisions[0].restitution = 0.5;
-  const LinkId link = world.only_link(world.add(ball));
-  double highest = 0.0;
-  bool hit = false;
-  for (int i = 0; i < 1000; ++i) {
-    world.run(1e-3);
-    hit = hit || !world.contacts().empty();
-    if (hit) highest = std::max(highest, world.link(link).pose.position.z() - 0.1);
-  }
-  EXPECT_NEAR(highest, 0.25, 0.02);
 }
 
 TEST(Shapes, SoftOnesSinkByTheirWeightOverTheirStiffness) {

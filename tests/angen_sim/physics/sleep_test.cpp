@@ -40,18 +40,6 @@ TEST(Sleep, FallWhenWhatTheyRestOnIsRemoved) {
   EXPECT_TRUE(world.contacts().empty());
 }
 
-TEST(Sleep, WakeWhenWhatTheyRestOnIsMoved) {
-  TestWorld world;
-  const ModelId floor = world.add(floor_model());
-  const LinkId link =
-      world.only_link(world.add(box_model("box", 7.0, {0.4, 0.3, 0.2}, {0, 0, 0.1})));
-  world.run(2.0);
-  world.move(floor, {{0, 0, -1}, Quat::Identity()});
-  world.run(2.0);
-  EXPECT_NEAR(world.link(link).pose.position.z(), -0.9, 1.01e-3);  // by the layer of contacts
-  EXPECT_FALSE(world.awake(link));
-}
-
 TEST(Sleep, WakeWhenSomethingFallsOnThem) {
   TestWorld world;
   world.add(floor_model());

@@ -57,21 +57,5 @@ TEST(Step, ThatAreHalfWeightlessFallWithHalfTheAcceleration) {
   EXPECT_NEAR(world.link(world.links(id)[1]).linear_velocity.z(), -9.81 / 2, 1e-9);
 }
 
-TEST(Step, OnAPlaneSlideWithMuG) {
-  TestWorld world;
-  world.add(floor_model(0.3));
-  desc::Model slider = box_model("box", 5.0, {0.4, 0.4, 0.1}, {0, 0, 0.05}, 0.3);
-  slider.links.push_back(ghost_link("rod", 1e-3, {0.1, 0.1, 0.1}));
-  const ModelId id = world.add(slider);
-  const LinkId link = world.links(id)[0];
-  world.drive(link, {2.0, 0.0, 0.0}, 0.0, 1e4);
-  world.run(0.1);
-  world.drive(link, Vec3::Zero(), 0.0, 0.0);
-  const double before = world.link(link).linear_velocity.x();
-  EXPECT_NEAR(before, 2.0, 1e-3);
-  world.run(0.4);
-  EXPECT_NEAR(before - world.link(link).linear_velocity.x(), 0.3 * 9.81 * 0.4, 0.01);
-}
-
 }  // namespace
 }  // namespace angen::physics::testing

@@ -75,9 +75,7 @@ Turn turn_on_the_spot(const std::vector<WheelAt>& wheels, double width, double m
 
 desc::Model plane_floor(double mu) {
   desc::Model model = floor_model(mu);
-  Shape plane;
-  plane.type = Shape::Type::kPlane;
-  model.links[0].collisions[0].shape = plane;
+  model.links[0].collisions[0].shape = plane_shape();
   model.links[0].collisions[0].pose.position.z() += 0.1;
   return model;
 }
