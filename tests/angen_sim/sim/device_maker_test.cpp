@@ -20,10 +20,7 @@ class OwnLamps : public ::testing::Test {
   void load_world(const std::string& parts, load::DefaultDialect default_dialect) {
     load::SearchPaths paths;
     paths.default_dialect = default_dialect;
-    world_ = std::make_unique<Simulation>(
-        load::world_from_text("<sdf version='1.6'><world name='w'>" + parts + "</world></sdf>",
-                              "test", paths),
-        0, std::make_shared<Catalog>());
+    world_ = simulation_of(in_world(parts), 0, std::make_shared<Catalog>(), paths);
     for (const Event& event : world_->snapshot()->events) warnings_ += event.detail + "\n";
     world_->tick();
   }
@@ -157,11 +154,8 @@ TEST_F(OwnLamps, AnotherColorIsOfTheSameLevelAndBlackIsDark) {
 }
 
 TEST(DeviceMaker, DescribesTheBodyThatAPlugInDeclares) {
-  const Simulation simulation(
-      load::world_from_text("<sdf version='1.6'><world name='w'><actor name='ann'/></world></sdf>",
-                            "test", {}),
-      0, std::make_shared<Catalog>());
-  const Structure& structure = *simulation.snapshot()->structure;
+  const auto simulation = simulation_of(in_world("<actor name='ann'/>"));
+  const Structure& structure = *simulation->snapshot()->structure;
   const desc::Link& body = structure.models.front()->links.front();
   EXPECT_EQ(structure.devices[0].body, 0);
   EXPECT_TRUE(body.anatomy.upright);

@@ -23,10 +23,7 @@ const std::string kSlide = R"(<model name='slide'><pose>0 5 1 0 0 0</pose>
   <xyz>1 0 0</xyz><limit><lower>-3</lower><upper>3</upper></limit></axis></joint></model>)";
 
 std::unique_ptr<Simulation> world_of(const std::string& models) {
-  return std::make_unique<Simulation>(
-      load::world_from_text("<sdf version='1.6'><world name='w'>" + models + "</world></sdf>",
-                            "test", {}),
-      0, std::make_shared<Catalog>());
+  return simulation_of(in_world(models));
 }
 
 StateIn still(const Pose& pose, const std::string& frame = "") {
@@ -226,12 +223,8 @@ std::unique_ptr<Simulation> world_of_weights() {
       body("floor", "<box><size>2 2 0.2</size></box>", "5 0 -0.1 0 0 0", true) + crate +
       body("post", "<box><size>0.2 0.2 0.2</size></box>", "3 3 1 0 0 1", true, felt) +
       "<include><uri>model://elevator</uri></include>";
-  load::SearchPaths paths;
-  paths.models = {ANGEN_WORLDS_DIR "/models"};
-  return std::make_unique<Simulation>(
-      load::world_from_text("<sdf version='1.6'><world name='w'>" + models + "</world></sdf>",
-                            "test", paths),
-      0, std::make_shared<Catalog>());
+  return simulation_of(in_world(models), 0, std::make_shared<Catalog>(),
+                       {{ANGEN_WORLDS_DIR "/models"}, {}});
 }
 
 TEST(EditsOfGravity, DevicesAndSensorsFeelANewOneAtOnce) {

@@ -6,9 +6,8 @@
 #include <new>
 #include <stdexcept>
 
+#include "angen_sim/sim/room.h"
 #include "plugin/view.h"
-#include "sdf/load.h"
-#include "sim/simulation.h"
 
 namespace angen::sim {
 namespace {
@@ -106,10 +105,7 @@ std::unique_ptr<Simulation> world_with_bombs(const std::string& models) {
   const std::string floor =
       "<model name='floor'><static>true</static><link name='link'><collision name='c'><geometry>"
       "<plane><normal>0 0 1</normal></plane></geometry></collision></link></model>";
-  return std::make_unique<Simulation>(
-      load::world_from_text(
-          "<sdf version='1.6'><world name='w'>" + floor + models + "</world></sdf>", "test", {}),
-      0, catalog);
+  return simulation_of(in_world(floor + models), 0, catalog);
 }
 
 std::vector<Event> run(Simulation& simulation, int ticks) {
@@ -190,12 +186,8 @@ std::unique_ptr<Simulation> world_of_wrong(const std::string& parameters) {
                                  : "<link name='l'><sensor name='s' type='ray'><plugin name='p' "
                                    "filename='sensor.so'>" +
                                        parameters + "</plugin></sensor></link>";
-  return std::make_unique<Simulation>(
-      load::world_from_text("<sdf version='1.6'><world name='w'><model name='m'><static>true"
-                            "</static>" +
-                                inside + "</model></world></sdf>",
-                            "test", {}),
-      0, catalog);
+  return simulation_of(in_world("<model name='m'><static>true</static>" + inside + "</model>"), 0,
+                       catalog);
 }
 
 TEST(AField, ThatIsNotDeclaredFailsTheSensorWhenItIsSet) {

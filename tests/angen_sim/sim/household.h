@@ -75,18 +75,18 @@ inline std::string text_of_household() {
               "<sensor name='reed' type='custom'><pose>0.8 0 0.01 0 0 0</pose><plugin name='r' "
               "filename='libreed_contact.so'><magnet_link>leaf</magnet_link>"
               "<magnet>0.4 0 0</magnet></plugin></sensor>");
-  return "<sdf version='1.6'><world name='w'>" + door + kLamp + kPerson +
-         "<model name='flat'><static>true</static><link name='l'/>"
-         "<angen:room name='a'><angen:polygon>-3 -3 3 -3 3 2 -3 2</angen:polygon></angen:room>"
-         "<angen:room name='b'><angen:polygon>-3 2 3 2 3 4 -3 4</angen:polygon></angen:room>"
-         "<plugin name='c' filename='libroom_climate.so'/></model><model "
-         "name='stove'><static>true</static><link name='l'/>"
-         "<plugin name='h' filename='libheater.so'/><plugin name='t' filename='librfid_tag.so'/>"
-         "<plugin name='b' filename='librobot_battery.so'/></model>" +
-         body("it", none, "-0.5 -2 0.8 0 0 0", true, sensors) +
-         body("floor", "<box><size>9 9 0.2</size></box>", "0 0 -0.1 0 0 0", true, mat) +
-         body("brick", "<box><size>0.4 0.2 0.6</size></box>", "1 0 1.2 0 0 0", false) +
-         "</world></sdf>";
+  return in_world(
+      door + kLamp + kPerson +
+      "<model name='flat'><static>true</static><link name='l'/>"
+      "<angen:room name='a'><angen:polygon>-3 -3 3 -3 3 2 -3 2</angen:polygon></angen:room>"
+      "<angen:room name='b'><angen:polygon>-3 2 3 2 3 4 -3 4</angen:polygon></angen:room>"
+      "<plugin name='c' filename='libroom_climate.so'/></model><model "
+      "name='stove'><static>true</static><link name='l'/>"
+      "<plugin name='h' filename='libheater.so'/><plugin name='t' filename='librfid_tag.so'/>"
+      "<plugin name='b' filename='librobot_battery.so'/></model>" +
+      body("it", none, "-0.5 -2 0.8 0 0 0", true, sensors) +
+      body("floor", "<box><size>9 9 0.2</size></box>", "0 0 -0.1 0 0 0", true, mat) +
+      body("brick", "<box><size>0.4 0.2 0.6</size></box>", "1 0 1.2 0 0 0", false));
 }
 
 }  // namespace angen::sim

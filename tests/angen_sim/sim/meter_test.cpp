@@ -38,13 +38,11 @@ class HeavyPlugin : public Plugin {
 std::unique_ptr<Simulation> simulation(const std::string& text) {
   auto catalog = std::make_shared<Catalog>();
   catalog->add("libheavy.so", std::make_shared<HeavyPlugin>());
-  return std::make_unique<Simulation>(load::world_from_text(text, "test", {}), 5, catalog);
+  return simulation_of(text, 5, catalog);
 }
 
 std::string one_model(const std::string& sensors) {
-  return "<sdf version='1.6'><world name='w'>" +
-         body("it", "<box><size>0.1 0.1 0.1</size></box>", "0 0 1 0 0 0", true, sensors) +
-         "</world></sdf>";
+  return in_world(body("it", "<box><size>0.1 0.1 0.1</size></box>", "0 0 1 0 0 0", true, sensors));
 }
 
 const std::string kHeavy =

@@ -11,6 +11,17 @@
 /// A room of sensors and movers, and the comparison of two runs in it.
 namespace angen::sim {
 
+inline std::string in_world(const std::string& inside) {
+  return "<sdf version='1.6'><world name='w'>" + inside + "</world></sdf>";
+}
+
+inline std::unique_ptr<Simulation> simulation_of(
+    const std::string& text, std::uint64_t seed = 0,
+    const std::shared_ptr<Catalog>& catalog = std::make_shared<Catalog>(),
+    const load::SearchPaths& paths = {}) {
+  return std::make_unique<Simulation>(load::world_from_text(text, "test", paths), seed, catalog);
+}
+
 inline std::string ray_sensor(const std::string& name, const std::string& library, double rate,
                               double noise, const std::string& more = "") {
   const bool two = library == "liboptical_switch_controller.so";
@@ -47,8 +58,7 @@ inline std::string room() {
       ray_sensor("loud", kPir, 10, 0.05) +  // its noise alone is motion now and then
       ray_sensor("gate", "liboptical_switch_controller.so", 3, 0.0) +
       ray_sensor("gatenoisy", "liboptical_switch_controller.so", 3, 0.004);
-  std::string text = "<sdf version='1.6'><world name='w'>";
-  text += body("floor", "<box><size>20 20 0.2</size></box>", "0 0 -0.1 0 0 0", true);
+  std::string text = body("floor", "<box><size>20 20 0.2</size></box>", "0 0 -0.1 0 0 0", true);
   text += body("wall", "<box><size>0.2 6 3</size></box>", "3 0 1.5 0 0 0", true);
   text += body("east", "<box><size>0.1 0.1 0.1</size></box>", "-3 0 0.6 0 0 0", true, all_sensors);
   text += body("west", "<box><size>0.1 0.1 0.1</size></box>", "2 -2 0.4 0 0 2.2", true,
@@ -57,7 +67,7 @@ inline std::string room() {
                ray_sensor("riding", kPir, 10, 0.0));
   text += body("ball", "<sphere><radius>0.3</radius></sphere>", "-1 0.2 1.5 0 0 0", false);
   text += body("brick", "<box><size>0.4 0.2 0.6</size></box>", "0.5 -0.4 1.2 0.4 0.2 0", false);
-  return text + "</world></sdf>";
+  return in_world(text);
 }
 
 inline void expect_same_readings(const Snapshot& a, const Snapshot& b) {

@@ -42,10 +42,7 @@ struct Race {
   std::size_t landings = 0;
 
   explicit Race(const std::string& text) {
-    for (auto* simulation : {&walks, &leaps}) {
-      *simulation = std::make_unique<Simulation>(load::world_from_text(text, "test", {}), 5,
-                                                 std::make_shared<Catalog>());
-    }
+    for (auto* simulation : {&walks, &leaps}) *simulation = simulation_of(text, 5);
   }
   void command(const std::string& kind, const std::string& name, const std::string& text) {
     walks->post(ToDevice{kind, name, {text, {}}});
@@ -204,21 +201,19 @@ TEST(Leaping, DevicesAtRestAreNotUpdatedEachTick) {
   const std::vector<std::string> uris = models_with_devices();
   ASSERT_GT(uris.size(), 20U);
   for (const std::string& uri : uris) {
-    Simulation still(load::world_from_text("<sdf version='1.6'><world name='w'>"
-                                           "<include><uri>model://ground_plane</uri></include>"
-                                           "<include><uri>" +
-                                               uri + "</uri></include></world></sdf>",
-                                           "test", paths()),
-                     5, std::make_shared<Catalog>());
-    while (still.snapshot()->time < 20 * kSecond) still.leap(20 * kSecond);
+    const auto still =
+        simulation_of(in_world("<include><uri>model://ground_plane</uri></include><include><uri>" +
+                               uri + "</uri></include>"),
+                      5, std::make_shared<Catalog>(), paths());
+    while (still->snapshot()->time < 20 * kSecond) still->leap(20 * kSecond);
     int landings = 0;
-    for (; still.snapshot()->time < 30 * kSecond; ++landings) still.leap(30 * kSecond);
+    for (; still->snapshot()->time < 30 * kSecond; ++landings) still->leap(30 * kSecond);
     EXPECT_LT(landings, 100) << uri;
   }
 }
 
 TEST(Leaping, AStepIsAnsweredAtItsEnd) {
-  Race race("<sdf version='1.6'><world name='w'/></sdf>");
+  Race race(in_world(""));
   race.leaps->post(Pause{true});
   race.leaps->tick();
   std::future<Outcome> done = race.leaps->post(Step{5000});

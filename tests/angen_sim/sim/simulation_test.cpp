@@ -4,16 +4,14 @@
 
 #include <thread>
 
-#include "sdf/load.h"
+#include "angen_sim/sim/room.h"
 
 namespace angen::sim {
 namespace {
 
 std::unique_ptr<Simulation> floor_only() {
-  const std::string text = R"(<sdf version="1.6"><world name="w"><model name="floor">
-      <static>true</static><link name="link"/></model></world></sdf>)";
-  return std::make_unique<Simulation>(load::world_from_text(text, "test", {}), 0,
-                                      std::make_shared<Catalog>());
+  return simulation_of(
+      in_world("<model name='floor'><static>true</static><link name='link'/></model>"));
 }
 
 bool ready(const std::future<Outcome>& future) {
@@ -28,20 +26,6 @@ TEST(Simulation, PausedTimeStandsStillAndCommandsAreStillAnswered) {
   EXPECT_EQ(simulation->tick()->time, 0);
   ASSERT_TRUE(ready(rejected));
   EXPECT_FALSE(rejected.get().ok);
-}
-
-TEST(Simulation, AStepIsAnsweredWhenItsTicksAreDone) {
-  const auto simulation = floor_only();
-  simulation->post(Pause{true});
-  simulation->tick();
-  std::future<Outcome> done = simulation->post(Step{3});
-  for (int i = 1; i <= 3; ++i) {
-    EXPECT_FALSE(ready(done));
-    EXPECT_EQ(simulation->tick()->tick, i);
-  }
-  ASSERT_TRUE(ready(done));
-  EXPECT_FALSE(simulation->running());
-  EXPECT_EQ(simulation->tick()->tick, 3);
 }
 
 TEST(Simulation, ANoteBecomesAnEventOfThatTick) {
@@ -67,15 +51,12 @@ TEST(Simulation, BodiesInOnePlaceAreToldOnce) {
               "'><link name='l'><collision name='c'><geometry><box><size>0.1 0.1 0.1</size></box>"
               "</geometry></collision></link></model>";
   }
-  Simulation simulation(
-      load::world_from_text("<sdf version='1.6'><world name='w'>" + models + "</world></sdf>",
-                            "test", {}),
-      0, std::make_shared<Catalog>());
-  const auto first = simulation.tick();
+  const auto simulation = simulation_of(in_world(models));
+  const auto first = simulation->tick();
   ASSERT_EQ(first->events.size(), 1U);
   EXPECT_EQ(first->events[0].event, "crowded");
   EXPECT_EQ(first->events[0].stamp, first->step);
-  EXPECT_TRUE(simulation.tick()->events.empty());
+  EXPECT_TRUE(simulation->tick()->events.empty());
 }
 
 TEST(Simulation, CommandsFromManyThreadsAreEachAnsweredOnce) {
@@ -92,13 +73,6 @@ TEST(Simulation, CommandsFromManyThreadsAreEachAnsweredOnce) {
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(simulation->tick()->events.size(), 80U);
   for (std::future<Outcome>& answer : answers) EXPECT_FALSE(answer.get().ok);
-}
-
-TEST(Simulation, WhatStillWaitsIsAnsweredAtTheEnd) {
-  auto simulation = floor_only();
-  std::future<Outcome> waiting = simulation->post(Delete{"floor"});
-  simulation.reset();
-  EXPECT_EQ(waiting.get().message, "the simulator ended");
 }
 
 TEST(Simulation, ASnapshotThatIsKeptDoesNotChange) {

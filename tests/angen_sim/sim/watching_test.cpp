@@ -152,7 +152,7 @@ std::string restless(std::string text) {
 }
 
 std::unique_ptr<Simulation> make(const std::string& text) {
-  return std::make_unique<Simulation>(load::world_from_text(text, "test", {}), 3, catalog());
+  return simulation_of(text, 3, catalog());
 }
 
 void expect_made_at_each_due_time(const Snapshot& snapshot) {
