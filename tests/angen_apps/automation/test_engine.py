@@ -28,36 +28,18 @@ def one(trigger: str, condition: str = '') -> str:
             + 'action: [{service: light.turn_on, entity_id: light.hall_lamp}]\n')
 
 
-def test_a_delay_passes_and_a_second_trigger_is_ignored(tmp_path: Path) -> None:
-    stage = Stage(tmp_path, TRIGGER % ('', 'single'))
+@pytest.mark.parametrize('lasts, mode, called', [
+    ('', 'single', [(10, 'turn_on'), (70, 'turn_off')]),
+    ('', 'restart', [(10, 'turn_on'), (30, 'turn_on'), (90, 'turn_off')]),
+    ('', 'parallel', [(10, 'turn_on'), (30, 'turn_on'), (70, 'turn_off'), (90, 'turn_off')]),
+    (', for: 15', 'single', [(45, 'turn_on'), (105, 'turn_off')])])
+def test_a_second_trigger_goes_by_the_mode_and_for_counts_while_the_state_stays(
+        tmp_path: Path, lasts: str, mode: str, called: list[tuple[float, str]]) -> None:
+    stage = Stage(tmp_path, TRIGGER % (lasts, mode))
     for time, on in ((10, True), (20, False), (30, True)):
         stage.motion(time, on)
     stage.until(200)
-    assert stage.called == [(10, 'turn_on'), (70, 'turn_off')]
-
-
-def test_restart_begins_the_delay_again(tmp_path: Path) -> None:
-    stage = Stage(tmp_path, TRIGGER % ('', 'restart'))
-    for time, on in ((10, True), (20, False), (30, True)):
-        stage.motion(time, on)
-    stage.until(200)
-    assert stage.called == [(10, 'turn_on'), (30, 'turn_on'), (90, 'turn_off')]
-
-
-def test_parallel_runs_both(tmp_path: Path) -> None:
-    stage = Stage(tmp_path, TRIGGER % ('', 'parallel'))
-    for time, on in ((10, True), (20, False), (30, True)):
-        stage.motion(time, on)
-    stage.until(200)
-    assert [time for time, what in stage.called if what == 'turn_off'] == [70, 90]
-
-
-def test_for_counts_while_the_state_stays(tmp_path: Path) -> None:
-    stage = Stage(tmp_path, TRIGGER % (', for: 15', 'single'))
-    for time, on in ((10, True), (20, False), (30, True)):
-        stage.motion(time, on)
-    stage.until(200)
-    assert stage.called == [(45, 'turn_on'), (105, 'turn_off')]
+    assert stage.called == called
 
 
 def test_a_number_triggers_when_it_crosses_the_limit(tmp_path: Path) -> None:

@@ -9,7 +9,6 @@ import pytest
 from angen_tools.offline.day import read_day
 from angen_apps.care.report import line_of, warnings_of, write, write_events
 from angen_tools.session import Event
-from angen_tools.common.failure import Failure
 from tests.angen_apps.care.homes import H, Home, rule
 
 
@@ -66,16 +65,3 @@ def test_commands_come_in_the_order_of_the_day(tmp_path: Path) -> None:
     first, second = read_day(path, 6 * H)
     assert (first.time, first.kind, first.name, first.text) == (600.0, 'lamp', 'b', 'Dim 40')
     assert second.time == 23.5 * H and second.where == f'{path}:3'
-
-
-@pytest.mark.parametrize('text, line, part', [
-    ('when,target,command\n', 1, 'the first line must be time,target,command'),
-    ('time,target,command\n6:00,door/a\n', 2, 'has 2 values'),
-    ('time,target,command\n6:00,a,Open\n', 2, "'a' is not KIND/NAME"),
-    ('time,target,command\n\n6 h,door/a,Open\n', 3, "'6 h' is not a time of day")])
-def test_a_wrong_day_is_reported_by_line(text: str, line: int, part: str, tmp_path: Path) -> None:
-    path = tmp_path / 'day.csv'
-    path.write_text(text)
-    with pytest.raises(Failure) as caught:
-        read_day(path, 0.0)
-    assert str(caught.value).startswith(f'{path}:{line}: ') and part in str(caught.value)
