@@ -105,11 +105,6 @@ def test_both_helps_name_every_command():
     assert set(commands) <= words, set(commands) - words
 
 
-def test_a_world_that_is_missing_is_named_in_one_line():
-    result = subprocess.run([ROOT / 'angen', 'run', 'world:=nope'], capture_output=True, text=True)
-    assert_one_line(result, 'world:=nope', 'no such file')
-
-
 def test_a_suite_that_is_missing_is_named_in_one_line():
     result = subprocess.run([ROOT / 'angen', 'test', 'nope'], capture_output=True, text=True)
     assert_one_line(result, 'nope', 'pytest')

@@ -96,18 +96,6 @@ def test_master_and_node_start_anew_with_the_world(environment, fake):  # noqa: 
     assert marked(f'ANGEN_TEST_MARK={environment["ANGEN_TEST_MARK"]}') == []
 
 
-def test_not_for_ever(environment, fake):  # noqa: F811
-    process = start(environment, fake, 0)
-    for count in range(4):
-        until(process, f'node {count} runs')
-        os.kill(master_of(environment), signal.SIGKILL)
-    rest = process.communicate(timeout=60)[0]
-    assert process.returncode == 1
-    assert 'angen: the ROS master was lost 4 times within 60 s' in rest
-    saved = fake.parent / f'angen/rescue-{process.pid}.world'
-    assert f'the world is saved in {saved}' in rest and saved.read_text() == '4'
-
-
 def test_a_node_that_saves_nothing_ends_it(environment, fake):  # noqa: F811
     process = start(environment, fake, 9)
     until(process, NODE_RUNS)

@@ -142,9 +142,7 @@ def test_a_ctrl_c_while_python_starts_prints_no_traceback(environment, tmp_path)
 
 @pytest.mark.parametrize('word, part', [
     ('wrold:=worlds/empty.world', 'did you mean world:=?'),
-    ('gui:=fasle', 'did you mean false?'),
-    ('port:=eighty', 'not a port; give 1024 to 65535'),
-    ('port:=99999', 'not a port; give 1024 to 65535')])
+    ('port:=eighty', 'not a port; give 1024 to 65535')])
 def test_a_wrong_argument_is_named_and_nothing_starts(environment, word, part):
     result = subprocess.run([ROOT / 'angen', 'run', word],
                             capture_output=True, text=True, env=environment, timeout=120)
@@ -163,13 +161,12 @@ def test_a_port_in_use_is_named_and_nothing_starts(environment):
     assert result.returncode == 1 and f'127.0.0.1:{port} cannot be served: Address already' in line
 
 
-@pytest.mark.parametrize('word, part', [('wrld:=x', 'did you mean world:=?'),
-                                        ('gui:=fasle', 'did you mean false?')])
-def test_roslaunch_rejects_it_too(environment, word, part):
+def test_roslaunch_rejects_it_too(environment):
     result = subprocess.run([ROOT / 'angen', 'shell', '-c',
-                             f'roslaunch angen_sim angen.launch {word}'],
+                             'roslaunch angen_sim angen.launch wrld:=x'],
                             capture_output=True, text=True, env=environment, timeout=120)
-    assert result.returncode == 2 and f'{word}: ' in result.stderr and part in result.stderr
+    assert result.returncode == 2
+    assert 'wrld:=x: ' in result.stderr and 'did you mean world:=?' in result.stderr
     assert marked(environment) == []
 
 

@@ -12,13 +12,6 @@ std::string imu(const std::string& more) {
       more + "</plugin>");
 }
 
-TEST(HectorImu, FeelsGravity) {
-  Hall hall(imu(""));
-  hall.request("hector_imu");
-  hall.run(1.0);
-  EXPECT_NEAR(list(hall.reading("hector_imu"), "acceleration")[2], 9.8, 0.02);
-}
-
 TEST(HectorImu, ItsHeadingHasTheErrorOfTheYaw) {
   Hall hall(
       imu("<yawGaussianNoise>0.2</yawGaussianNoise><headingGaussianNoise>9"

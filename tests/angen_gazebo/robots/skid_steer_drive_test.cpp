@@ -50,14 +50,5 @@ TEST(SkidSteerDrive, TurnsByItsWheelsSlip) {
   EXPECT_NEAR(hall.pose().position.norm(), 0.1, 0.05) << "on the spot";
 }
 
-TEST(SkidSteerDrive, SaysWhichWheelIsMissing) {
-  try {
-    Hall hall(wagon("<leftRearJoint>missing</leftRearJoint>"));
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("no joint 'missing'"), std::string::npos);
-  }
-}
-
 }  // namespace
 }  // namespace angen::robots

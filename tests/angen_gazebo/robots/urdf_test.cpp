@@ -159,28 +159,18 @@ std::string two_arms(const std::string& of_right, const std::string& more) {
   return text + more;
 }
 
-TEST(Urdf, TransmissionsMakeJointsTakeCommands) {
+TEST(Urdf, TransmissionsMakeJointsTakeCommandsAndMimicJointsFollow) {
   const std::string control =
       "<transmission name='t'><type>transmission_interface/SimpleTransmission</type><joint "
       "name='left_joint'><hardwareInterface>hardware_interface/PositionJointInterface"
       "</hardwareInterface></joint><actuator name='m'><mechanicalReduction>1"
       "</mechanicalReduction></actuator></transmission><gazebo><plugin name='c' "
       "filename='libgazebo_ros_control.so'><robotNamespace>/bot</robotNamespace></plugin></gazebo>";
-  Urdf hall(two_arms("", control), 0.0);
-  hall.command("joint_command", {0.5}, "bot_left_joint");
-  hall.run(1.5);
-  EXPECT_NEAR(to_rpy(hall.pose("bot::left").rotation).y(), 0.5, 0.002);
-}
-
-TEST(Urdf, AMimicJointFollows) {
-  const std::string control =
-      "<transmission name='t'><joint name='left_joint'><hardwareInterface>PositionJointInterface"
-      "</hardwareInterface></joint></transmission><gazebo><plugin name='c' "
-      "filename='libgazebo_ros_control.so'/></gazebo>";
   Urdf hall(two_arms("<mimic joint='left_joint' multiplier='-2' offset='0.1'/>", control), 0.0);
   hall.command("joint_command", {0.3}, "bot_left_joint");
   hall.run(1.5);
-  EXPECT_NEAR(to_rpy(hall.pose("bot::right").rotation).y(), -0.5, 0.005);
+  EXPECT_NEAR(angle(hall, "left"), 0.3, 0.002);
+  EXPECT_NEAR(angle(hall, "right"), -0.5, 0.005);
 }
 
 const char* const kWall =

@@ -18,20 +18,12 @@ float first_height(const std::string& file) {
   return read_heightmap(file, Vec3::Ones(), {})->heights.at(0);
 }
 
-constexpr Format::Gamma kGammas[] = {Format::Gamma::kNone, Format::Gamma::kGama,
-                                     Format::Gamma::kSrgb};
-
-TEST(Heightmap, HasTheFilesValuesOf8Bits) {
+TEST(Heightmap, HasTheFilesValuesOf8And16Bits) {
   const Folder folder;
-  for (const Format::Gamma gamma : kGammas) {
-    const Format format{8, PNG_COLOR_TYPE_GRAY, gamma};
-    EXPECT_FLOAT_EQ(first_height(png(folder, 2, {128, 0, 0, 255}, format)), 128.0F / 255.0F);
-  }
-}
-
-TEST(Heightmap, HasTheFilesValuesOf16Bits) {
-  const Folder folder;
-  for (const Format::Gamma gamma : kGammas) {
+  for (const Format::Gamma gamma :
+       {Format::Gamma::kNone, Format::Gamma::kGama, Format::Gamma::kSrgb}) {
+    EXPECT_FLOAT_EQ(first_height(png(folder, 2, {128, 0, 0, 255}, {8, PNG_COLOR_TYPE_GRAY, gamma})),
+                    128.0F / 255.0F);
     const Format format{16, PNG_COLOR_TYPE_GRAY, gamma};
     EXPECT_FLOAT_EQ(first_height(png(folder, 2, {0x8000, 0, 0, 65535}, format)),
                     32768.0F / 65535.0F);

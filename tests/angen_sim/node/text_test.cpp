@@ -24,14 +24,6 @@ Kind door(const std::string& name = "door") {
       .verb("Set", "radians", "rad", {}, "");
 }
 
-Kind lamp() {
-  return Kind("lamp", "")
-      .command_topic("/gazebo/Light_controller")
-      .verb("On", "")
-      .verb("Off", "")
-      .verb("Dim", "percent", "%", {0.0, 100.0}, "");
-}
-
 Kind elevator() {
   return Kind("elevator", "")
       .command_topic("/gazebo/Elevator_controller")
@@ -107,16 +99,6 @@ TEST(DoorText, OtherBytesThanUtf8AreRejectedInPrintableWords) {
   const std::string reason = rejection(topic_action(door(), "Open, \xff\xfe"));
   EXPECT_TRUE(says(reason, "not UTF-8")) << reason;
   EXPECT_TRUE(valid_utf8(reason));
-}
-
-TEST(DoorText, ALongTextMakesAShortReason) {
-  EXPECT_LT(rejection(topic_action(door(), std::string(100000, 'x'))).size(), 700U);
-}
-
-TEST(LampText, VerbsAndNames) {
-  EXPECT_EQ(sent(topic_action(lamp(), "On, kitchen0")), "lamp/kitchen0: On");
-  EXPECT_EQ(sent(topic_action(lamp(), "off, all")), "lamp/all: off");
-  EXPECT_EQ(sent(topic_action(lamp(), "Dim, kitchen0, 40")), "lamp/kitchen0: Dim 40");
 }
 
 TEST(ElevatorText, NeedsNoName) {

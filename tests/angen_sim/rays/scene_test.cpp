@@ -64,15 +64,6 @@ TEST(Scene, BadRaysMeetNothing) {
   EXPECT_FALSE(scene.blocked(Vec3(3, 0, 0), Vec3(3, 0, 0)));
 }
 
-TEST(Scene, NearestOfStaticAndMoving) {
-  Scene scene;
-  const ShapeId wall = add(scene, box(1, 4, 4), at(5, 0, 0));
-  const ShapeId person = add(scene, box(1, 1, 1), at(3, 0, 0), Mobility::kMoving);
-  scene.commit();
-  EXPECT_EQ(cast_one(scene, Vec3(0, 0, 0), Vec3::UnitX()).shape, person.index);
-  EXPECT_EQ(cast_one(scene, Vec3(9, 0, 0), -Vec3::UnitX()).shape, wall.index);
-}
-
 TEST(Scene, TellsWhereWarmShapesAre) {
   Scene scene;
   add(scene, box(1, 1, 1));
@@ -286,20 +277,6 @@ TEST(Scene, RimsFarFromTheOriginAreMet) {
     const Hit hit = cast_one(scene, origin, target - origin);
     ASSERT_NEAR(hit.range, (target - origin).norm(), 1e-9) << i;
     ASSERT_TRUE(scene.blocked(origin, target + 0.01 * (target - origin)));
-  }
-}
-
-TEST(Scene, ManyScenesInOneProcess) {
-  std::vector<std::unique_ptr<Scene>> scenes;
-  for (int i = 0; i < 100; ++i) {
-    scenes.push_back(std::make_unique<Scene>());
-    add(*scenes.back(), box(1, 1, 1), at(2 + i, 0, 0));
-    scenes.back()->commit();
-  }
-  for (std::size_t i = 0; i < scenes.size(); i += 2) scenes[i].reset();
-  for (std::size_t i = 1; i < scenes.size(); i += 2) {
-    EXPECT_EQ(cast_one(*scenes[i], Vec3(0, 0, 0), Vec3::UnitX()).range,
-              1.5 + static_cast<double>(i));
   }
 }
 

@@ -40,12 +40,6 @@ TEST(Barometer, PressureFallsWithHeightAsThatOfUniformAirDoes) {
   }
 }
 
-TEST(Barometer, AStoreyIsHalfAHectopascal) {
-  const double below = message_at(0.0, 295.15, "").pressure;
-  const double above = message_at(4.0, 295.15, "").pressure;
-  EXPECT_NEAR(below - above, 46.9, 0.1);  // Pa
-}
-
 // In air of the standard's temperature, its altitude is the height.
 TEST(Barometer, ItsAltitudeIsThatOfTheStandardAtmosphere) {
   EXPECT_NEAR(message_at(10.0, 288.15, "").altitude, 10.0, 0.01);
