@@ -13,7 +13,6 @@ from angen_tools.session import State
 from tests.angen_apps.mqtt.fakes import FakeWorld
 
 MOTION, LAMP = 'binary_sensor.hall_motion_sensor', 'light.hall_lamp'
-LUX = 'sensor.hall_light_sensor'
 START = datetime.datetime(2026, 3, 23, 18)
 
 

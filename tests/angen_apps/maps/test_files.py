@@ -12,8 +12,6 @@ from angen_apps.maps.gridmap import FREE, OCCUPIED, UNKNOWN, load_world, make_ma
 from angen_tools.cli import main as cli
 from tests.angen_apps.maps.test_gridmap import sdf, solid
 
-ROOT = Path(__file__).resolve().parents[3]
-
 
 def read_as_map_server(path: Path) -> Grid:
     """The map that map_server publishes for a yaml file (its rules: wiki.ros.org/map_server)."""
@@ -45,18 +43,3 @@ def test_the_files_have_the_map(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert (read.cells == grid.cells).all() and set(read.cells.flat) == {FREE, OCCUPIED, UNKNOWN}
     assert read.resolution == grid.resolution
     assert read.origin == pytest.approx(grid.origin, abs=1e-6)
-
-
-@pytest.mark.parametrize('words, part', [
-    (['--floor', '2'], 'worlds/angen.world: there is no floor 2; known are 0, 1'),
-    ([f'{ROOT}/worlds/empty.world'],
-     'empty.world: there is no floor 0; it has no floor'),
-    (['none.world'], 'none.world'),
-    (['-o', 'no/such/folder/map'], 'no/such/folder/map: cannot be written')])
-def test_what_is_wrong_is_one_line(words: list[str], part: str, tmp_path: Path,
-                                   monkeypatch: pytest.MonkeyPatch,
-                                   capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.chdir(tmp_path)
-    assert cli.run(['map', *words]) == 1
-    line, = capsys.readouterr().err.splitlines()
-    assert line.startswith('angen: ') and part in line and not list(tmp_path.iterdir())

@@ -88,8 +88,3 @@ def test_writes_the_table_into_a_page(monkeypatch: pytest.MonkeyPatch, tmp_path:
     page.write_text('# Page\n')
     assert cli.run(words) == 1
     assert 'has no <!-- situations -->' in capsys.readouterr().err
-
-
-def test_words_that_nothing_has_are_an_error(capsys: pytest.CaptureFixture[str]) -> None:
-    assert cli.run(['situations', '--only', 'volcano']) == 1
-    assert "no situation has 'volcano'" in capsys.readouterr().err
