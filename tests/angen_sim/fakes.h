@@ -98,8 +98,6 @@ class FakeWorld : public View, public Wiring, public Outputs {
   std::vector<std::pair<std::string, std::string>> events;
 
   FakeJoint& joint_named(const std::string& name) { return joints[index(joints, name)].second; }
-  FakeLink& link_named(const std::string& name) { return links[index(links, name)].second; }
-  FakeLight& light_named(const std::string& name) { return lights[index(lights, name)].second; }
   /// The number of its events of that name.
   std::ptrdiff_t count(const std::string& event) const {
     return std::count_if(events.begin(), events.end(),
