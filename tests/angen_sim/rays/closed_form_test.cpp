@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "shapes.h"
 
@@ -26,100 +28,71 @@ void expect_normal(const Hit& hit, const Vec3& normal) {
   EXPECT_NEAR((hit.normal.cast<double>() - normal).norm(), 0.0, 1e-6);
 }
 
-TEST(ClosedForm, BoxFromOutside) {
-  const Alone box_alone(box(2, 4, 6), at(5, 0, 0));
-  const Hit hit = box_alone(Vec3(0, 1, 2), Vec3::UnitX());
-  EXPECT_NEAR(hit.range, 4.0, kExact);
-  expect_normal(hit, -Vec3::UnitX());
-}
+/// A ray that meets a shape; no range of a miss, no normal where it is not checked.
+struct Case {
+  const char* what;
+  Shape shape;
+  Pose pose;
+  Vec3 origin;
+  Vec3 direction;
+  double range;
+  Vec3 normal = Vec3::Zero();
+};
 
-TEST(ClosedForm, BoxFromInsideMeetsFarSide) {
-  const Alone box_alone(box(2, 4, 6));
-  const Hit hit = box_alone(Vec3(0.5, 0, 0), Vec3::UnitX());
-  EXPECT_NEAR(hit.range, 0.5, kExact);
-  expect_normal(hit, -Vec3::UnitX());
-}
+constexpr double kMiss = std::numeric_limits<double>::infinity();
 
-TEST(ClosedForm, BoxTurnedByAnEighth) {
-  const Alone turned(box(2, 2, 2), at(5, 0, 0, from_rpy(0, 0, M_PI / 4)));
-  const Hit hit = turned(Vec3(0, 0.25, 0), Vec3::UnitX());
-  EXPECT_NEAR(hit.range, 5 - std::sqrt(2.0) + 0.25, kExact);
-  expect_normal(hit, Vec3(-1, 1, 0).normalized());
-}
-
-TEST(ClosedForm, BoxIsMissedBesideIt) {
-  const Alone box_alone(box(2, 4, 6), at(5, 0, 0));
-  EXPECT_FALSE(box_alone(Vec3(0, 2.001, 0), Vec3::UnitX()).hit());
-  EXPECT_FALSE(box_alone(Vec3(0, 0, 0), -Vec3::UnitX()).hit());
-}
-
-TEST(ClosedForm, BoxWithoutThicknessIsMetFromBothSides) {
-  const Alone sheet(box(0, 2, 2), at(1, 0, 0));
-  EXPECT_NEAR(sheet(Vec3(0, 0.1, 0.2), Vec3::UnitX()).range, 1.0, kExact);
-  EXPECT_NEAR(sheet(Vec3(3, 0.1, 0.2), -Vec3::UnitX()).range, 2.0, kExact);
-}
-
-TEST(ClosedForm, SphereFromOutsideAndInside) {
-  const Alone sphere(round(Shape::Type::kSphere, 1.0), at(5, 0, 0));
-  const Hit outside = sphere(Vec3(0, 0.6, 0), Vec3::UnitX());
-  EXPECT_NEAR(outside.range, 5 - 0.8, kExact);
-  expect_normal(outside, Vec3(-0.8, 0.6, 0));
-  const Hit inside = sphere(Vec3(5, 0.6, 0), Vec3::UnitX());
-  EXPECT_NEAR(inside.range, 0.8, kExact);
-  expect_normal(inside, Vec3(-0.8, -0.6, 0));
+TEST(ClosedForm, OfEachShapeAndSide) {
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+  const Shape crate = box(2, 4, 6), sphere = round(Shape::Type::kSphere, 1.0);
+  const Shape cylinder = round(Shape::Type::kCylinder, 0.5, 2.0);
+  const Shape capsule = round(Shape::Type::kCapsule, 0.5, 2.0);
+  const Pose here, lying = at(0, 0, 0, from_rpy(M_PI / 2, 0, 0));
+  const Pose eighth = at(5, 0, 0, from_rpy(0, 0, M_PI / 4));
+  const Pose slope = at(0, 0, 0, from_rpy(0, M_PI / 4, 0));
+  const double root = std::sqrt(2.0);
+  const std::vector<Case> cases = {
+      {"box from outside", crate, at(5, 0, 0), {0, 1, 2}, x, 4.0, -x},
+      {"box from inside meets the far side", crate, here, {0.5, 0, 0}, x, 0.5, -x},
+      {"box turned",
+       box(2, 2, 2),
+       eighth,
+       {0, 0.25, 0},
+       x,
+       5 - root + 0.25,
+       {-1 / root, 1 / root, 0}},
+      {"beside a box", crate, at(5, 0, 0), {0, 2.001, 0}, x, kMiss},
+      {"behind the ray", crate, at(5, 0, 0), {0, 0, 0}, -x, kMiss},
+      {"sheet from one side", box(0, 2, 2), at(1, 0, 0), {0, 0.1, 0.2}, x, 1.0},
+      {"sheet from the other", box(0, 2, 2), at(1, 0, 0), {3, 0.1, 0.2}, -x, 2.0},
+      {"sphere from outside", sphere, at(5, 0, 0), {0, 0.6, 0}, x, 4.2, {-0.8, 0.6, 0}},
+      {"sphere from inside", sphere, at(5, 0, 0), {5, 0.6, 0}, x, 0.8, {-0.8, -0.6, 0}},
+      {"cylinder's wall", cylinder, at(3, 0, 0), {0, 0.3, 0.9}, x, 2.6, {-0.8, 0.6, 0}},
+      {"above a cylinder", cylinder, at(3, 0, 0), {0, 0.3, 1.001}, x, kMiss},
+      {"cylinder's end from outside", cylinder, here, {0.1, 0.1, 4}, -z, 3.0, z},
+      {"cylinder's end from inside", cylinder, here, {0.1, 0.1, 0.25}, -z, 1.25, z},
+      {"lying cylinder's end", cylinder, lying, {0, -3, 0.2}, y, 2.0},
+      {"lying cylinder's wall", cylinder, lying, {0, 0.9, 3}, -z, 2.5},
+      {"capsule's wall", capsule, here, {-3, 0.3, 0.9}, x, 2.6, {-0.8, 0.6, 0}},
+      {"capsule's cap", capsule, here, {0.3, 0, 4}, -z, 2.6, {0.6, 0, 0.8}},
+      {"capsule's cap from inside", capsule, here, {0, 0, 0.2}, z, 1.3},
+      {"plane from above", plane(), at(0, 0, 1), {900, 0, 3}, -z, 2.0},
+      {"plane from below", plane(), at(0, 0, 1), {0, 0, 0}, {3, 0, 4}, 1.25, -z},
+      {"along a plane", plane(), at(0, 0, 1), {0, 0, 3}, x, kMiss},
+      {"tilted plane from above", plane(), slope, {0, 0, 2}, -z, 2.0},
+      {"tilted plane from aside", plane(), slope, {2, 0, 0}, -x, 2.0}};
+  for (const Case& each : cases) {
+    SCOPED_TRACE(each.what);
+    const Hit hit = Alone(each.shape, each.pose)(each.origin, each.direction);
+    ASSERT_EQ(hit.hit(), each.range != kMiss);
+    if (!hit.hit()) continue;
+    EXPECT_NEAR(hit.range, each.range, kExact);
+    if (!each.normal.isZero()) expect_normal(hit, each.normal);
+  }
 }
 
 TEST(ClosedForm, SmallSphereFarAwayKeepsItsDigits) {
   const Alone sphere(round(Shape::Type::kSphere, 0.01), at(500, 0, 0));
   EXPECT_NEAR(sphere(Vec3(0, 0.006, 0), Vec3::UnitX()).range, 500 - 0.008, 1e-9);
-}
-
-TEST(ClosedForm, CylinderWall) {
-  const Alone cylinder(round(Shape::Type::kCylinder, 0.5, 2.0), at(3, 0, 0));
-  const Hit hit = cylinder(Vec3(0, 0.3, 0.9), Vec3::UnitX());
-  EXPECT_NEAR(hit.range, 3 - 0.4, kExact);
-  expect_normal(hit, Vec3(-0.8, 0.6, 0));
-  EXPECT_FALSE(cylinder(Vec3(0, 0.3, 1.001), Vec3::UnitX()).hit());
-}
-
-TEST(ClosedForm, CylinderEnds) {
-  const Alone cylinder(round(Shape::Type::kCylinder, 0.5, 2.0));
-  const Hit outside = cylinder(Vec3(0.1, 0.1, 4), -Vec3::UnitZ());
-  EXPECT_NEAR(outside.range, 3.0, kExact);
-  expect_normal(outside, Vec3::UnitZ());
-  const Hit inside = cylinder(Vec3(0.1, 0.1, 0.25), -Vec3::UnitZ());
-  EXPECT_NEAR(inside.range, 1.25, kExact);
-  expect_normal(inside, Vec3::UnitZ());
-}
-
-TEST(ClosedForm, CylinderLyingDown) {
-  const Alone cylinder(round(Shape::Type::kCylinder, 0.5, 2.0),
-                       at(0, 0, 0, from_rpy(M_PI / 2, 0, 0)));
-  EXPECT_NEAR(cylinder(Vec3(0, -3, 0.2), Vec3::UnitY()).range, 2.0, kExact);
-  EXPECT_NEAR(cylinder(Vec3(0, 0.9, 3), -Vec3::UnitZ()).range, 2.5, kExact);
-}
-
-TEST(ClosedForm, CapsuleWallAndCap) {
-  const Alone capsule(round(Shape::Type::kCapsule, 0.5, 2.0));
-  const Hit wall = capsule(Vec3(-3, 0.3, 0.9), Vec3::UnitX());
-  EXPECT_NEAR(wall.range, 3 - 0.4, kExact);
-  expect_normal(wall, Vec3(-0.8, 0.6, 0));
-  const Hit cap = capsule(Vec3(0.3, 0, 4), -Vec3::UnitZ());
-  EXPECT_NEAR(cap.range, 4 - 1.4, kExact);
-  expect_normal(cap, Vec3(0.6, 0, 0.8));
-  EXPECT_NEAR(capsule(Vec3(0, 0, 0.2), Vec3::UnitZ()).range, 1.3, kExact);
-}
-
-TEST(ClosedForm, PlaneFromBothSidesAndTilted) {
-  const Alone level(plane(), at(0, 0, 1));
-  EXPECT_NEAR(level(Vec3(900, 0, 3), -Vec3::UnitZ()).range, 2.0, kExact);
-  const Hit below = level(Vec3(0, 0, 0), Vec3(3, 0, 4));
-  EXPECT_NEAR(below.range, 1.25, kExact);
-  expect_normal(below, -Vec3::UnitZ());
-  EXPECT_FALSE(level(Vec3(0, 0, 3), Vec3::UnitX()).hit());
-  const Alone tilted(plane(), at(0, 0, 0, from_rpy(0, M_PI / 4, 0)));
-  EXPECT_NEAR(tilted(Vec3(0, 0, 2), -Vec3::UnitZ()).range, 2.0, kExact);
-  EXPECT_NEAR(tilted(Vec3(2, 0, 0), -Vec3::UnitX()).range, 2.0, kExact);
 }
 
 TEST(ClosedForm, MeshFromOutsideAndInside) {
