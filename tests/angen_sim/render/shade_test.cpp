@@ -63,15 +63,24 @@ std::shared_ptr<const light::ReflectedLight> rising_light() {
   return std::make_shared<const light::ReflectedLight>(pieces);
 }
 
+/// A floor from 2 m above it.
+struct FloorView : View {
+  explicit FloorView(double yaw) {
+    pinhole.width = 640;
+    pinhole.height = 480;
+    camera = {{0.0, 0.0, 2.0}, from_rpy(0.0, M_PI_2, yaw)};
+    scene.add(body(box(50.0, 50.0, 1.0), at(0.0, 0.0, -0.5), {0.6F, 0.6F, 0.6F}));
+  }
+  std::vector<std::uint8_t> lit_by(std::shared_ptr<const light::ReflectedLight> light) const {
+    Ambience ambience = kDark;
+    ambience.reflected = std::move(light);
+    return scene.colors(pinhole, camera, {}, ambience);
+  }
+};
+
 TEST(Picture, ReflectedLightIsThatOfAPlaceWithinADecimeter) {
-  View view;
-  view.pinhole.width = 640;
-  view.pinhole.height = 480;
-  view.camera = {{0.0, 0.0, 2.0}, from_rpy(0.0, M_PI_2, 0.0)};
-  view.scene.add(body(box(50.0, 50.0, 1.0), at(0.0, 0.0, -0.5), {0.6F, 0.6F, 0.6F}));
-  Ambience ambience = kDark;
-  ambience.reflected = rising_light();
-  const std::vector<std::uint8_t> all = view.scene.colors(view.pinhole, view.camera, {}, ambience);
+  FloorView view(0.0);
+  const std::vector<std::uint8_t> all = view.lit_by(rising_light());
   for (int row = 0; row < 480; row += 7) {
     const double x = 2.0 * (view.pinhole.center_y() - row) / view.pinhole.focal();
     for (int column = 0; column < 640; column += 7) {
@@ -83,14 +92,8 @@ TEST(Picture, ReflectedLightIsThatOfAPlaceWithinADecimeter) {
 }
 
 TEST(Picture, ReflectedLightOnAFlatPieceHasNoSteps) {
-  View view;
-  view.pinhole.width = 640;
-  view.pinhole.height = 480;
-  view.camera = {{0.0, 0.0, 2.0}, from_rpy(0.0, M_PI_2, M_PI_2)};  // x to the right
-  view.scene.add(body(box(50.0, 50.0, 1.0), at(0.0, 0.0, -0.5), {0.6F, 0.6F, 0.6F}));
-  Ambience ambience = kDark;
-  ambience.reflected = rising_light();
-  const std::vector<std::uint8_t> all = view.scene.colors(view.pinhole, view.camera, {}, ambience);
+  FloorView view(M_PI_2);  // x to the right
+  const std::vector<std::uint8_t> all = view.lit_by(rising_light());
   for (int row = 0; row < 480; ++row) {
     for (int column = 0; column < 640; ++column) {
       const double x = 2.0 * (column - view.pinhole.center_x()) / view.pinhole.focal();
@@ -103,11 +106,7 @@ TEST(Picture, ReflectedLightOnAFlatPieceHasNoSteps) {
 /// Two plates with a gap of 2 cm between them, 3 cm over a floor. The plates reflect 30 lx, the
 /// floor nothing.
 TEST(Picture, ReflectedLightInAGapIsNotThatBesideIt) {
-  View view;
-  view.pinhole.width = 640;
-  view.pinhole.height = 480;
-  view.camera = {{0.0, 0.0, 2.0}, from_rpy(0.0, M_PI_2, M_PI_2)};  // x to the right
-  view.scene.add(body(box(50.0, 50.0, 1.0), at(0.0, 0.0, -0.5), {0.6F, 0.6F, 0.6F}));
+  FloorView view(M_PI_2);  // x to the right
   for (const double side : {-1.0, 1.0}) {
     view.scene.add(body(box(3.0, 6.0, 0.01), at(1.51 * side, 0.0, 0.025), {0.6F, 0.6F, 0.6F}));
   }
@@ -120,9 +119,7 @@ TEST(Picture, ReflectedLightInAGapIsNotThatBesideIt) {
       pieces.push_back({over, Eigen::Vector3f::UnitZ(), Eigen::Vector3f::Constant(30.0F)});
     }
   }
-  Ambience ambience = kDark;
-  ambience.reflected = std::make_shared<const light::ReflectedLight>(pieces);
-  const std::vector<std::uint8_t> all = view.scene.colors(view.pinhole, view.camera, {}, ambience);
+  const auto all = view.lit_by(std::make_shared<const light::ReflectedLight>(pieces));
   for (int row = 0; row < 480; ++row) {
     for (int column = 0; column < 640; ++column) {
       const double x = 1.97 * (column - view.pinhole.center_x()) / view.pinhole.focal();

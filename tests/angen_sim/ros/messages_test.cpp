@@ -83,24 +83,19 @@ TEST(Messages, RangeIsTheMaximumWhereNothingIsNear) {
   EXPECT_FLOAT_EQ(message.field_of_view, 0.26F);
 }
 
-TEST(Messages, RfidListsIdsAndDistances) {
+TEST(Messages, RfidAndRssiListIdsAndNumbers) {
   Reading reading;
   reading.set("ids", Texts{"a", "b"});
   reading.set("distances", Numbers{0.5, 1.5});
-  angen_msgs::RfidMsg message;
-  fill("rfid", reading, {}, message);
-  EXPECT_EQ(message.ids, (Texts{"a", "b"}));
-  EXPECT_EQ(message.distances, (Numbers{0.5, 1.5}));
-}
-
-TEST(Messages, RssiListsIdsAndStrengths) {
-  Reading reading;
-  reading.set("ids", Texts{"a", "b"});
   reading.set("rssi", Numbers{-40.5, -71.0});
-  angen_msgs::RssiMsg message;
-  fill("receiver", reading, {}, message);
-  EXPECT_EQ(message.ids, (Texts{"a", "b"}));
-  EXPECT_EQ(message.rssi, (Numbers{-40.5, -71.0}));
+  angen_msgs::RfidMsg tags;
+  fill("rfid", reading, {}, tags);
+  EXPECT_EQ(tags.ids, (Texts{"a", "b"}));
+  EXPECT_EQ(tags.distances, (Numbers{0.5, 1.5}));
+  angen_msgs::RssiMsg senders;
+  fill("receiver", reading, {}, senders);
+  EXPECT_EQ(senders.ids, (Texts{"a", "b"}));
+  EXPECT_EQ(senders.rssi, (Numbers{-40.5, -71.0}));
 }
 
 TEST(Messages, HumidityIsAFraction) {
