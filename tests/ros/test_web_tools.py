@@ -196,7 +196,7 @@ def test_readings_of_the_whole_run_are_kept(page: Page, tmp_path_factory: pytest
     first = """angen.panels.plots.shown.at(-1).plot.data[0][0]"""
     page.until(f'return {first} > 0')
     page.run('''const s = angen.home.series.get("luminosity/livingroom_lux0/illuminance");
-        s.t.splice(0, s.t.length - 1); s.v.splice(0, s.v.length - 1)''')  # like a page that was just opened
+        s.t.splice(0, s.t.length - 1); s.v.splice(0, s.v.length - 1)''')  # as if just opened
     recent = page.until(f'return {first} > arguments[0] && {first}', first_reading(page))
     page.press('#panel button', 'Whole run')
     assert page.until(f'return {first} < arguments[0] && {first}', recent) < recent

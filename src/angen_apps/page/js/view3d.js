@@ -40,6 +40,7 @@ export class View3d {
     this.turnedAt = -Infinity;
     this.pause = PLAIN_PERIOD; // ms
     this.hidden = false;
+    this.held = false; // no frames but those of a film
     this.element = by('scene');
     this.plain = isPlain();
     this.renderer = new THREE.WebGLRenderer({ antialias: !this.plain, powerPreference: 'high-performance' });
@@ -249,7 +250,7 @@ export class View3d {
     const now = performance.now(), dt = Math.min(0.1, (now - this.last) / 1000);
     if (this.drawnAt === this.last) this.pace(now - this.last);
     this.last = now;
-    if (this.hidden || !this.shapes) return;
+    if (this.hidden || !this.shapes || this.held) return;
     this.move(dt);
     if (this.plain && this.sharpness.rest(now - this.turnedAt)) this.resize();
     if (!this.dirty && this.relabel) this.labels.place(this);
@@ -257,10 +258,28 @@ export class View3d {
     if (!this.dirty || (this.plain && now - this.drawnAt < this.pause)) return;
     this.drawnAt = now;
     if (now - this.shadowsAt > 400) { this.renderer.shadowMap.needsUpdate = true; this.shadowsAt = now; }
+    this.draw();
+  }
+
+  draw() {
     this.dirty = false;
     this.renderer.render(this.scene, this.viewpoint.camera);
     this.frames++;
     this.labels.place(this);
+  }
+
+  /**
+   * A frame in which all is where it is now.
+   * @param {number} dt s since the one before
+   */
+  film(dt) {
+    if (this.hidden || !this.shapes) return;
+    for (const way of this.moving.values()) way.now.set(way.to);
+    this.viewpoint.glide(100);
+    this.move(dt);
+    if (!this.dirty) return; // it takes a while where the processor draws
+    this.renderer.shadowMap.needsUpdate = true;
+    this.draw();
   }
 
   /**

@@ -9,7 +9,7 @@ import signal
 import socket
 import sys
 from pathlib import Path
-from typing import Any, Callable, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Sequence
 
 from angen_apps.plan.symbols import SYMBOLS
 from angen_apps.web.guard import BUILD, LOOK, SWITCH, Guard, is_loopback, url_host
@@ -17,6 +17,10 @@ from angen_apps.web.server import Server, Site, Source, listen
 from angen_tools.common.catalog import kinds
 from angen_tools.common.installed import share
 from angen_tools.common.port import not_served, require_free
+
+if TYPE_CHECKING:
+    from angen_apps.web.film import Film
+    from angen_apps.web.played import Lined, Played
 
 ROLES = {SWITCH: 'to switch, not to build', LOOK: 'to look only'}  # what further addresses are for
 KEYS = ('kind', 'doc', 'role', 'verbs', 'values', 'fields', 'models')  # keys that the page reads
@@ -104,18 +108,33 @@ def _serve_source(source: Source, host: str, port: int, as_json: bool) -> None:
     serve('web', site, host, port, as_json, (BUILD, *ROLES))
 
 
-def web_recording(path: Path, world: Path | None, host: str, port: int,
-                  as_json: bool) -> None:
+def _recording(path: Path, world: Path | None) -> Played:
     """A recorded run, or a folder of angen generate."""
-    require_free(host, port)
     if path.is_dir():
         from angen_apps.web.day import Day
-        played: Any = Day(path, world)
-    else:
-        from angen_apps.web.recording import Recording
-        played = Recording(path)
-    with played:
+        return Day(path, world)
+    from angen_apps.web.recording import Recording
+    return Recording(path)
+
+
+def web_recording(path: Path, world: Path | None, host: str, port: int,
+                  as_json: bool) -> None:
+    """A page that plays a recording."""
+    require_free(host, port)
+    with _recording(path, world) as played:
         _serve_source(played, host, port, as_json)
+
+
+def web_video(film: Film, path: Path | None, world: Path | None) -> None:
+    """A video of a recording, or without one of the running building from now on."""
+    from angen_apps.web.captured import Captured
+    from angen_apps.web.film import shoot
+    film.check()
+    source: Lined = (Captured(film.seconds * (film.speed or 1.0)) if path is None
+                     else _recording(path, world))
+    with source:
+        source.store.put('symbols', symbols())
+        shoot(source, film, page(), described_kinds())
 
 
 def web_live(host: str, port: int, as_json: bool) -> None:
