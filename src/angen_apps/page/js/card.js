@@ -54,6 +54,7 @@ export class Card {
     const parts = [this.state, ...this.verbs(entity, kind)];
     if (home.isRobot(entity)) parts.push(...trip(home, this.page, entity));
     parts.push(el('div', { class: 'verbs' }, home.isRobot(entity) && el('button', { type: 'button', order: 'drive', onclick: () => this.page.robot(entity) }, 'Drive'),
+      this.page.sees(entity) && el('button', { type: 'button', onclick: () => this.page.look(entity) }, entity.kind === 'person' ? 'Through the eyes' : 'Its view'),
       home.fields(entity.kind).length > 0 && el('button', { type: 'button', onclick: () => this.page.plot(entity) }, 'Plot')));
     if (kind?.role === 'sensor' && !home.status.replay) {
       parts.push(el('div', { class: 'verbs' }, el('button', { type: 'button', order: 'delete', onclick: () => this.remove(entity) }, 'Delete')));

@@ -26,6 +26,8 @@ class Page {
     this.choosing = null;
     const pick = (/** @type {any} */ hit) => this.pick(hit);
     this.player = new Player(this.home);
+    /** @type {import('./record.js').Recorder | undefined} */
+    this.recording = undefined;
     this.plan = new Plan(this.home, pick);
     try {
       this.view = new View3d(this.home, pick);
@@ -130,13 +132,14 @@ class Page {
   /** @param {string} id */
   setView(id) {
     if (!this.view) id = 'plan';
+    if (id === 'plan') this.view?.eyes.end();
     by('scene').hidden = id !== '3d';
     by('labels').hidden = id !== '3d';
     by('plan').hidden = id !== 'plan';
     for (const other of ['3d', 'plan']) by(`view-${other}`).setAttribute('aria-pressed', String(other === id));
     if (this.view) this.view.hidden = id !== '3d';
     this.plan.hidden = id !== 'plan';
-    for (const control of by('layers').children) control.hidden = id === 'plan' && control !== this.fieldsButton;
+    for (const control of by('layers').children) control.hidden = id === 'plan' && !control.classList.contains('both');
     this.plan.stale = true;
     this.plan.draw();
     this.view?.resize();
@@ -187,8 +190,19 @@ class Page {
       this.plan.update();
     });
     this.fieldsButton = fields;
+    fields.classList.add('both');
+    this.record = el('button', { type: 'button', id: 'record', class: 'both', 'aria-pressed': 'false', title: 'Records a video of the home, until it is pressed again', onclick: async () => {
+      this.record.setAttribute('aria-pressed', String((await this.recorder()).toggle()));
+    } }, 'Record');
     by('layers').append(this.walls, fields, el('button', { type: 'button', title: 'From above (P)', onclick: () => this.view?.look(true) }, 'From above'),
-      el('button', { type: 'button', title: 'The whole home (H)', onclick: () => this.whole() }, 'Whole home'));
+      el('button', { type: 'button', title: 'The whole home (H)', onclick: () => this.whole() }, 'Whole home'),
+      el('button', { type: 'button', id: 'picture', class: 'both', title: 'Saves a picture of the home', onclick: async () => (await this.recorder()).picture() }, 'Picture'), this.record);
+  }
+
+  /** @returns {Promise<import('./record.js').Recorder>} what is loaded when it is used */
+  async recorder() {
+    const { Recorder } = await import('./record.js');
+    return (this.recording ??= new Recorder(this));
   }
 
   whole() {
@@ -284,6 +298,19 @@ class Page {
     this.panels.plots.add(entity.kind, entity.name);
   }
 
+  /** @param {any} entity @returns {boolean} whether there is a view from it */
+  sees(entity) { return this.view?.eyes.has(entity) ?? false; }
+
+  /** @param {any} entity from which one looks */
+  look(entity) {
+    if (!this.view) return;
+    this.card.close();
+    this.setView('3d');
+    this.view.eyes.begin(entity, () => { by('hint').hidden = true; });
+    by('hint').replaceChildren(`As ${entity.name} sees it `, el('button', { type: 'button', id: 'leave', title: 'Esc', onclick: () => this.view?.eyes.end() }, 'Leave'));
+    by('hint').hidden = false;
+  }
+
   /** @param {any} entity */
   robot(entity) {
     this.panels.robot.name = entity.name;
@@ -307,6 +334,7 @@ class Page {
     if (isForOthers(e)) return;
     if (e.key === 'Escape') {
       if (this.choosing) this.stopChoosing();
+      else if (this.view?.eyes.entity) this.view.eyes.end();
       else this.card.close();
       return;
     }

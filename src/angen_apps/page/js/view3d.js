@@ -2,6 +2,7 @@
 import * as THREE from '../vendor/three/three.module.min.js';
 import { Sky } from './daylight.js';
 import { by } from './dom.js';
+import { Eyes } from './eyes.js';
 import { Glows } from './glow.js';
 import { Labels } from './labels.js';
 import { Bulbs, Fields, Scans } from './overlays.js';
@@ -40,6 +41,7 @@ export class View3d {
     this.turnedAt = -Infinity;
     this.pause = PLAIN_PERIOD; // ms
     this.hidden = false;
+    this.after = () => {}; // a frame was drawn
     this.held = false; // no frames but those of a film
     this.element = by('scene');
     this.plain = isPlain();
@@ -66,6 +68,7 @@ export class View3d {
     this.people = new People(home);
     this.scene.add(this.people.group);
     this.labels = new Labels();
+    this.eyes = new Eyes(this);
     this.raycaster = new THREE.Raycaster();
     /** @type {Map<number, Float32Array>} poses by link, as shown */
     this.drawn = new Map();
@@ -266,6 +269,7 @@ export class View3d {
     this.renderer.render(this.scene, this.viewpoint.camera);
     this.frames++;
     this.labels.place(this);
+    this.after();
   }
 
   /**
@@ -307,6 +311,7 @@ export class View3d {
     }
     if (this.people.animate(dt)) this.dirty = true;
     if (this.fields.animate(dt)) this.dirty = true;
+    if (this.eyes.entity) { this.eyes.place(); return; }
     this.viewpoint.glide(dt);
     this.viewpoint.controls.update(dt);
   }
@@ -341,6 +346,7 @@ export class View3d {
    * @param {boolean} [above]
    */
   look(above = false) {
+    this.eyes.end();
     if (!this.shapes) return;
     const box = this.box(), many = this.storey === null && this.home.storeys.length > 1;
     this.framed = this.home.described !== null && this.element.clientWidth > 0; // until then the visible parts may change, or their size
@@ -374,6 +380,7 @@ export class View3d {
 
   /** @param {number | null} storey */
   setStorey(storey) {
+    this.eyes.end();
     this.storey = storey;
     this.scans.clear();
     this.placeAll();
