@@ -30,6 +30,9 @@ PICTURES = {
     'rviz': Made("xvfb-run -a -s '-screen 0 1500x1060x24' python3 docs/rviz_picture.py"),
     'residents': Made("xvfb-run -a -s '-screen 0 1500x1060x24' python3 docs/residents_picture.py"),
     'web': Made('python3 docs/web_pictures.py'),
+    'day': Made('angen generate --days 1 --seed 7 --residents retired,worker --out OUT/day && '
+                'angen web --replay OUT/day --video OUT/day.gif --start 8:15 --speed 360 '
+                '--size 960x640', {'day.gif': 'day.gif'}),
     'care': Made('angen care worlds/care/wrong.world --day worlds/care/wrong.csv --out OUT',
                  {'care.png': 'care.png'}),
     'locate': Made('angen locate worlds/angen.world --for 240 --out OUT',

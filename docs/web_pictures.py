@@ -4,7 +4,7 @@
     ./angen shell
     python3 docs/web_pictures.py [NAME ...]
 
-NAME is live, replay, film, tower or edit; without one it draws all.
+NAME is live, replay, tower or edit; without one it draws all.
 """
 from __future__ import annotations
 
@@ -33,8 +33,6 @@ from selenium.webdriver.common.action_chains import ActionChains  # noqa: E402
 
 WIDTH, HEIGHT = 1280, 800
 PHONE = 390, 844
-FILM = 960, 640
-FILM_BEGIN, FILM_STEP, FILM_FRAMES = 7.5 * 3600, 36.0, 100  # s of the day
 LIT = ('kitchen0', 'livingroom0', 'bedroom0')
 PLACE, AHEAD = (7.6, 3.2, 0.0), (8.6, 3.2, 0.0)  # of the goal, and where the drag ends
 LIMIT = 180.0  # s; the processor draws
@@ -148,34 +146,6 @@ def replay(sandbox: Sandbox) -> None:
         save(page, 'web_replay')
 
 
-def film(sandbox: Sandbox) -> None:
-    """An hour of a generated day with two residents, in 10 s, for the README."""
-    day = sandbox.folder / 'day'
-    subprocess.run(['angen', 'generate', '--days', '1', '--seed', '7', '--residents',
-                    'retired,worker', '--out', str(day)], check=True, stdout=subprocess.DEVNULL)
-    with page_of(sandbox, FILM, '--replay', str(day)) as page:
-        page.run('angen.setTheme("light"); angen.setStorey(0)')
-        page.until('return angen.player.loaded >= 86400')
-        page.run('angen.player.playing = false; angen.player.seek(arguments[0])', FILM_BEGIN)
-        page.first_view()
-        page.run(PLAIN, False)
-        frames = [frame(page, FILM_BEGIN + FILM_STEP * k) for k in range(FILM_FRAMES)]
-    palette = frames[FILM_FRAMES // 2].quantize(96)
-    path = ROOT / 'docs/images/day.gif'
-    small = [shown.quantize(palette=palette, dither=Image.Dither.NONE) for shown in frames]
-    small[0].save(path, save_all=True, append_images=small[1:], loop=0, optimize=True,
-                  duration=10_000 // FILM_FRAMES)
-    print(path, path.stat().st_size, 'bytes', flush=True)
-
-
-def frame(page: Page, time_of_day: float) -> Image.Image:
-    """The page at a time of a recording."""
-    page.run('angen.player.seek(arguments[0]); angen.view.dirty = true', time_of_day)
-    page.driver.execute_async_script(
-        'requestAnimationFrame(() => requestAnimationFrame(() => arguments[0]()))')
-    return Image.open(BytesIO(page.driver.get_screenshot_as_png())).convert('RGB')
-
-
 def tower(sandbox: Sandbox) -> None:
     """Ten floors."""
     world = sandbox.folder / 'tower.world'
@@ -217,7 +187,7 @@ def edit(sandbox: Sandbox) -> None:
 
 
 def main(names: list[str]) -> None:
-    for make in (live, replay, film, tower, edit):
+    for make in (live, replay, tower, edit):
         if not names or make.__name__ in names:
             with tempfile.TemporaryDirectory() as folder, Sandbox(Path(folder)) as sandbox:
                 make(sandbox)

@@ -1,17 +1,21 @@
 """The page of angen web in a real browser, on a real node."""
 from __future__ import annotations
 
+import concurrent.futures
+import subprocess
+import time
 import urllib.error
 import urllib.request
 from pathlib import Path
 from typing import Iterator
 
+import numpy as np
 import pytest
 from angen_msgs.msg import DoorState, LampState, Stats
 from angen_msgs.srv import Delete, Spawn
 from browser import LIMIT, Page, Server
-from geometry_msgs.msg import Point, Pose
-from harness import Angen, Inbox, Master, end
+from geometry_msgs.msg import Point, Pose, Twist, Vector3
+from harness import Angen, Cli, Inbox, Master, end, publisher_of
 from selenium.webdriver.common.action_chains import ActionChains
 from std_srvs.srv import Empty
 
@@ -235,6 +239,35 @@ def status(url: str, **headers: str) -> int:
             return int(answer.status)
     except urllib.error.HTTPError as error:
         return error.code
+
+
+def test_the_running_building_is_filmed(home: Angen, tmp_path: Path) -> None:
+    path, cli = tmp_path / 'now.mp4', Cli(home.master)
+    with concurrent.futures.ThreadPoolExecutor() as pool:
+        film = pool.submit(cli.run, 'web', '--video', str(path), '--seconds', '1', '--speed', '4',
+                           '--size', '320x240', '--view', 'plan')
+        turn = Twist(linear=Vector3(x=0.1), angular=Vector3(z=0.5))
+        while not film.done():
+            publisher_of('/turtlebot/cmd_vel', Twist).publish(turn)
+            time.sleep(0.1)
+        publisher_of('/turtlebot/cmd_vel', Twist).publish(Twist())
+        done = film.result()
+    assert done.returncode == 0, done.stderr
+    assert 'records the running building' in done.stderr and '4 times as fast' in done.stdout
+    raw = subprocess.run(['ffmpeg', '-loglevel', 'error', '-i', str(path), '-f', 'rawvideo',
+                          '-pix_fmt', 'gray', '-'], check=True, stdout=subprocess.PIPE).stdout
+    frames = np.frombuffer(raw, np.uint8).reshape(-1, 240, 320).astype(int)
+    assert len(frames) == 25
+    assert np.abs(frames[0, 40:] - frames[-1, 40:]).max() > 50  # below the clock: the robot drives
+
+
+def test_a_film_needs_a_building_that_runs(home: Angen, tmp_path: Path) -> None:
+    path = str(tmp_path / 'a.mp4')
+    with Master(tmp_path) as alone:
+        assert 'no simulator runs' in Cli(alone).fails('web', '--video', path)
+    home.call('/gazebo/pause_physics', Empty)
+    assert 'paused' in Cli(home.master).fails('web', '--video', path)
+    home.call('/gazebo/unpause_physics', Empty)
 
 
 def test_strangers_are_rejected(home: Angen, server: Server, tmp_path: Path) -> None:

@@ -213,7 +213,8 @@ def test_a_link_opens_at_its_time(server: Server, tmp_path: Path) -> None:
         assert page.run(card, 'stove') == 'The recording does not have it.'
         page.run('angen.player.playing = false; angen.player.seek(50)')
         assert page.run(card, 'temperature') == 'no reading yet'
-        page.run('angen.home.take({token: "secret"})')
+        page.run('''angen.home.take({access: {
+            role: "build", may: null, reason: "", tokens: {build: "secret"}}})''')
         page.press('#player button', 'Link')
         assert page.run('return location.search') == '?t=50.0&token=secret'
         page.run('angen.card.close()')
@@ -227,6 +228,15 @@ def test_a_link_opens_at_its_time(server: Server, tmp_path: Path) -> None:
         assert page.errors() == []
     finally:
         page.close()
+
+
+def test_a_day_is_filmed_to_its_end(master: Master, tmp_path: Path, day: Path) -> None:
+    path = tmp_path / 'day.gif'
+    done = Cli(master).run('web', '--replay', str(day), '--video', str(path), '--start', '23:59:50',
+                           '--size', '320x240', '--view', 'plan')
+    assert done.returncode == 0, done.stderr
+    assert '0.5 s from 86390.0 s on, 20 times as fast, 320 x 240' in done.stdout
+    assert 'frame 5 of 5' in done.stderr and path.stat().st_size > 1000
 
 
 def test_folders_without_a_day_are_rejected(master: Master, tmp_path: Path, day: Path) -> None:

@@ -41,3 +41,12 @@ def test_the_code_is_dark_on_light_in_terminals_of_any_theme(
 def test_the_address_as_json(capsys: pytest.CaptureFixture[str]) -> None:
     show_address(URL, True, True)
     assert json.loads(capsys.readouterr().out) == {'address': URL}
+    show_address(URL, True, True, others={'look': 'http://b/'})
+    assert json.loads(capsys.readouterr().out) == {'address': URL, 'look': 'http://b/'}
+
+
+def test_addresses_that_may_do_less(capsys: pytest.CaptureFixture[str]) -> None:
+    show_address(URL, False, False, others={'switch': 'http://a/', 'look': 'http://b/'})
+    assert capsys.readouterr().out.splitlines() == [
+        f'angen web: {URL}', 'angen web: to switch, not to build: http://a/',
+        'angen web: to look only: http://b/']

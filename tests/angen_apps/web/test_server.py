@@ -5,13 +5,14 @@ import asyncio
 import json
 import random
 from pathlib import Path
-from types import SimpleNamespace
+from types import MappingProxyType, SimpleNamespace
 from typing import Any, Awaitable, Callable
 
 import pytest
 from aiohttp import ClientSession, WSMsgType, WSServerHandshakeError, web
 from angen_apps.web import guard, server as server_module
-from angen_apps.web.guard import Budget, Guard, is_loopback
+from angen_apps.web.guard import BUILD, LOOK, MAY, SWITCH, Budget, Guard, is_loopback
+from angen_apps.web.orders import Orders
 from angen_apps.web.server import BURST, LARGEST_MESSAGE, Browser, Server, json_text
 from angen_apps.web.store import Store
 from yarl import URL
@@ -69,12 +70,12 @@ def free_port() -> int:
         return int(free.getsockname()[1])
 
 
-def run(test: Callable[[Running], Awaitable[None]], host: str = '127.0.0.1', page: Path = PAGE
-        ) -> None:
+def run(test: Callable[[Running], Awaitable[None]], host: str = '127.0.0.1', page: Path = PAGE,
+        kinds: Any = MappingProxyType({'lamp': {}})) -> None:
     async def go() -> None:
         port = free_port()
-        source, guard = Source(), Guard(host, port, set())
-        runner = web.AppRunner(Server(source, guard, page, {'lamp': {}}).app)
+        source, guard = Source(), Guard(host, port, set(), (BUILD, SWITCH, LOOK))
+        runner = web.AppRunner(Server(source, guard, page, dict(kinds)).app)
         await runner.setup()
         await web.TCPSite(runner, '127.0.0.1', port, shutdown_timeout=0.5).start()
         try:
@@ -156,7 +157,7 @@ def test_a_socket_without_an_origin_is_rejected() -> None:
 
 def test_another_address_needs_its_token() -> None:
     async def test(server: Running) -> None:
-        token = server.guard.token
+        token = server.guard.tokens[BUILD]
         assert len(token) >= 32
         for path in ('/', '/?token=wrong', '/kinds.json', '/page/js/main.js', '/?token=',
                      '/?token=%C3%A9'):
@@ -176,6 +177,74 @@ def test_another_address_needs_its_token() -> None:
         async with server.socket(**cookies) as socket:
             server.source.store.put('stats', 1)
             assert await parts(socket, 'stats') == 1
+    run(test, host='192.0.2.7')
+
+
+ORDERS = [*Orders(Store()).known(), 'nonsense', '', 5, None, ['command'], {'do': 'command'}]
+OF_ROLES = {LOOK: [], SWITCH: ['command', 'drive', 'goal', 'halt'],
+            BUILD: [order for order in ORDERS if order]}
+
+
+@pytest.mark.parametrize('role', OF_ROLES)
+def test_each_order_of_each_role_is_executed_or_refused(role: str) -> None:
+    """By whoever has the token, also without the page."""
+    async def test(server: Running) -> None:
+        token = {'Cookie': f'angen_token_{server.host.partition(":")[2]}='
+                           f'{server.guard.tokens[role]}'}
+        async with server.socket(**token) as socket:
+            access = await parts(socket, 'access')
+            assert access['role'] == role
+            assert access['tokens'] == (server.guard.tokens if role == BUILD
+                                        else {role: server.guard.tokens[role]})
+            for number, order in enumerate(ORDERS):
+                for more in ({}, {'role': BUILD, 'token': 'x', 'access': {'role': BUILD}}):
+                    await socket.send_str(json.dumps({'do': order, 'id': number, **more}))
+                    answer, = await parts(socket, 'answers')
+                    assert answer['id'] == number
+                    may = role == BUILD or order in OF_ROLES[role]
+                    assert answer['ok'] or not may or not order, answer
+                    assert may or 'this link' in answer['text']
+            await socket.send_str(json.dumps({'do': 'subscribe', 'topics': ['scan:a']}))
+            while server.source.requested[-1] != {'scan:a'}:  # all may look
+                await asyncio.sleep(0.01)
+        executed = {str(order['do']) for order in server.source.orders}
+        assert executed == ({str(order) for order in ORDERS} if role == BUILD
+                            else set(OF_ROLES[role]))
+    run(test, host='192.0.2.7')
+
+
+def test_orders_of_roles_exist() -> None:
+    assert set().union(*MAY.values()) <= set(Orders(Store()).known())
+
+
+@pytest.mark.parametrize('method', ['POST', 'PUT', 'DELETE', 'PATCH'])
+def test_no_request_changes_anything(method: str) -> None:
+    async def test(server: Running) -> None:
+        cookies = {'Cookie': f'angen_token_{server.host.partition(":")[2]}='
+                             f'{server.guard.tokens[LOOK]}'}
+        for path in ('/', '/socket', '/scene.json', '/kinds.json', '/page/js/main.js'):
+            async with server.session.request(method, f'http://{server.host}{path}',
+                                              headers=cookies, data=b'{"do": "reset"}') as answer:
+                assert answer.status == 405, path
+        assert server.source.orders == []
+    run(test, host='192.0.2.7')
+
+
+def test_a_place_is_left_for_who_may_do_all(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(server_module, 'MOST_BROWSERS', 3)
+    monkeypatch.setattr(server_module, 'RESERVED', 1)
+
+    async def test(server: Running) -> None:
+        def cookie(role: str) -> dict[str, str]:
+            return {'Cookie': f'angen_token_{server.host.partition(":")[2]}='
+                              f'{server.guard.tokens[role]}'}
+
+        async with server.socket(**cookie(LOOK)), server.socket(**cookie(SWITCH)):
+            with pytest.raises(WSServerHandshakeError) as rejected:
+                await server.socket(**cookie(LOOK))
+            assert rejected.value.status == 503
+            async with server.socket(**cookie(BUILD)) as socket:
+                assert (await parts(socket, 'access'))['role'] == BUILD
     run(test, host='192.0.2.7')
 
 
@@ -276,7 +345,7 @@ def test_a_browser_that_sends_no_orders_is_closed(monkeypatch: pytest.MonkeyPatc
 
 def test_answers_that_a_browser_does_not_read_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(server_module, 'MOST_ANSWERS', 50)
-    browser = Browser(web.WebSocketResponse())
+    browser = Browser(web.WebSocketResponse(), {'role': BUILD})
     for i in range(50):
         browser.answer({'id': i})
         assert not browser.is_broken

@@ -33,12 +33,6 @@ def entries(store: Timeline) -> list[Any]:
             return found
 
 
-def test_a_page_gets_the_token_of_its_address() -> None:
-    store = Timeline()
-    store.put('token', 'secret')
-    assert store.since(0).parts == {'token': 'secret'}
-
-
 def test_every_change_is_kept() -> None:
     store = Timeline()
     store.put_scene(scene(1, 'a', 'b'), 1)

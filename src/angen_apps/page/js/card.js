@@ -1,4 +1,5 @@
 /** The card of one device, sensor or room: its state and its commands, as its kind describes them. */
+import { denied } from './access.js';
 import { by, el, glyph, words } from './dom.js';
 import { middleOf } from './home.js';
 import { roomText } from './labels.js';
@@ -52,10 +53,11 @@ export class Card {
     this.state = el('p', { class: 'state', role: 'status' });
     const parts = [this.state, ...this.verbs(entity, kind)];
     if (home.isRobot(entity)) parts.push(...trip(home, this.page, entity));
-    parts.push(el('div', { class: 'verbs' }, home.isRobot(entity) && el('button', { type: 'button', onclick: () => this.page.robot(entity) }, 'Drive'),
+    parts.push(el('div', { class: 'verbs' }, home.isRobot(entity) && el('button', { type: 'button', order: 'drive', onclick: () => this.page.robot(entity) }, 'Drive'),
+      this.page.sees(entity) && el('button', { type: 'button', onclick: () => this.page.look(entity) }, entity.kind === 'person' ? 'Through the eyes' : 'Its view'),
       home.fields(entity.kind).length > 0 && el('button', { type: 'button', onclick: () => this.page.plot(entity) }, 'Plot')));
     if (kind?.role === 'sensor' && !home.status.replay) {
-      parts.push(el('div', { class: 'verbs' }, el('button', { type: 'button', onclick: () => this.remove(entity) }, 'Delete')));
+      parts.push(el('div', { class: 'verbs' }, el('button', { type: 'button', order: 'delete', onclick: () => this.remove(entity) }, 'Delete')));
     }
     const beside = home.ofModel(entity.model).filter((e) => e !== entity).slice(0, 12);
     if (beside.length) parts.push(el('h3', {}, 'Of the same model'), ...beside.map((e) => thingRow(home, e, () => this.show(e))));
@@ -69,10 +71,10 @@ export class Card {
     const plain = [], rows = [];
     for (const verb of kind?.verbs ?? []) {
       const send = (/** @type {string | number} */ value) => this.home.command(entity, value === '' ? verb.name : `${verb.name} ${value}`);
-      if (!verb.argument) plain.push(el('button', { type: 'button', title: verb.doc, 'data-verb': verb.name, onclick: () => send('') }, spaced(verb.name)));
+      if (!verb.argument) plain.push(el('button', { type: 'button', title: verb.doc, 'data-verb': verb.name, order: 'command', onclick: () => send('') }, spaced(verb.name)));
       else if (verb.type === 'integer' && verb.argument === 'floor') plain.push(...this.floors(send));
       else if (verb.count === 2 && verb.argument === 'x y') {
-        plain.push(el('button', { type: 'button', title: verb.doc, 'data-verb': verb.name,
+        plain.push(el('button', { type: 'button', title: verb.doc, 'data-verb': verb.name, order: 'command',
           onclick: () => this.page.choosePoint(`${spaced(verb.name)}: a place for ${entity.name}`, Array.from(this.home.place(entity)), (/** @type {number[]} */ p) => send(`${p[0].toFixed(2)} ${p[1].toFixed(2)}${verb.place && this.home.storeys.length > 1 ? ` ${this.home.storeyAt(p[2])}` : ''}`)) }, `${spaced(verb.name)} …`));
       } else if (verb.count === 1) rows.push(this.slider(entity, verb, send));
     }
@@ -81,19 +83,19 @@ export class Card {
 
   /** @param {(value: number) => void} send */
   floors(send) {
-    return [...this.home.storeys].reverse().map((storey) => el('button', { type: 'button', title: storey.name, onclick: () => send(storey.number) }, `Floor ${storey.number}`));
+    return [...this.home.storeys].reverse().map((storey) => el('button', { type: 'button', title: storey.name, order: 'command', onclick: () => send(storey.number) }, `Floor ${storey.number}`));
   }
 
   /** @param {any} entity @param {any} verb @param {(value: string | number) => void} send */
   slider(entity, verb, send) {
     const value = this.valueOf(entity, verb);
     if (verb.min === null || verb.max === null || verb.max - verb.min > 1000) {
-      const input = el('input', { type: 'number', step: 'any', min: verb.min, max: verb.max, value: value ?? '' });
+      const input = el('input', { type: 'number', step: 'any', min: verb.min, max: verb.max, value: value ?? '', order: 'command' });
       return el('label', {}, el('span', {}, spaced(verb.name)), input, el('span', { class: 'soft' }, verb.unit),
-        el('button', { type: 'button', onclick: () => input.value !== '' && send(Number(input.value)) }, 'Send'));
+        el('button', { type: 'button', order: 'command', onclick: () => input.value !== '' && send(Number(input.value)) }, 'Send'));
     }
     const fine = verb.max - verb.min <= 5, output = el('output', { class: 'number' });
-    const input = el('input', { type: 'range', min: verb.min, max: verb.max, step: fine ? 0.01 : 1, 'data-verb': verb.name, value: value ?? verb.min });
+    const input = el('input', { type: 'range', min: verb.min, max: verb.max, step: fine ? 0.01 : 1, 'data-verb': verb.name, value: value ?? verb.min, order: 'command' });
     const say = () => { output.textContent = `${Number(input.value)} ${verb.unit}`; };
     input.addEventListener('input', say);
     input.addEventListener('change', () => send(Number(input.value)));
@@ -134,7 +136,7 @@ export class Card {
     const parts = [...devices.map((e) => thingRow(home, e, () => this.show(e)))];
     if (sensors.length) parts.push(el('h3', {}, 'Sensors'), ...sensors.map((e) => thingRow(home, e, () => this.show(e))));
     const middle = middleOf(room.polygon), [x, y] = point ?? middle;
-    if (!home.status.replay) parts.push(el('h3', {}, 'Add a sensor'), this.adder(room.name, [x, y, room.floor], middle));
+    if (!home.status.replay && !denied('spawn')) parts.push(el('h3', {}, 'Add a sensor'), this.adder(room.name, [x, y, room.floor], middle));
     this.open(roomText(room), [`${words(room.use)}, floor ${room.storey}, ${room.area.toFixed(1)} m²`], parts);
   }
 
@@ -177,7 +179,7 @@ export class Card {
     };
     const field = (/** @type {string} */ text, /** @type {any} */ value, /** @type {string} */ unit) => el('label', {}, el('span', {}, text), value, el('span', { class: 'soft' }, unit));
     return el('div', { class: 'adder' }, kind, name, field('x', x, 'm'), field('y', y, 'm'), field('height', height, 'm'), field('faces', turn, '°'),
-      el('button', { class: 'main', type: 'button', id: 'add', onclick: add }, 'Add'));
+      el('button', { class: 'main', type: 'button', id: 'add', order: 'spawn', onclick: add }, 'Add'));
   }
 
   refresh() {
@@ -237,7 +239,7 @@ export function thingRow(home, e, open) {
   const state = el('span', { class: 'state number' });
   const verbs = (home.kinds[e.kind]?.verbs ?? []).filter((/** @type {any} */ v) => !v.argument).map((/** @type {any} */ v) => v.name);
   const pair = [['On', 'Off'], ['Open', 'Close']].find(([a, b]) => verbs.includes(a) && verbs.includes(b));
-  const toggle = pair && !home.status.replay ? el('button', { type: 'button' }) : null;
+  const toggle = pair && !home.status.replay ? el('button', { type: 'button', order: 'command' }) : null;
   const row = el('div', { class: 'thing' }, el('span', { class: 'glyph', 'aria-hidden': 'true' }, glyph(e.kind)),
     el('button', { class: 'name', type: 'button', title: e.name, onclick: open }, title(home, e)), state, toggle);
   row.refresh = () => {
@@ -265,11 +267,11 @@ export function trip(home, page, robot) {
     else page.goal.begin(robot);
     goals.selectedIndex = 0;
   };
-  const goals = el('select', { class: 'goals', 'aria-label': `Send ${robot.name} to`, onchange: send }, el('option', { hidden: true }, 'Go to …'), el('option', { value: '' }, 'a place …'),
+  const goals = el('select', { class: 'goals', 'aria-label': `Send ${robot.name} to`, order: 'goal', onchange: send }, el('option', { hidden: true }, 'Go to …'), el('option', { value: '' }, 'a place …'),
     ...[...home.storeys].reverse().map((storey) => el('optgroup', { label: storey.name || `Floor ${storey.number}` },
       ...home.rooms.filter((room) => room.storey === storey.number).map((room) => el('option', { value: room.name }, roomText(room))))));
   const text = el('span', { role: 'status' }), done = el('i'), bar = el('div', { class: 'bar' }, done);
-  const stop = el('button', { type: 'button', onclick: () => home.order({ do: 'halt', name: robot.name }) }, 'Stop');
+  const stop = el('button', { type: 'button', order: 'halt', onclick: () => home.order({ do: 'halt', name: robot.name }) }, 'Stop');
   const row = el('div', { class: 'thing trip' }, el('div', {}, text, bar), stop);
   row.refresh = () => {
     const now = home.trips[robot.name], shown = now ? `To ${now.goal}: ${now.text}` : '';

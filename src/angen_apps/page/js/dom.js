@@ -1,8 +1,10 @@
 /** Elements, icons and short notices. Text of others becomes text nodes only, never HTML. */
 
+import { denied } from './access.js';
+
 /**
  * @param {string} tag
- * @param {Record<string, any>} [attributes] `on…` are listeners, the rest attributes; null: left out
+ * @param {Record<string, any>} [attributes] `on…` are listeners, `order` is what it orders, which this page may not be allowed to, the rest attributes; null: left out
  * @param {...(Node | string | number | null | undefined | false)} children
  * @returns {any}
  */
@@ -24,13 +26,22 @@ export function svg(tag, attributes = {}, ...children) {
 function fill(element, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (value === null || value === undefined || value === false) continue;
-    if (name.startsWith('on')) element.addEventListener(name.slice(2), value);
+    if (name === 'order') limit(element, value);
+    else if (name.startsWith('on')) element.addEventListener(name.slice(2), value);
     else element.setAttribute(name, value === true ? '' : String(value));
   }
   for (const child of children) {
     if (child !== null && child !== undefined && child !== false) element.append(/** @type {any} */ (child));
   }
   return element;
+}
+
+/** @param {any} element a control, which is disabled with the reason where this page may not give its order @param {string} order */
+export function limit(element, order) {
+  const why = denied(order);
+  element.dataset.order = order;
+  element.disabled = Boolean(why);
+  if (why) element.dataset.why = element.title = why;
 }
 
 /** @param {string} id @returns {any} */

@@ -20,6 +20,7 @@ export class Figure {
     const shirt = new THREE.MeshLambertMaterial({ color: SHIRTS[number % SHIRTS.length] });
     const trousers = new THREE.MeshLambertMaterial({ color: 0x334155 });
     const skin = new THREE.MeshLambertMaterial({ color: 0xd8a17c });
+    this.height = height;
     this.group = new THREE.Group();
     this.body = new THREE.Group();
     this.group.add(this.body);

@@ -1,5 +1,6 @@
 /** A robot's goal, as the 2D Nav Goal of rviz: a press gives the place, a drag the heading; keys move it too. */
 import * as THREE from '../vendor/three/three.module.min.js';
+import { denied } from './access.js';
 import { by, isForOthers, isNarrow } from './dom.js';
 import { yawOf } from './fields.js';
 
@@ -58,7 +59,7 @@ export class Goal {
     }, true);
     at('pointerdown', (e) => {
       this.ended = false;
-      if (e.button !== 0 || !e.isPrimary || this.home.status.replay || !element.contains(e.target)) return false;
+      if (e.button !== 0 || !e.isPrimary || this.home.status.replay || denied('goal') || !element.contains(e.target)) return false;
       const found = hit(e.clientX, e.clientY), pressed = this.home.entities.find((r) => this.home.isRobot(r) && r.model === found?.model);
       const robot = this.robot ?? pressed;
       if (!found?.point || !robot) return false;

@@ -1,4 +1,5 @@
 /** The state that the server sends, and data derived from it; views listen to its parts. */
+import { setAccess } from './access.js';
 import { Connection } from './connection.js';
 import { clockText, notice } from './dom.js';
 
@@ -9,7 +10,7 @@ import { clockText, notice } from './dom.js';
 
 const POSES = 1, LEVELS = 2, PICTURE = 3, SCAN = 4; // as store.py
 export const HISTORY = 300; // s
-const MOST = 3000, BLOCK = 4; // values of a series; of so many older ones the least and the greatest stay
+const BLOCK = 500; // values of a series that are forgotten at a time, once they are older; the server has them all
 const PATIENCE = 8000; // ms
 
 export class Home {
@@ -58,7 +59,6 @@ export class Home {
     this.line = null;
     /** @type {Record<string, number[][][]>} lines of things on a plan by type, from -1 to 1 */
     this.symbols = {};
-    this.token = ''; // that others need to open this page
     this.connection = new Connection((parts) => this.take(parts), (blob) => this.takeBlob(blob), (open) => {
       this.connected = open;
       this.tell('status');
@@ -88,6 +88,7 @@ export class Home {
 
   /** @param {any} parts */
   take(parts) {
+    if (parts.access) { setAccess(parts.access); this.tell('access'); }
     if (parts.status) { this.status = parts.status; this.tell('status'); }
     if (parts.stats) {
       if (parts.stats.time < this.stats.time - 1) this.series.clear(); // a reset
@@ -109,7 +110,6 @@ export class Home {
       this.events = [...this.events, ...parts.events].slice(-500);
       this.tell('events', parts.events);
     }
-    this.token = parts.token ?? this.token;
     if (parts.trips) { this.trips = parts.trips; this.tell('trips'); }
     if (parts.cost) { this.cost = parts.cost; this.tell('cost'); }
     if (parts.timeline) this.tell('timeline', parts.timeline);
@@ -157,7 +157,7 @@ export class Home {
       if (n > 1 && v[n - 1] === value && v[n - 2] === value) { t[n - 1] = row.stamp; return; } // a level line has two ends
       t.push(row.stamp);
       v.push(value);
-      if (t.length > MOST) thin(series);
+      if (t[BLOCK] < row.stamp - HISTORY) { t.splice(0, BLOCK); v.splice(0, BLOCK); }
     });
   }
 
@@ -343,15 +343,4 @@ export function middleOf(polygon) {
     y += (y0 + y1) * cross;
   });
   return area ? [x / (3 * area), y / (3 * area)] : polygon[0];
-}
-
-/** @param {{t: number[], v: any[]}} series whose older half gets fewer values, without the loss of a peak */
-function thin({ t, v }) {
-  const half = MOST / 2, kept = [];
-  for (let i = 0; i < half; i += BLOCK) {
-    const block = Array.from({ length: Math.min(BLOCK, half - i) }, (_, k) => i + k).sort((a, b) => v[a] - v[b]);
-    kept.push(...[...new Set([block[0], block[block.length - 1]])].sort((a, b) => a - b));
-  }
-  t.splice(0, half, ...kept.map((i) => t[i]));
-  v.splice(0, half, ...kept.map((i) => v[i]));
 }

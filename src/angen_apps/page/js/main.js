@@ -1,5 +1,6 @@
 /** The page: the selection, the clock, the keys. */
-import { by, download, el, isForOthers, isNarrow, notice } from './dom.js';
+import { accessed, denied } from './access.js';
+import { by, download, el, isForOthers, isNarrow, limit, notice } from './dom.js';
 import { Card } from './card.js';
 import { sunAt } from './daylight.js';
 import { Goal } from './goal.js';
@@ -7,11 +8,14 @@ import { Home } from './home.js';
 import { Panels } from './panels.js';
 import { Plan } from './plan.js';
 import { Player } from './player.js';
+import { share } from './share.js';
 import { View3d } from './view3d.js';
 
 const NO_3D = 'This browser has no WebGL, which the 3D view needs: the plan has everything.';
 const EMPTY = 'This world has no rooms and no devices.';
 const DUSK = 0.1; // sine of the sun's height, below which lamps are wanted
+/** @type {Record<string, string>} */
+const LIMITS = { look: ', to look only', switch: ', to switch only' };
 const RATES = [0.1, 0.5, 1, 2, 5, 10, 100, 0];
 
 class Page {
@@ -22,6 +26,8 @@ class Page {
     this.choosing = null;
     const pick = (/** @type {any} */ hit) => this.pick(hit);
     this.player = new Player(this.home);
+    /** @type {import('./record.js').Recorder | undefined} */
+    this.recording = undefined;
     this.plan = new Plan(this.home, pick);
     try {
       this.view = new View3d(this.home, pick);
@@ -35,7 +41,7 @@ class Page {
     this.buildBar();
     this.buildFloors();
     this.buildLayers();
-    this.home.on('status', () => this.showStatus());
+    for (const topic of ['status', 'access']) this.home.on(topic, () => this.showStatus());
     this.home.on('stats', () => this.showClock());
     this.home.on('home', () => this.buildFloors());
     for (const topic of ['status', 'scene', 'home', 'entities']) this.home.on(topic, () => { this.showNothing(); this.begin(); });
@@ -55,28 +61,34 @@ class Page {
     const { home } = this;
     const ask = (/** @type {string} */ what, more = {}) => () => home.order({ do: what, ...more });
     this.time = el('time', { class: 'number', role: 'timer', 'aria-label': 'Simulated time' });
-    this.play = el('button', { type: 'button', id: 'play', class: 'icon', onclick: () => home.order({ do: home.stats.paused ? 'resume' : 'pause' }) });
-    this.rate = el('select', { id: 'rate', 'aria-label': 'Speed', onchange: () => home.order({ do: 'rate', rate: Number(this.rate.value) }) },
+    this.play = el('button', { type: 'button', id: 'play', class: 'icon', order: 'pause', onclick: () => home.order({ do: home.stats.paused ? 'resume' : 'pause' }) });
+    this.rate = el('select', { id: 'rate', 'aria-label': 'Speed', order: 'rate', onchange: () => home.order({ do: 'rate', rate: Number(this.rate.value) }) },
       ...RATES.map((rate) => el('option', { value: rate, selected: rate === 1 }, rate ? `${rate}×` : 'max')));
     this.factor = el('span', { class: 'soft number wide' });
     by('clock').append(this.time, this.play,
-      el('button', { type: 'button', class: 'wide', title: 'One second on, while paused (.)', onclick: ask('step', { seconds: 1 }) }, '+1 s'), this.rate,
-      el('button', { type: 'button', class: 'wide', title: 'To the start', onclick: ask('reset') }, 'Reset'), this.factor);
+      el('button', { type: 'button', class: 'wide', title: 'One second on, while paused (.)', order: 'step', onclick: ask('step', { seconds: 1 }) }, '+1 s'), this.rate,
+      el('button', { type: 'button', class: 'wide', title: 'To the start', order: 'reset', onclick: ask('reset') }, 'Reset'), this.factor);
     for (const [id, text] of [['3d', '3D'], ['plan', 'Plan']]) {
       by('views').append(el('button', { type: 'button', id: `view-${id}`, disabled: id === '3d' && !this.view, title: id === '3d' && !this.view && NO_3D, onclick: () => this.setView(id) }, text));
     }
     by('theme').addEventListener('click', () => this.setTheme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark'));
     by('help').addEventListener('click', () => this.help());
+    by('share').addEventListener('click', () => share());
+    home.on('access', () => { by('share').hidden = !accessed().tokens.build; });
     this.showStatus();
   }
 
   showStatus() {
     const { home } = this;
-    const text = !home.connected ? 'No connection to the server' : home.status.replay ? 'Recording' : home.status.node ? 'Live' : 'Waiting for the simulator';
+    const text = !home.connected ? 'No connection to the server' : home.status.replay ? 'Recording' : home.status.node ? `Live${LIMITS[accessed().role] ?? ''}` : 'Waiting for the simulator';
     by('status').textContent = text;
+    by('status').title = denied('spawn');
     by('status').classList.toggle('off', !home.connected || !(home.status.node || home.status.replay));
     by('clock').classList.toggle('replay', home.status.replay);
-    for (const control of by('clock').querySelectorAll('button, select')) control.disabled = !home.connected || !home.status.node;
+    for (const control of by('clock').querySelectorAll('button, select')) {
+      limit(control, control.dataset.order);
+      control.disabled ||= !home.connected || !home.status.node;
+    }
     this.showClock();
   }
 
@@ -101,7 +113,7 @@ class Page {
     const play = stats.paused ? '▶' : '❚❚';
     if (this.play.textContent !== play) {
       this.play.textContent = play;
-      this.play.title = stats.paused ? 'Go on (space)' : 'Pause (space)';
+      this.play.title = denied('pause') || (stats.paused ? 'Go on (space)' : 'Pause (space)');
       this.play.setAttribute('aria-label', stats.paused ? 'Go on' : 'Pause');
     }
     this.factor.textContent = status.node ? `${stats.paused ? 'paused' : `${stats.factor.toFixed(stats.factor < 10 ? 2 : 0)}× real time`}${status.seed === undefined ? '' : `, seed ${status.seed}`}` : '';
@@ -120,13 +132,14 @@ class Page {
   /** @param {string} id */
   setView(id) {
     if (!this.view) id = 'plan';
+    if (id === 'plan') this.view?.eyes.end();
     by('scene').hidden = id !== '3d';
     by('labels').hidden = id !== '3d';
     by('plan').hidden = id !== 'plan';
     for (const other of ['3d', 'plan']) by(`view-${other}`).setAttribute('aria-pressed', String(other === id));
     if (this.view) this.view.hidden = id !== '3d';
     this.plan.hidden = id !== 'plan';
-    for (const control of by('layers').children) control.hidden = id === 'plan' && control !== this.fieldsButton;
+    for (const control of by('layers').children) control.hidden = id === 'plan' && !control.classList.contains('both');
     this.plan.stale = true;
     this.plan.draw();
     this.view?.resize();
@@ -177,8 +190,19 @@ class Page {
       this.plan.update();
     });
     this.fieldsButton = fields;
+    fields.classList.add('both');
+    this.record = el('button', { type: 'button', id: 'record', class: 'both', 'aria-pressed': 'false', title: 'Records a video of the home, until it is pressed again', onclick: async () => {
+      this.record.setAttribute('aria-pressed', String((await this.recorder()).toggle()));
+    } }, 'Record');
     by('layers').append(this.walls, fields, el('button', { type: 'button', title: 'From above (P)', onclick: () => this.view?.look(true) }, 'From above'),
-      el('button', { type: 'button', title: 'The whole home (H)', onclick: () => this.whole() }, 'Whole home'));
+      el('button', { type: 'button', title: 'The whole home (H)', onclick: () => this.whole() }, 'Whole home'),
+      el('button', { type: 'button', id: 'picture', class: 'both', title: 'Saves a picture of the home', onclick: async () => (await this.recorder()).picture() }, 'Picture'), this.record);
+  }
+
+  /** @returns {Promise<import('./record.js').Recorder>} what is loaded when it is used */
+  async recorder() {
+    const { Recorder } = await import('./record.js');
+    return (this.recording ??= new Recorder(this));
   }
 
   whole() {
@@ -189,9 +213,9 @@ class Page {
 
   /** What to try, until something is tried. */
   welcome() {
-    const { home } = this, tap = isNarrow() ? 'Tap' : 'Click', robot = home.movers.some((e) => home.isRobot(e)) && !home.status.replay;
+    const { home } = this, tap = isNarrow() ? 'Tap' : 'Click', robot = home.movers.some((e) => home.isRobot(e)) && !home.status.replay && !denied('goal');
     const dark = (sunAt(home.described, home.stats.time)?.[2] ?? 1) < DUSK && home.entities.some((e) => e.kind === 'lamp');
-    by('welcome').textContent = home.status.replay ? `${tap} a person or a room, or the line below` : `${tap} ${dark ? 'a lamp and switch it on: it is dark' : 'a door, lamp, person or room'}${robot ? ' · drag the robot to another room' : ''}`;
+    by('welcome').textContent = home.status.replay ? `${tap} a person or a room, or the line below` : `${tap} ${dark && !denied('command') ? 'a lamp and switch it on: it is dark' : 'a door, lamp, person or room'}${robot ? ' · drag the robot to another room' : ''}`;
     by('welcome').hidden = localStorage.getItem('welcome') === 'seen';
     const seen = () => { by('welcome').hidden = true; localStorage.setItem('welcome', 'seen'); };
     by('stage').addEventListener('pointerdown', seen, { once: true, capture: true }); // also one that sets a goal
@@ -218,7 +242,7 @@ class Page {
   place(point) {
     const { home } = this, [x, y, z] = point, room = home.roomAt(x, y, z) ?? home.roomAt(x, y, z + 0.2);
     if (room) this.showRoom(room, point);
-    else if (home.status.replay || (home.rooms.length && !this.card.element.hidden)) this.card.close();
+    else if (home.status.replay || denied('spawn') || (home.rooms.length && !this.card.element.hidden)) this.card.close();
     else this.card.showPlace([x, y, Math.min(z, this.goal.floorAt(point))]);
   }
 
@@ -274,6 +298,19 @@ class Page {
     this.panels.plots.add(entity.kind, entity.name);
   }
 
+  /** @param {any} entity @returns {boolean} whether there is a view from it */
+  sees(entity) { return this.view?.eyes.has(entity) ?? false; }
+
+  /** @param {any} entity from which one looks */
+  look(entity) {
+    if (!this.view) return;
+    this.card.close();
+    this.setView('3d');
+    this.view.eyes.begin(entity, () => { by('hint').hidden = true; });
+    by('hint').replaceChildren(`As ${entity.name} sees it `, el('button', { type: 'button', id: 'leave', title: 'Esc', onclick: () => this.view?.eyes.end() }, 'Leave'));
+    by('hint').hidden = false;
+  }
+
   /** @param {any} entity */
   robot(entity) {
     this.panels.robot.name = entity.name;
@@ -297,6 +334,7 @@ class Page {
     if (isForOthers(e)) return;
     if (e.key === 'Escape') {
       if (this.choosing) this.stopChoosing();
+      else if (this.view?.eyes.entity) this.view.eyes.end();
       else this.card.close();
       return;
     }
@@ -304,7 +342,7 @@ class Page {
     /** @type {Record<string, () => void>} */
     const keys = {
       ' ': () => { if (target.tagName !== 'BUTTON' && target.getAttribute?.('role') !== 'button') (replay ? this.player : this).play?.click(); },
-      '.': () => { if (!replay) this.home.order({ do: 'step', seconds: 1 }); }, n: () => { if (replay) this.player.next(); },
+      '.': () => { if (!replay && !denied('step')) this.home.order({ do: 'step', seconds: 1 }); }, n: () => { if (replay) this.player.next(); },
       h: () => this.whole(), p: () => this.view?.look(true),
       f: () => this.fieldsButton.click(), t: () => by('theme').click(), v: () => this.setView(this.plan.hidden ? 'plan' : '3d'),
       '*': () => this.setStorey(null), '?': () => this.help(),

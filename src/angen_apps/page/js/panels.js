@@ -1,4 +1,5 @@
 /** The lists beside the view: rooms, sensors with plots, events, costs, robots. */
+import { denied } from './access.js';
 import { by, el, isNarrow, words } from './dom.js';
 import { thingRow } from './card.js';
 import { Plots } from './plots.js';
@@ -43,7 +44,7 @@ export class Panels {
     by('tabs').append(...this.all.map((panel) => el('button', { type: 'button', role: 'tab', id: `tab-${panel.id}`, 'aria-controls': 'panel',
       onclick: () => this.open(panel.id, true) }, panel.text)));
     by('tabs').addEventListener('keydown', (/** @type {KeyboardEvent} */ e) => this.arrow(e));
-    for (const topic of ['home', 'entities', 'status']) home.on(topic, () => this.rebuild());
+    for (const topic of ['home', 'entities', 'status', 'access']) home.on(topic, () => this.rebuild());
     for (const topic of ['rows', 'events', 'cost', 'stats']) {
       home.on(topic, () => { if (this.current.topics.includes(topic)) this.later(); });
     }
@@ -80,7 +81,7 @@ export class Panels {
   }
 
   rebuild() {
-    by('panel').replaceChildren(...this.current.build());
+    by('panel').replaceChildren(...this.current.build().filter(Boolean));
     this.current.update();
   }
 
@@ -128,8 +129,8 @@ export class Panels {
     if (home.status.replay || !home.status.node) return [];
     const all = (/** @type {string} */ kind, /** @type {string} */ verb) => () => home.order({ do: 'command', target: `${kind}/all`, text: verb });
     const pair = (/** @type {string} */ kind, /** @type {string} */ text, /** @type {string[]} */ ...verbs) => (home.entities.some((e) => e.kind === kind)
-      ? el('span', { class: 'pair', role: 'group', 'aria-label': text }, el('span', { class: 'soft' }, text), ...verbs.map((verb) => el('button', { type: 'button', onclick: all(kind, verb) }, verb))) : null);
-    return [el('div', { class: 'tools' }, pair('lamp', 'Lamps', 'On', 'Off'), pair('door', 'Doors', 'Open', 'Close'))];
+      ? el('span', { class: 'pair', role: 'group', 'aria-label': text }, el('span', { class: 'soft' }, text), ...verbs.map((verb) => el('button', { type: 'button', order: 'command', onclick: all(kind, verb) }, verb))) : null);
+    return [denied('spawn') && el('p', { class: 'soft', id: 'limits' }, denied('spawn')), el('div', { class: 'tools' }, pair('lamp', 'Lamps', 'On', 'Off'), pair('door', 'Doors', 'Open', 'Close'))];
   }
 
   /** @param {any} room @param {any[]} things */
@@ -169,8 +170,8 @@ export class Panels {
     this.table = el('tbody');
     this.rebuildRows();
     return [this.plots.element, el('div', { class: 'tools' }, this.filter,
-      ...(home.status.replay ? [] : [el('button', { type: 'button', onclick: () => this.page.addSensor() }, 'Add a sensor …'),
-        el('button', { type: 'button', onclick: () => this.page.save() }, 'Save world')])),
+      ...(home.status.replay ? [] : [el('button', { type: 'button', order: 'spawn', onclick: () => this.page.addSensor() }, 'Add a sensor …'),
+        el('button', { type: 'button', order: 'save', onclick: () => this.page.save() }, 'Save world')])),
     el('table', {}, el('colgroup', {}, el('col', { style: 'width: 44px' }), el('col'), el('col', { style: 'width: 45%' })),
       el('thead', {}, el('tr', {}, el('th', {}, el('span', { class: 'soft' }, 'Plot')), el('th', {}, 'Name'), el('th', {}, 'Reading'))), this.table)];
   }

@@ -10,6 +10,7 @@ export class People {
     this.group = new THREE.Group();
     /** @type {Map<string, {figure: Figure, link: number, low: number, text: string}>} by model */
     this.all = new Map();
+    this.hidden = ''; // the model through whose eyes one looks
   }
 
   /** @returns {Set<string>} their models, which nothing else shows */
@@ -54,11 +55,11 @@ export class People {
    * @param {(storey: number) => boolean} shows
    */
   place(link, pose, shows) {
-    for (const { figure, link: own, low } of this.all.values()) {
+    for (const [model, { figure, link: own, low }] of this.all) {
       if (own !== link) continue;
       figure.group.position.set(pose[0], pose[1], pose[2] + low);
       figure.group.rotation.z = yawOf(pose);
-      figure.group.visible = figure.posture !== 'away' && shows(this.home.storeyAt(pose[2] + low + 0.3));
+      figure.group.visible = figure.posture !== 'away' && model !== this.hidden && shows(this.home.storeyAt(pose[2] + low + 0.3));
     }
   }
 

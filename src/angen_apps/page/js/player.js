@@ -1,4 +1,5 @@
 /** Plays a recording: play, scrub, speed, events, and who was in which room. */
+import { accessed } from './access.js';
 import { by, clockText, el, notice } from './dom.js';
 import { inside } from './home.js';
 
@@ -119,7 +120,8 @@ export class Player {
     const share = el('button', { type: 'button', title: 'The address of this moment', onclick: () => {
       const url = new URL(location.href);
       url.searchParams.set('t', this.time.toFixed(1));
-      if (this.home.token) url.searchParams.set('token', this.home.token);
+      const { role, tokens } = accessed();
+      if (tokens[role]) url.searchParams.set('token', tokens[role]);
       history.replaceState(null, '', url);
       const copied = () => notice('The address of this moment is copied.'), shown = () => notice('The address above opens at this moment.');
       (navigator.clipboard?.writeText(url.href) ?? Promise.reject()).then(copied, shown);

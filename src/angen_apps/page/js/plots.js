@@ -1,10 +1,10 @@
-/** Plots of readings over the last five minutes, or since the page was opened. */
+/** Plots of readings over the last five minutes, or of the whole run, which the server keeps. */
 import uPlot from '../vendor/uplot/uPlot.esm.js';
-import { download, el, notice } from './dom.js';
+import { el, notice } from './dom.js';
 import { HISTORY } from './home.js';
 
 const MOST = 6;
-const PERIOD = 250; // ms
+const PERIOD = 250, AGAIN = 10000; // ms; after the latter the whole run is asked for again
 
 export class Plots {
   /** @param {import('./home.js').Home} home @param {() => void} open */
@@ -12,15 +12,15 @@ export class Plots {
     this.home = home;
     this.open = open;
     this.paused = false;
-    /** @type {{key: string, field: any, box: any, plot: any, zoomed: boolean}[]} */
+    /** @type {{key: string, kind: string, name: string, field: any, box: any, plot: any, zoomed: boolean, whole: {t: number[], v: number[]}, asked: number}[]} */
     this.shown = [];
     this.holder = el('div');
     this.pause = el('button', { type: 'button', 'aria-pressed': 'false', onclick: () => this.setPaused(!this.paused) }, 'Pause plots');
-    this.whole = el('button', { type: 'button', 'aria-pressed': 'false', title: 'All since this page was opened', onclick: () => {
+    this.whole = el('button', { type: 'button', 'aria-pressed': 'false', title: 'Since the server was started', onclick: () => {
       this.whole.setAttribute('aria-pressed', String(!this.isWhole()));
       this.update();
     } }, 'Whole run');
-    this.tools = el('div', { class: 'tools', hidden: true }, this.pause, this.whole, el('button', { type: 'button', title: 'All readings since this page was opened', onclick: () => this.save() }, 'CSV'), el('span', { class: 'soft' }, 'Drag to zoom, double click to reset'));
+    this.tools = el('div', { class: 'tools', hidden: true }, this.pause, this.whole, el('button', { type: 'button', title: 'All readings since the server was started', onclick: () => el('a', { href: '/readings.csv', download: '' }).click() }, 'CSV'), el('span', { class: 'soft' }, 'Drag to zoom, double click to reset'));
     this.element = el('div', {}, this.tools, this.holder);
     setInterval(() => this.update(), PERIOD);
   }
@@ -48,7 +48,7 @@ export class Plots {
     if (this.shown.length >= MOST) this.remove(this.shown[0]);
     const choice = el('select', { 'aria-label': `Field of ${name}` }, ...fields.map((one) => el('option', { value: one.name, selected: one === field }, one.name.replaceAll('_', ' '))));
     const box = el('div', { class: 'plot' }, el('header', {}, el('span', { title: `${kind} ${name}` }, name), choice));
-    const entry = { key, field, box, plot: /** @type {any} */ (null), zoomed: false };
+    const entry = { key, kind, name, field, box, plot: /** @type {any} */ (null), zoomed: false, whole: { t: /** @type {number[]} */ ([]), v: /** @type {number[]} */ ([]) }, asked: -Infinity };
     choice.addEventListener('change', () => { this.remove(entry); this.add(kind, name, choice.value); });
     box.firstChild.append(el('button', { class: 'icon', type: 'button', 'aria-label': `Close the plot of ${name}`, onclick: () => this.remove(entry) }, '✕'));
     this.holder.append(box);
@@ -84,12 +84,23 @@ export class Plots {
     return this.whole.getAttribute('aria-pressed') === 'true';
   }
 
-  save() {
-    const lines = [...this.home.series].flatMap(([key, { t, v }]) => {
-      const [, kind, name, field] = /^([^/]*)\/(.*)\/([^/]*)$/.exec(key) ?? [], unit = this.home.fields(kind).find((one) => one.name === field)?.unit ?? '';
-      return t.map((time, i) => `${time},${kind},"${name.replaceAll('"', '""')}",${field},${v[i]},${unit}`);
-    });
-    download('readings.csv', ['time,kind,name,field,value,unit', ...lines, ''].join('\n'), 'text/csv');
+  /** @param {any} entry whose whole run is shown */
+  async ask(entry) {
+    entry.asked = performance.now();
+    const answer = await fetch(`/history.json?${new URLSearchParams({ kind: entry.kind, name: entry.name, field: entry.field.name })}`);
+    if (answer.ok) entry.whole = await answer.json();
+  }
+
+  /**
+   * What is plotted: the last minutes; of a whole run what the server had, then these; of a whole recording all.
+   * @param {any} entry @returns {{t: number[], v: (number | null)[]}}
+   */
+  points({ key, whole }) {
+    const recent = this.home.series.get(key) ?? { t: [], v: [] };
+    if (!this.isWhole()) return recent;
+    if (this.home.status.replay) return whole;
+    const found = whole.t.findIndex((/** @type {number} */ time) => time >= recent.t[0]), end = found < 0 ? whole.t.length : found;
+    return { t: [...whole.t.slice(0, end), ...recent.t], v: [...whole.v.slice(0, end), ...recent.v] };
   }
 
   now() {
@@ -115,10 +126,10 @@ export class Plots {
   update() {
     if (this.paused || document.hidden) return;
     for (const entry of this.shown) {
-      const series = this.home.series.get(entry.key);
-      if (!series || !entry.box.isConnected) continue;
-      const to = Math.max(this.now(), series.t[series.t.length - 1] ?? 0), from = Math.max(this.isWhole() ? -Infinity : to - HISTORY, Math.min(series.t[0] ?? to, to - 10));
-      const times = [...series.t], values = [...series.v];
+      if (!entry.box.isConnected) continue;
+      if (this.isWhole() && performance.now() - entry.asked > AGAIN) this.ask(entry).then(() => this.update());
+      const points = this.points(entry), times = [...points.t], values = [...points.v];
+      const to = Math.max(this.now(), times[times.length - 1] ?? 0), from = Math.max(this.isWhole() ? -Infinity : to - HISTORY, Math.min(times[0] ?? to, to - 10));
       if (times.length && times[times.length - 1] < to) { times.push(to); values.push(values[values.length - 1]); }
       entry.plot.setData([times, values], !entry.zoomed);
       if (!entry.zoomed) entry.plot.setScale('x', { min: from, max: to });

@@ -1,4 +1,5 @@
 /** Robots: drive by keys or a stick, the camera's picture, a goal. */
+import { denied } from './access.js';
 import { el, isForOthers } from './dom.js';
 import { thingRow, trip } from './card.js';
 import { RobotMap } from './robotmap.js';
@@ -55,7 +56,7 @@ export class RobotPanel {
     this.subscribe();
     return [el('div', { class: 'tools' }, choose, this.cameras.length && !home.status.replay ? shown : null), ...trip(home, this.page, robot),
     thingRow(home, robot, () => this.page.show(robot)), this.picture, this.map.show(robot, this.lidar ? `scan:${this.lidar.name}` : ''),
-    ...(home.status.replay ? [] : [el('p', { class: 'soft', style: 'text-align: center' }, 'Drag on the map: a goal and its heading. Or drag the robot itself in the home.'),
+    ...(home.status.replay ? [] : denied('drive') ? [el('p', { class: 'soft' }, denied('drive'))] : [el('p', { class: 'soft', style: 'text-align: center' }, 'Drag on the map: a goal and its heading. Or drag the robot itself in the home.'),
       this.stick, el('p', { class: 'soft', style: 'text-align: center' }, 'Drag the stick, or hold W A S D.')])];
   }
 
@@ -87,7 +88,7 @@ export class RobotPanel {
   /** @param {KeyboardEvent} e @param {boolean} down */
   key(e, down) {
     const key = e.key.toLowerCase();
-    if (!KEYS[key] || !this.active || isForOthers(e)) return;
+    if (!KEYS[key] || !this.active || isForOthers(e) || denied('drive')) return;
     if (down) this.keys.add(key);
     else this.keys.delete(key);
     const sum = [...this.keys].reduce(([x, y], one) => [x + KEYS[one][0], y + KEYS[one][1]], [0, 0]);

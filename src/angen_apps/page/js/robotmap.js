@@ -1,4 +1,5 @@
 /** The robot's map: the floor that it is on, its lidar's scan, and a goal that one drags. */
+import { denied } from './access.js';
 import { el } from './dom.js';
 import { yawOf } from './fields.js';
 import { TURNS } from './goal.js';
@@ -28,7 +29,7 @@ export class RobotMap {
     });
     const canvas = this.canvas;
     canvas.addEventListener('pointerdown', (/** @type {PointerEvent} */ e) => {
-      if (home.status.replay) return;
+      if (home.status.replay || denied('goal')) return;
       canvas.setPointerCapture(e.pointerId);
       goal.put([...this.at(e), home.place(this.robot)[2], 0]);
     });
@@ -37,7 +38,7 @@ export class RobotMap {
       const [x, y, z] = goal.pose, to = this.at(e), [dx, dy] = [to[0] - x, to[1] - y];
       if (Math.hypot(dx, dy) > TURNS) goal.put([x, y, z, Math.atan2(dy, dx)]);
     });
-    canvas.addEventListener('pointerup', () => goal.send(this.robot));
+    canvas.addEventListener('pointerup', (/** @type {PointerEvent} */ e) => { if (canvas.hasPointerCapture(e.pointerId)) goal.send(this.robot); });
     canvas.addEventListener('wheel', (/** @type {WheelEvent} */ e) => {
       e.preventDefault();
       this.span = Math.min(40, Math.max(3, this.span * Math.exp(0.001 * e.deltaY)));

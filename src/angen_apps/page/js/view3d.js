@@ -2,6 +2,7 @@
 import * as THREE from '../vendor/three/three.module.min.js';
 import { Sky } from './daylight.js';
 import { by } from './dom.js';
+import { Eyes } from './eyes.js';
 import { Glows } from './glow.js';
 import { Labels } from './labels.js';
 import { Bulbs, Fields, Scans } from './overlays.js';
@@ -40,6 +41,8 @@ export class View3d {
     this.turnedAt = -Infinity;
     this.pause = PLAIN_PERIOD; // ms
     this.hidden = false;
+    this.after = () => {}; // a frame was drawn
+    this.held = false; // no frames but those of a film
     this.element = by('scene');
     this.plain = isPlain();
     this.renderer = new THREE.WebGLRenderer({ antialias: !this.plain, powerPreference: 'high-performance' });
@@ -65,6 +68,7 @@ export class View3d {
     this.people = new People(home);
     this.scene.add(this.people.group);
     this.labels = new Labels();
+    this.eyes = new Eyes(this);
     this.raycaster = new THREE.Raycaster();
     /** @type {Map<number, Float32Array>} poses by link, as shown */
     this.drawn = new Map();
@@ -249,7 +253,7 @@ export class View3d {
     const now = performance.now(), dt = Math.min(0.1, (now - this.last) / 1000);
     if (this.drawnAt === this.last) this.pace(now - this.last);
     this.last = now;
-    if (this.hidden || !this.shapes) return;
+    if (this.hidden || !this.shapes || this.held) return;
     this.move(dt);
     if (this.plain && this.sharpness.rest(now - this.turnedAt)) this.resize();
     if (!this.dirty && this.relabel) this.labels.place(this);
@@ -257,10 +261,29 @@ export class View3d {
     if (!this.dirty || (this.plain && now - this.drawnAt < this.pause)) return;
     this.drawnAt = now;
     if (now - this.shadowsAt > 400) { this.renderer.shadowMap.needsUpdate = true; this.shadowsAt = now; }
+    this.draw();
+  }
+
+  draw() {
     this.dirty = false;
     this.renderer.render(this.scene, this.viewpoint.camera);
     this.frames++;
     this.labels.place(this);
+    this.after();
+  }
+
+  /**
+   * A frame in which all is where it is now.
+   * @param {number} dt s since the one before
+   */
+  film(dt) {
+    if (this.hidden || !this.shapes) return;
+    for (const way of this.moving.values()) way.now.set(way.to);
+    this.viewpoint.glide(100);
+    this.move(dt);
+    if (!this.dirty) return; // it takes a while where the processor draws
+    this.renderer.shadowMap.needsUpdate = true;
+    this.draw();
   }
 
   /**
@@ -288,6 +311,7 @@ export class View3d {
     }
     if (this.people.animate(dt)) this.dirty = true;
     if (this.fields.animate(dt)) this.dirty = true;
+    if (this.eyes.entity) { this.eyes.place(); return; }
     this.viewpoint.glide(dt);
     this.viewpoint.controls.update(dt);
   }
@@ -322,6 +346,7 @@ export class View3d {
    * @param {boolean} [above]
    */
   look(above = false) {
+    this.eyes.end();
     if (!this.shapes) return;
     const box = this.box(), many = this.storey === null && this.home.storeys.length > 1;
     this.framed = this.home.described !== null && this.element.clientWidth > 0; // until then the visible parts may change, or their size
@@ -355,6 +380,7 @@ export class View3d {
 
   /** @param {number | null} storey */
   setStorey(storey) {
+    this.eyes.end();
     this.storey = storey;
     this.scans.clear();
     this.placeAll();

@@ -15,9 +15,10 @@ from angen_apps.data.site import Site, apartment
 from angen_apps.data.tables import EVENTS, POWER, SLIDES, TRACK, TRUTH, homes, rows
 from angen_apps.residents.figures import walker
 from angen_apps.web.feed import row_of
+from angen_apps.web.history import numbers
 from angen_apps.web.played import Played
 from angen_apps.web.rides import Cabin, Rider, cabins
-from angen_tools.common.catalog import simulator
+from angen_tools.common.catalog import kinds, simulator
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
 from angen_tools.common.wait import wait
@@ -336,4 +337,5 @@ class Day(Played):
 
     def _values(self, kind: str, name: str, value: float) -> list[float | None]:
         """As the fields of a summary, of which one is known."""
-        return [value if field == name else None for field in self._fields(kind)]
+        return [value if field['name'] == name else None
+                for field in numbers(kinds()[kind])]

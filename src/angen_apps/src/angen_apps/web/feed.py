@@ -1,7 +1,9 @@
-"""The store filled from a running node, by its public topics; only while a browser is open."""
+"""The store filled from a running node, by its public topics: readings always, for their history;
+the others while a browser is open."""
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import dataclasses
 import threading
 import time
@@ -23,6 +25,8 @@ WATCH = 0.5  # s between looks at the master and the node
 LINGER = 5.0  # s for which topics stay subscribed after the last browser has left
 PICTURE_PERIOD = 0.2  # s between two pictures of a camera
 COST = 'cost'
+ALWAYS = ('summary', 'stats')  # subscribed without a browser, too
+CALM = 2.0  # s between looks at the master without one
 
 
 class Feed:
@@ -32,15 +36,17 @@ class Feed:
         self.store: Store = Store()
         self._orders = Orders(self.store)
         self._requested: set[str] | None = None
-        self._idle_since: float | None = None
         self._subscribers: dict[str, Any] = {}
         self._lock = threading.Lock()  # guards the subscribers
+        self._wake = asyncio.Event()
         self._master = 0  # its process
         self._listed = -1  # the scene of the last survey
+        self._now = 0.0
         self.store.put('status', {'node': False, 'replay': False})
 
     def request(self, topics: set[str] | None) -> None:
         self._requested = topics
+        self._wake.set()
 
     async def order(self, order: dict[str, Any]) -> dict[str, Any]:
         answer: dict[str, Any] = await in_thread(self._orders.execute, order)
@@ -52,27 +58,35 @@ class Feed:
 
     async def serve(self) -> None:
         loop = asyncio.get_running_loop()
+        left = -LINGER  # when the last browser has left
         while True:
-            if self._requested is not None:
-                self._idle_since = None
-                await in_thread(self._follow, set(self._requested))
-            elif self._subscribers:
-                self._idle_since = self._idle_since or loop.time()
-                if loop.time() - self._idle_since > LINGER:
-                    await in_thread(self._unsubscribe_all)
-            await asyncio.sleep(WATCH if self._requested is not None and self._subscribers
-                                else 0.1)
+            requested = self._requested
+            if requested is not None:
+                left = loop.time()
+            lingers = loop.time() - left < LINGER
+            await in_thread(self._follow, set(requested or ()), lingers)
+            self._wake.clear()
+            if requested != self._requested:
+                continue
+            with contextlib.suppress(asyncio.TimeoutError):
+                await asyncio.wait_for(self._wake.wait(), WATCH if lingers else CALM)
 
     # --- the master and the node
 
-    def _follow(self, requested: set[str]) -> None:
-        """Subscribes the requested topics of the present node."""
+    def _follow(self, requested: set[str], is_shown: bool) -> None:
+        """Subscribes the requested topics of the present node, the usual ones while it is shown."""
         master = master_process()
         if master != self._master:  # topics of a master that ended are lost
             self._unsubscribe_all()
+            self.store.history.clear()
             self._master = master
         if master and not self._subscribers:
-            self._subscribe_usual()
+            self._subscribe_always()
+        if not is_shown:
+            self._rest()
+            return
+        if master and 'scene' not in self._subscribers:
+            self._subscribe_shown()
         for topic in [name for name in self._subscribers if ':' in name or name == COST]:
             if topic not in requested:
                 self._drop(topic)
@@ -113,6 +127,13 @@ class Feed:
         if subscriber is not None:
             subscriber.unregister()
 
+    def _rest(self) -> None:
+        """Without a browser."""
+        for key in self._subscribers.keys() - set(ALWAYS):
+            self._drop(key)
+        self.store.clear_named()
+        self.store.put('status', {'node': False, 'replay': False})
+
     def _unsubscribe_all(self) -> None:
         for key in list(self._subscribers):
             self._drop(key)
@@ -120,14 +141,21 @@ class Feed:
         self.store.put('status', {'node': False, 'replay': False})
 
     def _subscribe_usual(self) -> None:
-        from angen_msgs.msg import Event, Scene, SceneChanges, Stats, Summary
+        self._subscribe_always()
+        self._subscribe_shown()
+
+    def _subscribe_always(self) -> None:
+        from angen_msgs.msg import Stats, Summary
+        self._subscribe('summary', 'angen/summary', Summary, self._on_summary)
+        self._subscribe('stats', 'angen/stats', Stats, self._on_stats)
+
+    def _subscribe_shown(self) -> None:
+        from angen_msgs.msg import Event, Scene, SceneChanges
         from angen_msgs.msg import Home as HomeMessage
         from rospy.numpy_msg import numpy_msg
         self._subscribe('scene', 'angen/scene', Scene, self._on_scene)
         self._subscribe('changes', 'angen/scene_changes', numpy_msg(SceneChanges),
                         self._on_changes)
-        self._subscribe('summary', 'angen/summary', Summary, self._on_summary)
-        self._subscribe('stats', 'angen/stats', Stats, self._on_stats)
         self._subscribe('events', 'angen/events', Event, self._on_event)
         self._subscribe('home', 'angen/home', HomeMessage, self._on_home)
 
@@ -161,8 +189,12 @@ class Feed:
         self.store.put_rows(map(row_of, message.entries), message.complete)
 
     def _on_stats(self, message: Any) -> None:
+        now = message.sim_time.to_sec()
+        if now < self._now - 1.0:  # a reset, or another run
+            self.store.history.clear()
+        self._now = now
         self.store.put('stats', {
-            'time': message.sim_time.to_sec(), 'factor': message.real_time_factor,
+            'time': now, 'factor': message.real_time_factor,
             'paused': bool(message.paused), 'step': message.step, 'models': message.models,
             'devices': message.devices, 'sensors': message.sensors,
             'awake': message.awake_bodies})

@@ -36,6 +36,10 @@ class Orders:
             'delete': self._delete, 'save': self._save, 'drive': self._drive, 'goal': self._goal,
             'halt': self._halt}
 
+    def known(self) -> list[str]:
+        """The names of orders."""
+        return [*self._known]
+
     def execute(self, order: dict[str, Any]) -> dict[str, Any]:
         """The answer; ValueError where the simulator rejects it."""
         do = self._known.get(str(order.get('do')))

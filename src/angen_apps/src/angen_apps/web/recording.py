@@ -38,10 +38,6 @@ class Recording(Played):
         self._finish()
         self._end_node()
 
-    def _on_changes(self, message: Any) -> None:
-        self.store.put_changes(message.revision, message.links, message.poses, message.lights,
-                               message.levels, message.header.stamp.to_sec())
-
     def _on_stats(self, message: Any) -> None:
         self._now = message.sim_time.to_sec()
         self._line['loaded'] = min(self._now, self._line['end'])

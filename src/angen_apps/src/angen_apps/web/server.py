@@ -12,11 +12,12 @@ from typing import Any, Awaitable, Callable, Protocol
 from aiohttp import WSMsgType, web
 
 from angen_apps.web.files import Files
-from angen_apps.web.guard import Budget, Guard, Handler
+from angen_apps.web.guard import BUILD, HEADERS, ROLE, Budget, Guard, Handler, refusal
+from angen_apps.web.history import numbers
 from angen_apps.web.store import Store
 from angen_apps.web.threads import in_thread
 
-MOST_BROWSERS = 40
+MOST_BROWSERS, RESERVED = 40, 5  # the last ones are of the role that may do all
 LARGEST_MESSAGE = 16 * 1024  # bytes, of a browser
 RATE, BURST = 40.0, 80.0  # messages per second of a browser
 MOST_PENDING = 20  # orders of a browser
@@ -50,8 +51,11 @@ class Source(Protocol):
 class Browser:
     """One page that is open."""
 
-    def __init__(self, socket: web.WebSocketResponse) -> None:
+    def __init__(self, socket: web.WebSocketResponse, access: dict[str, Any]) -> None:
+        """`access`: what it is told of its role."""
         self.socket = socket
+        self.role: str = access['role']
+        self._access: dict[str, Any] | None = access
         self.requested: set[str] = set()
         self.pending = 0  # orders without an answer
         self.errors = 0  # messages that are no orders
@@ -78,6 +82,8 @@ class Browser:
             seen = update.version
             if update.more:
                 self.news.set()
+            if self._access:
+                update.parts['access'], self._access = self._access, None
             if self.answers:
                 update.parts['answers'], self.answers = self.answers, []
             if update.parts:
@@ -114,14 +120,18 @@ class Server(Site):
 
     def __init__(self, source: Source, guard: Guard, page: Path, kinds: dict[str, Any]) -> None:
         super().__init__(guard, page, 'index.html', LARGEST_MESSAGE)
-        self._source = source
+        self._source, self._guard = source, guard
+        self._fields = {name: numbers(kind) for name, kind in kinds.items()}
+        self._exports = asyncio.Lock()
         self._kinds = gzip.compress(json_text(kinds).encode())
         self._browsers: set[Browser] = set()
         self._scene: tuple[int, bytes] = (0, b'')
         self._tasks: set[asyncio.Task[None]] = set()
         self.app.add_routes([web.get('/socket', self._socket),
                              web.get('/scene.json', self._get_scene),
-                             web.get('/kinds.json', self._get_kinds)])
+                             web.get('/kinds.json', self._get_kinds),
+                             web.get('/history.json', self._get_history),
+                             web.get('/readings.csv', self._get_readings)])
         self.app.on_startup.append(self._start)
         self.app.on_shutdown.append(self._stop)
 
@@ -173,14 +183,39 @@ class Server(Site):
             self._scene = (scene['number'], packed)
         return web.Response(body=self._scene[1], content_type='application/json', headers=PACKED)
 
+    async def _get_history(self, request: web.Request) -> web.Response:
+        """The readings of a field in the whole run."""
+        kind, name, field = (request.query.get(key, '') for key in ('kind', 'name', 'field'))
+        names = [one['name'] for one in self._fields.get(kind, ())]
+        if field not in names:
+            raise web.HTTPNotFound(text='There is no such field.\n')
+        times, values = self._source.store.history.of(kind, name, names.index(field))
+        answer = web.json_response({'t': times, 'v': values}, dumps=json_text)
+        answer.enable_compression()
+        return answer
+
+    async def _get_readings(self, request: web.Request) -> web.StreamResponse:
+        """All readings of the run, as CSV."""
+        answer = web.StreamResponse(headers={
+            **HEADERS, 'Content-Type': 'text/csv; charset=utf-8',
+            'Content-Disposition': 'attachment; filename=readings.csv'})
+        answer.enable_compression()
+        async with self._exports:  # one at a time: it costs some seconds of a large building
+            await answer.prepare(request)
+            for part in self._source.store.history.table(self._fields):
+                await answer.write(part.encode())
+            await answer.write_eof()
+        return answer
+
     async def _socket(self, request: web.Request) -> web.StreamResponse:
         if request.headers.get('Origin') is None:  # each browser sends it
             raise web.HTTPForbidden(text='A WebSocket needs an Origin.\n')
-        if len(self._browsers) >= MOST_BROWSERS:
+        role = request[ROLE]
+        if len(self._browsers) >= MOST_BROWSERS - (0 if role == BUILD else RESERVED):
             raise web.HTTPServiceUnavailable(text='Too many pages are open.\n')
         socket = web.WebSocketResponse(heartbeat=PULSE, max_msg_size=LARGEST_MESSAGE)
         await socket.prepare(request)
-        browser = Browser(socket)
+        browser = Browser(socket, self._guard.access(role))
         self._browsers.add(browser)
         self._request()
         feeder = asyncio.ensure_future(self._feed(browser))
@@ -217,6 +252,8 @@ class Server(Site):
             elif order.get('do') == 'subscribe' and isinstance(topics := order.get('topics'), list):
                 browser.requested = requested(topics)
                 self._request()
+            elif why := refusal(browser.role, order.get('do')):
+                browser.answer({'id': order.get('id'), 'ok': False, 'text': why})
             elif browser.pending >= MOST_PENDING:
                 browser.answer({'id': order.get('id'), 'ok': False,
                                 'text': 'the simulator has not answered earlier orders yet'})

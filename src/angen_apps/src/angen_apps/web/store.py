@@ -13,6 +13,8 @@ from typing import Any, Callable, Iterable
 import numpy as np
 from numpy.typing import NDArray
 
+from angen_apps.web.history import History
+
 EVENTS = 500  # kept for a new browser
 POSES, LEVELS, PICTURE, SCAN = 1, 2, 3, 4  # kinds of binary messages; see docs/web.md
 HEAD = struct.Struct('<II')  # the kind, and the scene's number or the length of a name
@@ -74,6 +76,7 @@ class Store:
         self._versions = itertools.count(1)
         self._version = 0
         self._parts: dict[str, tuple[int, Any]] = {}
+        self.history = History()
         self._rows: dict[tuple[str, str], tuple[int, Row]] = {}  # in the order of their changes
         self._whole = 0  # the version at which the rows were last replaced
         self._events: deque[tuple[int, Any]] = deque(maxlen=EVENTS)
@@ -107,6 +110,8 @@ class Store:
             for row in rows:
                 self._rows.pop(row[:2], None)
                 self._rows[row[:2]] = (version, row)
+                if row[2]:
+                    self.history.put(*row[:2], row[4], row[5])
         self.changed()
 
     def add_event(self, event: Any) -> None:
@@ -156,6 +161,11 @@ class Store:
         """Forgets readings and pictures; the scene stays, as it was."""
         with self._lock:
             self._rows, self._whole = {}, self._next()
+        self.clear_named()
+
+    def clear_named(self) -> None:
+        """Forgets pictures and scans."""
+        with self._lock:
             self._named.clear()
 
     # --- read

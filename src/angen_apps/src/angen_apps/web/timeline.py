@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from angen_apps.web.store import Row, Store, Update
 
 CHUNK = 3000  # entries of a message
-PARTS = ('status', 'scene', 'home', 'entities', 'line', 'token', 'symbols')  # sent without time
+PARTS = ('status', 'scene', 'home', 'entities', 'line', 'symbols')  # sent without time
 
 
 class Timeline(Store):
@@ -69,6 +69,8 @@ class Timeline(Store):
                 if self._texts.get(row[:2]) != shown:
                     self._texts[row[:2]] = shown
                     self._log(['r', row[4], *row])
+                if row[2]:
+                    self.history.put(*row[:2], row[4], row[5])
         self.changed()
 
     def add_event(self, event: Any) -> None:
