@@ -1,6 +1,6 @@
 // Light at places that a seed chooses in a world, all lamps lit, beside a path tracer:
 //   cmake --build build --target light_places_bench
-//   build/bench/light_places_bench WORLD [SEED [COUNT]]
+//   devel/lib/angen_sim/light_places_bench WORLD [SEED [COUNT]]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,8 +13,8 @@
 namespace angen::bench {
 namespace {
 
-constexpr double kShare = 0.02, kLeast = 0.05;          // of the reading, lx: what counts as off
-constexpr double kBefore = 0.002;                       // m, from a place to its surface
+constexpr double kShare = 0.02, kLeast = 0.05;        // of the reading, lx: what counts as off
+constexpr double kBefore = 0.002;                     // m, from a place to its surface
 constexpr int kBatch = 10'000, kMostPaths = 200'000;  // of the tracer
 
 /// Where a walk of one to four steps from a random lamp ends, facing away from that surface.
@@ -58,12 +58,12 @@ int run(const char* file, std::uint64_t seed, int count) {
     const double lux = engines.light.measure(probe, at).illuminance;
     light::testing::Tracer tracer(engines.rays, lit, at, rng.next());
     double error = 0.0, allowed = 0.0, doubt = 0.0;
-    do {
+    do {  // until it is certain that the place is not off
       tracer.run(kBatch);
       error = std::abs(lux - tracer.mean());
       allowed = std::max(kLeast, kShare * tracer.mean());
-      doubt = 2.0 * tracer.deviation();
-    } while (tracer.paths() < kMostPaths && error + doubt > allowed && error - doubt < allowed);
+      doubt = 3.0 * tracer.deviation();
+    } while (tracer.paths() < kMostPaths && error + doubt > allowed);
     const bool is_off = error > allowed;
     const double share = tracer.mean() > 0.0 ? lux / tracer.mean() - 1.0 : 0.0;
     off += is_off;
@@ -75,9 +75,10 @@ int run(const char* file, std::uint64_t seed, int count) {
       bright_off += is_off;
     }
     if (is_off) {
-      std::printf("  off at %.3f %.3f %.3f: %.3f lx, traced %.3f +- %.3f, %+.1f %%\n",
-                  at.position.x(), at.position.y(), at.position.z(), lux, tracer.mean(),
-                  tracer.deviation(), 100.0 * share);
+      const Vec3 normal = at.rotation * Vec3::UnitX();
+      std::printf("  off at %.3f %.3f %.3f facing %.2f %.2f %.2f: %.3f lx, traced %.3f +- %.3f\n",
+                  at.position.x(), at.position.y(), at.position.z(), normal.x(), normal.y(),
+                  normal.z(), lux, tracer.mean(), tracer.deviation());
       std::fflush(stdout);
     }
   }
