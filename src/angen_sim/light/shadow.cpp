@@ -229,6 +229,10 @@ class Cells {
 
   /// Divides the cells at edges until the share is as accurate as `error` and kShareError allow.
   void refine(double error) {
+    if (face_.flat()) {  // slats before a window are finer than the first cells
+      for (Cell& cell : cells_) cell.at_edge = true;
+      divide();
+    }
     while (find_edges() > std::max(error * free_, kShareError * seen_) && divide()) {
     }
   }

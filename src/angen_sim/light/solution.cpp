@@ -205,6 +205,7 @@ class Solver {
       const float unseen =
           1.0F / static_cast<float>(static_cast<double>(links_of(patch)) / patch.area);
       for (const Field::Link& link : *links_[i]) {
+        if (link.patch == kNoPatch && std::isfinite(link.range)) continue;  // a sliver
         const std::uint32_t to = place_of(link.patch);
         add(to, to == kNoPatch ? unseen : link.exchange);
       }

@@ -236,7 +236,7 @@ bool Layer::covers(const Vec3& point, std::uint32_t except) const {
   cover.except = except;
   cover.fixed = fixed;
   const Eigen::Vector3f at = point.cast<float>();
-  RTCPointQuery query{at.x(), at.y(), at.z(), 0.0F, 1e-5F};  // m, the rounding of floats
+  RTCPointQuery query{at.x(), at.y(), at.z(), 0.0F, 2 * static_cast<float>(kSkin)};
   rtcPointQuery(tree_.scene.get(), &query, &cover.context, query_inside, &cover);
   return cover.found;
 }

@@ -125,8 +125,8 @@ class Scene {
 
   /// The nearest hit on one shape; ignores all others.
   Hit cast_at(std::uint32_t shape_index, const Ray& ray) const;
-  /// Whether a static or anchored solid other than `except` contains the point (m, world); meshes
-  /// and planes contain none.
+  /// Whether a static or anchored solid other than `except` contains the point (m, world), or is
+  /// within 0.2 mm of it; meshes and planes contain none.
   bool covered(const Vec3& point, std::uint32_t except) const;
 
   /// The cost of a ray from the point (m, world) among static and anchored shapes, in ordinary

@@ -188,16 +188,16 @@ Eigen::AlignedBox3d own_box(const Solid& solid) {
 bool contains(const Solid& solid, const Vec3& point) {
   const Vec3 local = solid.rotation.transpose() * (point - solid.position);
   const double above = std::max(0.0, std::abs(local.z()) - solid.half.z());
-  const double round2 = solid.radius * solid.radius;
+  const double round = solid.radius + kSkin;
   switch (solid.type) {
     case Shape::Type::kBox:
-      return (local.cwiseAbs().array() <= solid.half.array()).all();
+      return (local.cwiseAbs().array() <= solid.half.array() + kSkin).all();
     case Shape::Type::kSphere:
-      return local.squaredNorm() <= round2;
+      return local.squaredNorm() <= round * round;
     case Shape::Type::kCylinder:
-      return above == 0.0 && local.head<2>().squaredNorm() <= round2;
+      return above <= kSkin && local.head<2>().squaredNorm() <= round * round;
     case Shape::Type::kCapsule:
-      return local.head<2>().squaredNorm() + above * above <= round2;
+      return local.head<2>().squaredNorm() + above * above <= round * round;
     default:
       return false;
   }

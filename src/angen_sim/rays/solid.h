@@ -38,6 +38,10 @@ struct Intersection {
 /// The solid's box in its own frame, m; empty if its sizes are invalid.
 Eigen::AlignedBox3d own_box(const Solid& solid);
 
+/// m: a point closer to a convex solid counts as inside. A ray from there that ignores what is
+/// nearer than its margin would start in it.
+constexpr double kSkin = 2e-4;
+
 /// Whether a convex solid contains the point (m, world); false for a mesh or a plane.
 bool contains(const Solid& solid, const Vec3& point);
 

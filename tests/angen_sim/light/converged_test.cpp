@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "oracle.h"
+#include "rooms.h"
 
 namespace angen::light::testing {
 namespace {

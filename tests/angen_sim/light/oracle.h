@@ -1,13 +1,16 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core/random.h"
 #include "light/beam.h"
 #include "light/directions.h"
 #include "light/field.h"
+#include "light/lamp.h"
 #include "light/shadow.h"
-#include "rooms.h"
 
 /// A slow and simple path tracer: random walks, with the lamp sampled at every vertex. It shares
 /// only rays and, except for flat lamps, the lamp's direct light with the tested code.
@@ -49,38 +52,85 @@ inline double arriving(const rays::Scene& scene, const Lamp& lamp, const Vec3& p
   return lux > 0.0 && sees_one(scene, lamp, point, normal, which, rays::kAll) ? lux : 0.0;
 }
 
-inline double walk(const rays::Scene& scene, const Lamp& lamp, const Pose& pose, Rng& rng) {
-  Vec3 point = pose.position, normal = pose.rotation * Vec3::UnitX();
-  double value = arriving(scene, lamp, point, normal, rng);
-  for (;;) {
-    rays::Ray ray;
-    ray.origin = point;
-    const double u = rng.uniform(), v = rng.uniform();
-    ray.direction = (frame_about(normal) * cosine_direction(u, v)).normalized();
-    ray.min = 1e-4;
-    rays::Hit hit;
-    scene.cast(&ray, &hit, 1);
-    // Russian roulette: the walk continues with the albedo's probability.
-    if (!hit.hit() || rng.uniform() >= std::min(kLargestAlbedo, scene.reflectance(hit.shape).y())) {
-      return value;
-    }
-    point = ray.origin + hit.range * ray.direction;
-    normal = hit.normal.cast<double>().normalized();
-    value += arriving(scene, lamp, point, normal, rng);
-  }
-}
+/// Random walks from one place, with one of the lit lamps sampled at each vertex by its light
+/// there.
+class Tracer {
+ public:
+  Tracer(const rays::Scene& scene, std::vector<Lit> lit, const Pose& pose, std::uint64_t seed)
+      : scene_(scene), lit_(std::move(lit)), pose_(pose), rng_(seed, hash_bytes("oracle"), 0) {}
 
-/// lx at `pose` among gray surfaces from one lamp.
-inline Traced trace(const rays::Scene& scene, const Lamp& lamp, const Pose& pose, int paths) {
-  Rng rng(7, hash_bytes("oracle"), 0);
-  double sum = 0.0, squares = 0.0;
-  for (int i = 0; i < paths; ++i) {
-    const double value = walk(scene, lamp, pose, rng);
-    sum += value;
-    squares += value * value;
+  void run(int paths) {
+    for (int i = 0; i < paths; ++i) {
+      const double value = walk();
+      sum_ += value;
+      squares_ += value * value;
+    }
+    paths_ += paths;
   }
-  const double mean = sum / paths;
-  return {mean, std::sqrt((squares / paths - mean * mean) / paths)};
+  int paths() const { return paths_; }
+  double mean() const { return sum_ / paths_; }  // lx
+  double deviation() const {                     // lx, of the mean
+    return std::sqrt(std::max(0.0, squares_ / paths_ - mean() * mean()) / paths_);
+  }
+
+ private:
+  Rgb from(const Vec3& point, const Vec3& normal) {
+    std::vector<double> free;
+    double all = 0.0;
+    for (const Lit& each : lit_) {
+      free.push_back(each.level * illuminance(each.lamp, point, normal));
+      all += free.back();
+    }
+    if (!(all > 0.0)) return Rgb::Zero();
+    std::size_t which = 0;
+    if (lit_.size() > 1) {
+      double left = rng_.uniform() * all;
+      while (which + 1 < lit_.size() && (left -= free[which]) >= 0.0) ++which;
+    }
+    const Lamp& lamp = lit_[which].lamp;
+    Rgb color = Rgb::Zero();
+    color.head<3>() = lamp.color.array();
+    const double share = free[which] > 0.0 ? lit_[which].level * all / free[which] : 0.0;
+    return static_cast<float>(share * arriving(scene_, lamp, point, normal, rng_)) * color;
+  }
+
+  double walk() {
+    Vec3 point = pose_.position, normal = pose_.rotation * Vec3::UnitX();
+    Rgb through{0.2126F, 0.7152F, 0.0722F, 0.0F};  // Rec. 709
+    double value = 0.0;
+    for (;;) {
+      value += (through * from(point, normal)).sum();
+      rays::Ray ray;
+      ray.origin = point;
+      const double u = rng_.uniform(), v = rng_.uniform();
+      ray.direction = (frame_about(normal) * cosine_direction(u, v)).normalized();
+      ray.min = 1e-4;
+      rays::Hit hit;
+      scene_.cast(&ray, &hit, 1);
+      if (!hit.hit()) return value;
+      // Russian roulette: the walk continues with the albedo's probability.
+      const Rgb next = through * albedo(scene_, hit.shape);
+      const float lasts = next.sum() / through.sum();
+      if (rng_.uniform() >= lasts) return value;
+      through = next / lasts;
+      point = ray.origin + hit.range * ray.direction;
+      normal = hit.normal.cast<double>().normalized();
+    }
+  }
+
+  const rays::Scene& scene_;
+  std::vector<Lit> lit_;
+  Pose pose_;
+  Rng rng_;
+  int paths_ = 0;
+  double sum_ = 0.0, squares_ = 0.0;
+};
+
+/// lx at `pose` from one lamp.
+inline Traced trace(const rays::Scene& scene, const Lamp& lamp, const Pose& pose, int paths) {
+  Tracer tracer(scene, {{lamp, 1.0}}, pose, 7);
+  tracer.run(paths);
+  return {tracer.mean(), tracer.deviation()};
 }
 
 }  // namespace angen::light::testing

@@ -255,11 +255,31 @@ TEST(Reference, ASpotHasHalfItsIntensityAtItsHalfAngle) {
   EXPECT_EQ(lux(open.lighting, facing(Vec3(0, 0, 4), -Vec3::UnitZ())), 0.0);
 }
 
-/// A closed cube of 4 m with 10,000 lm at its center: direct and total light, as means over points
+/// A closed cube of 4 m about the origin, of slabs that meet without an overlap. They are as thick
+/// as 1.5 times the spacing of points in the cells of the wider ones, so that a row of these points
+/// is in the plane of the neighbor's inner side.
+void add_flush_cube(rays::Scene& scene, const Eigen::Vector3f& albedo) {
+  constexpr double kThick = 6.0 / 41;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 size = Vec3::Constant(4.0), at = Vec3::Zero();
+    size.head(axis).array() += 2 * kThick;
+    size[axis] = kThick;
+    for (const double side : {-1.0, 1.0}) {
+      at[axis] = side * (2.0 + kThick / 2);
+      add_box(scene, at, size, albedo);
+    }
+  }
+}
+
+/// Reflected light in a closed cube of 4 m with 10,000 lm at its center, as the mean over points
 /// spread evenly over all six walls.
-double mean_indirect(float albedo) {
+double mean_indirect(float albedo, bool flush = false) {
   rays::Scene scene;
-  add_room(scene, Vec3(-2, -2, -2), Vec3(2, 2, 2), gray(albedo));
+  if (flush) {
+    add_flush_cube(scene, gray(albedo));
+  } else {
+    add_room(scene, Vec3(-2, -2, -2), Vec3(2, 2, 2), gray(albedo));
+  }
   scene.commit();
   Lighting lighting(scene);
   lighting.add(point_lamp(Vec3(0, 0, 0), 10000.0), 1.0);
@@ -291,6 +311,11 @@ TEST(Reference, ClosedCubeOfAlbedoHalf) { EXPECT_NEAR(mean_indirect(0.5F), 104.1
 TEST(Reference, ClosedCubeOfHighAlbedo) {
   EXPECT_NEAR(mean_indirect(0.8F), 416.7, 0.01 * 416.7);
   EXPECT_NEAR(mean_indirect(0.9F), 937.5, 0.01 * 937.5);
+}
+
+TEST(Reference, ClosedCubeWhoseWallsMeetWithoutAnOverlap) {
+  EXPECT_NEAR(mean_indirect(0.5F, true), 104.17, 0.01 * 104.17);
+  EXPECT_NEAR(mean_indirect(0.9F, true), 937.5, 0.01 * 937.5);
 }
 
 TEST(Reference, ClosedCubeOfBlackHasNoIndirect) { EXPECT_NEAR(mean_indirect(0.0F), 0.0, 1e-6); }

@@ -18,6 +18,7 @@ TEST(Solid, CoveredIsWithinAStandingSolidButNotTheOneLeftOut) {
   scene.commit();
   const auto covered = [&](double x, double z) { return scene.covered(Vec3(x, 0, z), UINT32_MAX); };
   EXPECT_TRUE(covered(0.49, 0.49));
+  EXPECT_TRUE(covered(0.5001, 0.0));  // a ray from there would start inside
   EXPECT_FALSE(covered(0.51, 0.0));
   EXPECT_FALSE(scene.covered(Vec3(0.2, 0, 0), crate.index));
   EXPECT_TRUE(covered(3.3, 0.3));
