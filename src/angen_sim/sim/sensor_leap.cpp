@@ -53,9 +53,13 @@ std::int64_t DueSensors::next_tick(Building& building, Clock clock, std::int64_t
   const std::int64_t here = clock.time / clock.step;
   stop_before(std::max(building.engines().next_light(), clock.time + clock.step));
   if (tick <= here) return here;
-  for (const Entry& entry : entries_) {
+  for (const SensorScheduler::Group& group : scheduler_.groups()) {
+    if (!group.idle.empty()) activate_changed(building.engines(), group);
+  }
+  for (std::uint32_t index = 0; index < entries_.size(); ++index) {
+    const Entry& entry = entries_[index];
     SensorInstance& sensor = *entry.sensor;
-    if (!sensor.error.empty()) continue;
+    if (!sensor.error.empty() || scheduler_.is_idle(index)) continue;
     const bool needed = sensor.on_demand()
                             ? requested_.has(sensor.kind, sensor.name)
                             : !(sensor.activity.skips() && unchanged(building.engines(), entry));
