@@ -105,6 +105,11 @@ bool Shaft::blocked() const {
                      [&](const Blocker& each) { return hull_.is_cut_by(*each.solid); });
 }
 
+bool Shaft::reaches(const Ray& ray) const {
+  SceneQuery q;
+  return q.prepare(ray, kAll) && q.try_solid(*target_.solid, target_.fixed);
+}
+
 bool Shaft::sees(const Ray& ray) const {
   SceneQuery q;
   if (!q.prepare(ray, kAll) || !q.try_solid(*target_.solid, target_.fixed)) return false;

@@ -59,6 +59,8 @@ class Shaft {
   /// Equal for the same shapes in the same poses: then sees() has the same answers for a target
   /// that has not moved.
   std::uint64_t fingerprint() const;
+  /// Whether a ray from the point would hit the shape if there were no others.
+  bool reaches(const Ray& ray) const;
   /// Whether a ray from the point hits the shape before any other: as Scene::cast() answers, bit
   /// for bit.
   bool sees(const Ray& ray) const;

@@ -98,7 +98,7 @@ void DueSensors::activate_changed(const Engines& engines, const SensorScheduler:
     const std::uint32_t index = region < owners_.size() ? owners_[region] : kNobody;
     if (index == kNobody || !scheduler_.is_idle(index)) return;
     if (&scheduler_.group(scheduler_.group_of(index)) != &group) return;
-    if (engines.movers.changed_since(region, group.checked)) scheduler_.activate(index);
+    if (engines.movers.changed_or_warmed_since(region, group.checked)) scheduler_.activate(index);
   });
 }
 
@@ -165,11 +165,15 @@ bool DueSensors::unchanged(const Engines& engines, const Entry& entry) {
 /// until then.
 void DueSensors::make_idle(const Engines& engines, std::uint32_t index, Clock clock) {
   SensorInstance& sensor = *entries_[index].sensor;
-  if (sensor.queried.others() || !sensor.activity.skips()) return;
-  const auto known = [](const auto& scan) { return scan && scan->region.number() != kNobody; };
+  if (!sensor.activity.skips() || !sensor.queried.only_in_regions(sensor.near != nullptr)) return;
+  const auto known = [](const auto& watched) {
+    return watched && watched->region.number() != kNobody;
+  };
   if (!std::all_of(sensor.scans.begin(), sensor.scans.end(), known)) return;
+  if (sensor.near && !known(sensor.near)) return;
   owners_.resize(std::max(owners_.size(), engines.movers.region_count()), kNobody);
   for (const auto& scan : sensor.scans) owners_[scan->region.number()] = index;
+  if (sensor.near) owners_[sensor.near->region.number()] = index;
   scheduler_.make_idle(index);
   SensorScheduler::Group& group = scheduler_.group(scheduler_.group_of(index));
   checked_[index] = sensor.activity.lazy() ? next_check(sensor, clock) : kForever;

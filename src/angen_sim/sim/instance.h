@@ -82,9 +82,12 @@ struct Queried {
   bool heat_set = false;            // only when they begin to change
   bool model = false;               // links and joints of its own model
 
-  /// Whether it is more than its model that answers.
-  bool others() const { return contacts || light || devices || other || heat || heat_set; }
-  bool any() const { return others() || model; }
+  bool any() const { return contacts || light || devices || other || heat || heat_set || model; }
+  /// Whether only its model, and what happens in the regions that it watches, change the answers;
+  /// `near`: temperatures matter in these only.
+  bool only_in_regions(bool near) const {
+    return !(contacts || light || devices || other || heat || (heat_set && !near));
+  }
   Queried operator|(const Queried& o) const {
     return {contacts || o.contacts, light || o.light, devices || o.devices,   other || o.other,
             fields | o.fields,      heat || o.heat,   heat_set || o.heat_set, model || o.model};

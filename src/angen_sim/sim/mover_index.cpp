@@ -257,4 +257,13 @@ void MoverIndex::change_static(const Box& box) {
   });
 }
 
+void MoverIndex::warm(const Box& box) {
+  if (box.isEmpty()) return;
+  each_region_in(box, [&](std::uint32_t region, Region&) {
+    region_states_[region].warmed = now_;
+    for (const std::uint32_t cell : cell_lists_[region_states_[region].cell_list])
+      mark_changed(cell);
+  });
+}
+
 }  // namespace angen::sim

@@ -54,8 +54,11 @@ class MoverIndex {
     std::uint32_t index_;
   };
 
-  /// WatchRegion::changed_since() of the region with that number.
-  bool changed_since(std::uint32_t region, Moment since) const;
+  /// Whether WatchRegion::changed_since() of the region with that number, or a surface in it was
+  /// set to another temperature.
+  bool changed_or_warmed_since(std::uint32_t region, Moment since) const {
+    return region_states_[region].warmed >= since || changed_since(region, since);
+  }
   std::size_t region_count() const { return regions_.size(); }  // numbers are below it
   /// Calls visit(number) for each region that changed at `since` or later, and for others near
   /// them, for some more than once.
@@ -77,6 +80,8 @@ class MoverIndex {
   void remove(rays::ShapeId mover);
   /// A static shape of this box was added or is removed.
   void change_static(const Box& box);
+  /// A shape of this box was set to another temperature.
+  void warm(const Box& box);
 
   /// Starts the next moment: later changes get a larger one.
   void advance() { ++now_; }
@@ -93,6 +98,7 @@ class MoverIndex {
   // for each of many regions.
   struct RegionState {
     Moment left = 0;              // when a mover was last removed from its list
+    Moment warmed = 0;            // when a surface in it was last set to another temperature
     std::uint32_t cell_list = 0;  // in cell_lists_; 0 for a region in too many cells
     bool static_change = false;
   };
@@ -100,7 +106,7 @@ class MoverIndex {
   /// Cells form a list from the most recently changed one on.
   struct Cell {
     std::vector<std::uint32_t> regions;
-    Moment changed = 0;  // when a mover in it moved, or static shapes near a region in it changed
+    Moment changed = 0;  // when a mover in it moved, or other shapes near a region in it changed
     std::uint32_t before = UINT32_MAX;
     std::uint32_t after = UINT32_MAX;
   };
@@ -112,6 +118,7 @@ class MoverIndex {
     std::vector<std::uint32_t> regions;
   };
 
+  bool changed_since(std::uint32_t region, Moment since) const;
   void mark_changed(std::uint32_t cell);
   void mark_changed(const Mover& mover);
   std::uint32_t open(const Box& box);

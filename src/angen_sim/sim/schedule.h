@@ -17,6 +17,10 @@ struct Schedule {
   Nanoseconds publish = kSecond;
   Nanoseconds step = 1'000'000;
 
+  bool operator==(const Schedule& o) const {
+    return start == o.start && sample == o.sample && publish == o.publish && step == o.step;
+  }
+
   /// The first due time after `time`; start itself is due at the first tick after it.
   Nanoseconds next(Nanoseconds time) const {
     return time <= start ? start : start + ((time - start) / sample + 1) * sample;

@@ -53,9 +53,13 @@ std::int64_t DueSensors::next_tick(Building& building, Clock clock, std::int64_t
   const std::int64_t here = clock.time / clock.step;
   stop_before(std::max(building.engines().next_light(), clock.time + clock.step));
   if (tick <= here) return here;
-  for (const Entry& entry : entries_) {
+  for (const SensorScheduler::Group& group : scheduler_.groups()) {
+    if (!group.idle.empty()) activate_changed(building.engines(), group);
+  }
+  for (std::uint32_t index = 0; index < entries_.size(); ++index) {
+    const Entry& entry = entries_[index];
     SensorInstance& sensor = *entry.sensor;
-    if (!sensor.error.empty()) continue;
+    if (!sensor.error.empty() || scheduler_.is_idle(index)) continue;
     const bool needed = sensor.on_demand()
                             ? requested_.has(sensor.kind, sensor.name)
                             : !(sensor.activity.skips() && unchanged(building.engines(), entry));
@@ -76,11 +80,16 @@ std::int64_t DueSensors::next_tick(Building& building, Clock clock, std::int64_t
 void DueSensors::skip_to(Clock clock, std::int64_t tick, Snapshot& next) {
   const Nanoseconds to = tick * clock.step;
   std::uint64_t readings = next.counts.readings;
+  const Schedule* last = nullptr;
+  std::uint64_t each = 0;
   for (const Entry& entry : entries_) {
     const SensorInstance& sensor = *entry.sensor;
     if (sensor.on_demand() || !sensor.error.empty()) continue;
-    readings += static_cast<std::uint64_t>(sensor.schedule.publications(to) -
-                                           sensor.schedule.publications(clock.time));
+    if (last == nullptr || !(*last == sensor.schedule)) {  // mostly many have the same
+      last = &sensor.schedule;
+      each = static_cast<std::uint64_t>(last->publications(to) - last->publications(clock.time));
+    }
+    readings += each;
   }
   next.new_readings.clear();
   next.counts.readings = readings;

@@ -29,26 +29,35 @@ void SurfaceTemperatures::remove(rays::ShapeId shape) {
 
 SurfaceTemperatures::Change& SurfaceTemperatures::note_changed(rays::ShapeId shape, Moment moment) {
   changed_ = moment;
-  auto known = std::find_if(changes_.begin(), changes_.end(),
-                            [&](const Change& each) { return each.shape == shape; });
-  if (known == changes_.end()) known = changes_.insert(known, {shape, moment, 0});
-  known->moment = moment;
-  return *known;
+  const auto known = std::find_if(changes_.begin(), changes_.end(),
+                                  [&](const Change& each) { return each.shape == shape; });
+  if (known == changes_.end()) {
+    changes_.push_back({shape, moment, 0});
+  } else {
+    std::rotate(known, known + 1, changes_.end());
+    changes_.back().moment = moment;
+  }
+  return changes_.back();
+}
+
+template <class Test>
+bool SurfaceTemperatures::any_changed(Moment since, const Test& test) const {
+  for (auto each = changes_.rbegin(); each != changes_.rend() && each->moment >= since; ++each) {
+    if (test(*each)) return true;
+  }
+  return false;
 }
 
 bool SurfaceTemperatures::changed_since(Moment since, const Eigen::AlignedBox3d& within) const {
   if (!changed_since(since)) return false;
   const auto inside = [&](rays::ShapeId shape) { return rays_.bounds(shape).intersects(within); };
   const auto changes = [&](const Changing& each) { return inside(each.shape); };
-  const auto changed = [&](const Change& each) {
-    return each.moment >= since && inside(each.shape);
-  };
   return std::any_of(changing_.begin(), changing_.end(), changes) ||
-         std::any_of(changes_.begin(), changes_.end(), changed);
+         any_changed(since, [&](const Change& each) { return inside(each.shape); });
 }
 
 bool SurfaceTemperatures::set_since(Moment since, const Eigen::AlignedBox3d& within) const {
-  return set_since(since) && std::any_of(changes_.begin(), changes_.end(), [&](const Change& each) {
+  return set_since(since) && any_changed(since, [&](const Change& each) {
            return each.set >= since && rays_.bounds(each.shape).intersects(within);
          });
 }

@@ -53,10 +53,12 @@ class SurfaceTemperatures {
   };
 
   Change& note_changed(rays::ShapeId shape, Moment moment);
+  template <class Test>
+  bool any_changed(Moment since, const Test& test) const;
 
   rays::Scene& rays_;
   std::vector<Changing> changing_;
-  std::vector<Change> changes_;  // the last of each
+  std::vector<Change> changes_;  // the last of each, in the order of their moments
   Moment changed_ = 0;
   Moment set_ = 0;  // the last of all
   std::uint64_t times_set_ = 0;

@@ -248,6 +248,7 @@ void InstanceOutputs::temperature(SurfaceRef surface, double now, double limit,
   for (const Parts::Shape& shape : live_.parts.shapes) {
     if (shape.surface != surface.index) continue;
     engines_.surfaces.set(shape.id, now, limit, time_constant, time_, engines_.movers.now());
+    engines_.movers.warm(engines_.rays.bounds(shape.id));
   }
 }
 

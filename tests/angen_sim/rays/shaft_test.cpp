@@ -34,6 +34,7 @@ struct Answers {
       Ray r = ray(from, box.min() + share.cwiseProduct(box.sizes()) - from);
       r.min = kNear;
       const Hit own = scene.cast_at(target.index, r);
+      EXPECT_EQ(shaft.reaches(r), own.hit());
       if (!own.hit() || on_rim(box, from + own.range * r.direction)) continue;
       const bool expected = cast_one(scene, r).shape == target.index;
       ++(expected ? seen : hidden);

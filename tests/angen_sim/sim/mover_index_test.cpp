@@ -41,6 +41,20 @@ TEST(MoverIndex, ARegionKnowsTheMoversInItsBox) {
   EXPECT_TRUE(region.near().empty());
 }
 
+TEST(MoverIndex, AWarmedShapeConcernsItsRegionAndMovesNothing) {
+  MoverIndex index;
+  const WatchRegion region(index, kRegion);
+  const WatchRegion far(index, {Vec3(40, -1, -1), Vec3(42, 1, 1)});
+  index.advance();
+  index.warm(cube_at(1.0));
+  EXPECT_TRUE(index.changed_or_warmed_since(region.number(), index.now()));
+  EXPECT_FALSE(index.changed_or_warmed_since(far.number(), index.now()));
+  EXPECT_FALSE(region.changed_since(index.now()));
+  EXPECT_EQ(count_visits(index, index.now()), 1U);
+  index.advance();
+  EXPECT_FALSE(index.changed_or_warmed_since(region.number(), index.now()));
+}
+
 TEST(MoverIndex, AMoverChangesItsRegionAndNoOther) {
   MoverIndex index;
   const WatchRegion region(index, kRegion);

@@ -64,17 +64,25 @@ void FresnelLens::tape(const Window& window) {
   }
 }
 
-double FresnelLens::sensitivity(double azimuth, double elevation) const {
-  double sum = 0.0;
+FresnelLens::Line FresnelLens::line(double elevation) const {
+  Line line;
   for (const Zones& row : rows_) {
     const double up = soft_box((elevation - row.window.low) / (row.window.high - row.window.low));
-    if (up == 0.0) continue;
+    if (up != 0.0) line.parts_.push_back({&row, up});
+  }
+  return line;
+}
+
+double FresnelLens::Line::sensitivity(double azimuth) const {
+  double sum = 0.0;
+  for (const Part& part : parts_) {
+    const Zones& row = *part.row;
     // Half a pair holds one zone, as wide as half of it, in its middle.
     const double half = (azimuth - row.window.right) / (0.5 * row.width);
     if (half < 0.0 || half >= static_cast<double>(row.sign.size())) continue;
     const double zone = std::floor(half);
     const double across = soft_box(2.0 * (half - zone) - 0.5);
-    sum += row.sign[static_cast<std::size_t>(zone)] * across * up;
+    sum += row.sign[static_cast<std::size_t>(zone)] * across * part.up;
   }
   return sum;
 }

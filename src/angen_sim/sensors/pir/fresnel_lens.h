@@ -16,6 +16,12 @@ struct Window {
 /// The zones of a detector's two elements, through the facets of its Fresnel lens: rows of zones
 /// of alternating sign from right to left. Elements and the gaps between them are equally wide.
 class FresnelLens {
+  struct Zones {
+    Window window;
+    double width;              // rad, of a pair
+    std::vector<double> sign;  // sign of each zone from right to left; 0 = taped over
+  };
+
  public:
   /// `pairs` zones of each sign side by side in `window`.
   struct Row {
@@ -29,9 +35,26 @@ class FresnelLens {
   /// No zone whose middle lies in `window` sees anything any more.
   void tape(const Window& window);
 
-  /// -1 to 1: the share of radiation from there on the positive element, less that on the
-  /// negative one. The edges of a zone are soft.
-  double sensitivity(double azimuth, double elevation) const;
+  /// Its zones at one elevation; valid as long as the lens.
+  class Line {
+   public:
+    /// -1 to 1: the share of radiation from there on the positive element, less that on the
+    /// negative one. The edges of a zone are soft.
+    double sensitivity(double azimuth) const;
+    bool empty() const { return parts_.empty(); }
+
+   private:
+    friend class FresnelLens;
+    struct Part {
+      const Zones* row;
+      double up;  // share of the row's sensitivity at this elevation
+    };
+    std::vector<Part> parts_;
+  };
+  Line line(double elevation) const;
+  double sensitivity(double azimuth, double elevation) const {
+    return line(elevation).sensitivity(azimuth);
+  }
 
   /// rad: of the narrowest zone, and of the lowest row.
   double narrowest() const;
@@ -41,12 +64,6 @@ class FresnelLens {
   const Window& window() const { return window_; }
 
  private:
-  struct Zones {
-    Window window;
-    double width;              // rad, of a pair
-    std::vector<double> sign;  // sign of each zone from right to left; 0 = taped over
-  };
-
   std::vector<Zones> rows_;
   Window window_;
 };

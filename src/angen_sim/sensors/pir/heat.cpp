@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "plugin/rooms.h"
@@ -25,6 +26,7 @@ constexpr std::size_t kEach = 4;                     // one of so many rays to a
 constexpr std::size_t kFewProbed = 24;               // fewer rays are all tested
 constexpr Nanoseconds kHiddenPeriod = kSecond / 20;  // while all surfaces are hidden
 constexpr std::size_t kMaxScans = 64;
+constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
 
 double fourth_power(double x) { return x * x * x * x; }
 
@@ -38,15 +40,23 @@ Window window_of(const Eigen::AlignedBox3d& box, const Pose& pose, const Window&
   const double middle = azimuth_of(inverse * Vec3(box.center()));
   Window window{kTurn, -kTurn, kTurn, -kTurn};
   // Corners are not enough: a box in front is highest in the middle of an edge.
-  for (int i = 0; i < 27; ++i) {
-    const Vec3 part(i % 3 / 2.0, i / 3 % 3 / 2.0, i / 9 / 2.0);
-    const Vec3 p = inverse * Vec3(box.min() + part.cwiseProduct(box.sizes()));
-    const double azimuth = middle + std::remainder(azimuth_of(p) - middle, kTurn);
-    const double elevation = std::atan2(p.z(), std::hypot(p.x(), p.y()));
-    window.right = std::min(window.right, azimuth);
-    window.left = std::max(window.left, azimuth);
-    window.low = std::min(window.low, elevation);
-    window.high = std::max(window.high, elevation);
+  for (int column = 0; column < 9; ++column) {
+    Vec3 before = Vec3::Constant(kNowhere);
+    double away = 0.0;
+    for (int level = 0; level < 3; ++level) {
+      const Vec3 part(column % 3 / 2.0, column / 3 / 2.0, level / 2.0);
+      const Vec3 p = inverse * Vec3(box.min() + part.cwiseProduct(box.sizes()));
+      if (p.x() != before.x() || p.y() != before.y()) {  // all levels are alike if it is upright
+        const double azimuth = middle + std::remainder(azimuth_of(p) - middle, kTurn);
+        window.right = std::min(window.right, azimuth);
+        window.left = std::max(window.left, azimuth);
+        away = std::hypot(p.x(), p.y());
+        before = p;
+      }
+      const double elevation = std::atan2(p.z(), away);
+      window.low = std::min(window.low, elevation);
+      window.high = std::max(window.high, elevation);
+    }
   }
   return window.left - window.right > M_PI ? whole : window;
 }
@@ -211,7 +221,7 @@ double Heat::factor_of(const rays::WarmShape& shape, const View& view) {
   const rays::Shaft shaft = view.shaft(pose_.position, kHousing, shape.shape);
   const std::uint64_t blockers = shaft.fingerprint();
   if (!found.is_known || found.blockers != blockers) {
-    found.factor = seen_factor(shaft, shape.shape, view, found);
+    found.factor = seen_factor(shaft, found);
     found.blockers = blockers;
     found.is_known = true;
   }
@@ -236,11 +246,10 @@ Heat::Scan& Heat::scan_of(const rays::WarmShape& shape) {
   return found;
 }
 
-double Heat::seen_factor(const rays::Shaft& shaft, std::uint32_t shape, const View& view,
-                         Scan& found) {
+double Heat::seen_factor(const rays::Shaft& shaft, Scan& found) {
   if (shaft.blocked()) return 0.0;
   if (found.parts.empty()) {
-    for (const Window& seen : found.windows) found.parts.push_back(scan(seen, shape, view));
+    for (const Window& seen : found.windows) found.parts.push_back(scan(seen, shaft));
   }
   double sum = 0.0;
   for (const std::vector<Cell>& cells : found.parts) sum += visible(cells, shaft);
@@ -253,7 +262,7 @@ rays::Ray Heat::ray_to(const Cell& cell) const {
 }
 
 // A grid that moves with the shape, so that its outline makes no noise.
-std::vector<Heat::Cell> Heat::scan(const Window& seen, std::uint32_t shape, const View& view) {
+std::vector<Heat::Cell> Heat::scan(const Window& seen, const rays::Shaft& shaft) const {
   const int columns = cells(seen.left - seen.right, cell_width_);
   const int rows = cells(seen.high - seen.low, cell_height_);
   const double width = (seen.left - seen.right) / columns;
@@ -261,18 +270,20 @@ std::vector<Heat::Cell> Heat::scan(const Window& seen, std::uint32_t shape, cons
   std::vector<Cell> found;
   for (int row = 0; row < rows; ++row) {
     const double elevation = seen.low + (row + 0.5) * height;
+    const FresnelLens::Line line = lens_.line(elevation);
+    if (line.empty()) continue;
     const double level = std::cos(elevation);
     const double up = std::sin(elevation);
     const double shift = std::fmod(0.5 + row * 0.6180339887498949, 1.0);  // no edge falls on all
     const std::size_t first = found.size();
     for (int column = 0; column < columns; ++column) {
       const double azimuth = seen.right + (column + shift) * width;
-      const double sensitivity = lens_.sensitivity(azimuth, elevation);
+      const double sensitivity = line.sensitivity(azimuth);
       if (sensitivity == 0.0) continue;
       const double solid_angle = width * height * level;
       found.push_back({azimuth, level, up, solid_angle * sensitivity * opening_});
     }
-    const auto misses = [&](const Cell& cell) { return !view.cast_at(shape, ray_to(cell)).hit(); };
+    const auto misses = [&](const Cell& cell) { return !shaft.reaches(ray_to(cell)); };
     // A convex shape fills the row between two of its cells.
     while (found.size() > first && misses(found.back())) found.pop_back();
     const auto begin = found.begin() + static_cast<std::ptrdiff_t>(first);

@@ -86,8 +86,8 @@ class Heat {
   bool sees(const Eigen::AlignedBox3d& box, const Pose& pose) const;
   double factor_of(const rays::WarmShape& shape, const View& view);
   Scan& scan_of(const rays::WarmShape& shape);
-  double seen_factor(const rays::Shaft& shaft, std::uint32_t shape, const View& view, Scan& found);
-  std::vector<Cell> scan(const Window& seen, std::uint32_t shape, const View& view);
+  double seen_factor(const rays::Shaft& shaft, Scan& found);
+  std::vector<Cell> scan(const Window& seen, const rays::Shaft& shaft) const;
   double visible(const std::vector<Cell>& cells, const rays::Shaft& shaft) const;
   rays::Ray ray_to(const Cell& cell) const;
   bool waits(Nanoseconds now) const;
