@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/pose.h"
+
 namespace angen::sensors {
 
 /// A span of azimuth (to the left) and one of elevation (upwards) about the detector's x axis, rad.
@@ -32,6 +34,9 @@ class FresnelLens {
   /// -1 to 1: the share of radiation from there on the positive element, less that on the
   /// negative one. The edges of a zone are soft.
   double sensitivity(double azimuth, double elevation) const;
+
+  /// Unit vectors into the zones that see something: nine evenly over each.
+  std::vector<Vec3> directions() const;
 
   /// rad: of the narrowest zone, and of the lowest row.
   double narrowest() const;
