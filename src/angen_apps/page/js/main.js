@@ -1,6 +1,7 @@
 /** The page: the selection, the clock, the keys. */
 import { by, download, el, isForOthers, isNarrow, notice } from './dom.js';
 import { Card } from './card.js';
+import { Carry } from './carry.js';
 import { sunAt } from './daylight.js';
 import { Goal } from './goal.js';
 import { Home } from './home.js';
@@ -35,6 +36,7 @@ class Page {
     this.buildBar();
     this.buildFloors();
     this.buildLayers();
+    this.carry = new Carry(this.home, this);
     this.home.on('status', () => this.showStatus());
     this.home.on('stats', () => this.showClock());
     this.home.on('home', () => this.buildFloors());
@@ -126,7 +128,7 @@ class Page {
     for (const other of ['3d', 'plan']) by(`view-${other}`).setAttribute('aria-pressed', String(other === id));
     if (this.view) this.view.hidden = id !== '3d';
     this.plan.hidden = id !== 'plan';
-    for (const control of by('layers').children) control.hidden = id === 'plan' && control !== this.fieldsButton;
+    for (const control of by('layers').children) control.hidden = id === 'plan' && control !== this.fieldsButton && control !== this.carry.button;
     this.plan.stale = true;
     this.plan.draw();
     this.view?.resize();
@@ -317,7 +319,7 @@ class Page {
   help() {
     const rows = [['Click', 'a door, lamp, person, sensor or floor: what it is and does'], ['Drag', 'turns the view; with the right button or two fingers it moves'], ['Wheel', 'zooms'],
       ['Space', 'pauses'], ['.', 'one second on, while paused'], ['N', 'the next event, in a recording'], ['0 – 9, *', 'a floor, all floors'], ['H, P', 'the whole home, from above'], ['V', '3D or plan'], ['F', 'sensor fields'],
-      ['T', 'light or dark'], ['W A S D', 'drive the robot, in its tab'], ['Drag the robot', 'its goal'], ['Esc', 'closes']];
+      ['T', 'light or dark'], ['W A S D', 'drive the robot, in its tab'], ['Drag the robot', 'its goal'], ['M', 'moves things: drag them; by keys . and , choose one, arrows move it, R turns it, Enter puts it there'], ['Esc', 'closes']];
     by('dialog').replaceChildren(el('h2', {}, 'Keys'), el('dl', {}, ...rows.flatMap(([key, text]) => [el('dt', {}, el('kbd', {}, key)), el('dd', {}, text)])),
       el('form', { method: 'dialog' }, el('button', { class: 'main' }, 'Close')));
     by('dialog').showModal();
