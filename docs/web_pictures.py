@@ -180,10 +180,39 @@ def edit(sandbox: Sandbox) -> None:
                 page.run('angen.select(["sensors/1"]); angen.board.whole()')
                 page.until('return angen.kept && !angen.asking && !angen.stale')
                 time.sleep(1.0)
-                shown = Image.open(BytesIO(page.driver.get_screenshot_as_png())).convert('RGB')
-                shown.save(ROOT / f'docs/images/{name}.png', optimize=True)
+                shoot(page, name)
+                if name == 'edit':
+                    edit_more(page)
         finally:
             page.close()
+
+
+def edit_more(page: Page) -> None:
+    """What sensors see while one is aimed, the day of a person, and a second floor."""
+    page.run('angen.select([]); angen.board.use({name: "put", list: "sensors", of: '
+             'angen.catalog.sensors[0]}); angen.board.inside = true; angen.board.at = [7.8, 3.2];'
+             'angen.board.draw()')
+    page.until('return angen.tried && !angen.asking && !angen.stale')
+    shoot(page, 'edit_coverage')
+    page.run('angen.board.use({name: "select"}); angen.select(["movers/0"]);'
+             'angen.dayPlan.open("movers/0")')
+    shoot(page, 'edit_day')
+    page.run('angen.dayPlan.open(""); angen.select([])')
+    page.press('#floor-add')
+    page.press('#dialog button', 'the walls of the one below')
+    hand = Hand(page)
+    hand.put('elevator', (-1.2, 4.5))
+    page.run('angen.board.whole()')
+    page.until('return angen.kept && !angen.asking && !angen.stale')
+    shoot(page, 'edit_floors')
+    page.run('angen.undo(); angen.undo()')
+
+
+def shoot(page: Page, name: str) -> None:
+    """A picture of the page as it is now."""
+    time.sleep(0.5)
+    shown = Image.open(BytesIO(page.driver.get_screenshot_as_png())).convert('RGB')
+    shown.save(ROOT / f'docs/images/{name}.png', optimize=True)
 
 
 def main(names: list[str]) -> None:

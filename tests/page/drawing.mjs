@@ -1,6 +1,6 @@
 /** Edits of drawings, in node: python3 -m pytest tests/page/test_drawing.py */
 import assert from 'node:assert/strict';
-import { History, SORTS, apply, copied, directionOf, empty, hostOf, itemOf, keysOf, lengthOf, mirrored, moved, openingOf, removed, roomWalls, shifted, snapped, stretched, swung, turned, wallAt, wallOf, widened } from './drawing.mjs';
+import { History, SORTS, apply, copied, directionOf, empty, hostOf, itemOf, keysOf, lengthOf, liftOf, mirrored, moved, openingOf, removed, roomWalls, shifted, snapped, storeyOf, stretched, swung, turned, wallAt, wallOf, widened, withFloor, withoutFloor } from './drawing.mjs';
 
 const EDITS = 500;
 
@@ -33,8 +33,8 @@ const flat = () => {
 
 const close = (a, b) => a.forEach((value, i) => assert.ok(Math.abs(value - b[i]) < 1e-3, `${a} is not ${b}`));
 
-function randomEdit(storey, random) {
-  const some = (list) => list[Math.floor(random() * list.length)], at = () => [random() * 10 - 5, random() * 10 - 5], keys = keysOf(storey), chosen = keys.filter(() => random() < 0.2).concat(keys.length ? [some(keys)] : []);
+function randomEdit(drawing, floor, random) {
+  const storey = storeyOf(drawing, floor), some = (list) => list[Math.floor(random() * list.length)], at = () => [random() * 10 - 5, random() * 10 - 5], keys = keysOf(storey), chosen = keys.filter(() => random() < 0.2).concat(keys.length ? [some(keys)] : []);
   const walls = keys.filter((key) => key.startsWith('walls/')), openings = keys.filter((key) => key.startsWith('openings/')), unique = [...new Set(chosen)];
   const made = [
     () => ({ add: roomWalls(storey, snapped(storey, at(), 0.2), at(), 0.1).map((wall) => ['walls', wall]) }),
@@ -44,29 +44,37 @@ function randomEdit(storey, random) {
     () => ({ add: [['sensors', { name: '', model: 'pir', x: 0, y: 1, z: 2, yaw: 0, pitch: 0 }], ['rooms', { name: 'hall', use: 'hall', polygon: [at(), at(), at()], floor: 0, ceiling: 2.5 }]] }),
     () => moved(storey, unique, ...at()), () => turned(storey, unique, random() * 7), () => removed(storey, unique), () => ({ add: shifted(copied(storey, unique), 1, 1) }),
     () => (walls.length ? stretched(storey, some(walls), some(['start', 'end']), at()) : {}),
-    () => (openings.length ? { change: { [some(openings)]: mirrored(widened(itemOf(storey, some(openings)), 0.5 + random())) } } : {}), () => ({ home: { sensors: some(['seed', 'casas', 'none']) } })];
-  return some(made)();
+    () => (openings.length ? { change: { [some(openings)]: mirrored(widened(itemOf(storey, some(openings)), 0.5 + random())) } } : {}), () => ({ home: { sensors: some(['seed', 'casas', 'none']) } }), () => ({ add: [['lifts', liftOf(drawing, at(), random() * 7)]] }),
+    () => ({ add: [['movers', { name: 'ann', kind: 'person', x: at()[0], y: at()[1], yaw: 0, habits: 'worker', day: [{ do: ['eat'], low: random() * 86400, high: 80000, days: 'all' }] }]] }),
+    () => (random() < 0.3 ? withFloor(drawing, random() < 0.5) : {}), () => (random() < 0.2 && drawing.plan.storeys.length > 1 ? withoutFloor(drawing, floor) : {})];
+  return { ...some(made)(), storey: floor };
 }
 
 const tests = {
   'undo of 500 random edits gives the empty lot'() {
     for (const seed of [1, 2]) {
       const random = dice(seed), history = new History(frozen(empty())), nothing = JSON.stringify(history.now);
-      let most = 0;
+      let most = 0, floors = 0, lifts = 0;
       for (let i = 0; i < EDITS; i++) {
-        history.do(randomEdit(history.now.plan.storeys[0], random));
+        const floor = Math.floor(random() * history.now.plan.storeys.length);
+        history.do(randomEdit(history.now, floor, random));
         frozen(history.now);
         assert.ok(!JSON.stringify(history.now).includes('null'), `edit ${i} of seed ${seed} gives what is no number`);
-        most = Math.max(most, keysOf(history.now.plan.storeys[0]).length);
+        const { plan } = history.now, numbers = plan.storeys.map((storey) => storey.number);
+        assert.equal(new Set(numbers).size, numbers.length);
+        assert.ok((plan.lifts ?? []).every((lift) => lift.stops.length && lift.stops.every((stop) => numbers.includes(stop))));
+        most = Math.max(most, keysOf(plan.storeys[0]).length);
+        floors = Math.max(floors, numbers.length);
+        lifts = Math.max(lifts, plan.lifts?.length ?? 0);
       }
       const last = JSON.stringify(history.now);
       let undone = 0;
-      while (history.undo()) undone++;
+      while (history.undo() !== null) undone++;
       assert.equal(undone, EDITS);
       assert.equal(JSON.stringify(history.now), nothing);
-      while (history.redo());
+      while (history.redo() !== null);
       assert.equal(JSON.stringify(history.now), last);
-      assert.ok(most > 20);
+      assert.ok(most > 20 && floors > 2 && lifts > 1, `${most} items, ${floors} floors, ${lifts} lifts`);
     }
   },
   'an edit after an undo ends the others'() {
@@ -75,7 +83,7 @@ const tests = {
     set('casas');
     history.undo();
     set('none');
-    assert.equal(history.redo(), false);
+    assert.equal(history.redo(), null);
     assert.deepEqual(history.all.map((each) => each.sensors), ['none', 'seed', 'none']);
   },
   'a wall takes its doors and the ends of others along'() {
@@ -134,6 +142,31 @@ const tests = {
     assert.deepEqual(storey().rooms.map((room) => room.name), ['far']);
     assert.deepEqual(storey().labels.map((label) => [label.name, label.use]), [['kitchen', 'kitchen']]);
     assert.ok(storey().labels[0].x > 0.5 && storey().labels[0].x < 3.5);
+  },
+  'floors come and go with their walls, and lifts stop at all of them'() {
+    const { history, storey, add } = flat(), below = storey();
+    history.do(withFloor(history.now, true));
+    const [ground, first] = history.now.plan.storeys;
+    assert.deepEqual([first.number, first.elevation, ground.height], [1, 3, 3]);
+    assert.deepEqual(first.walls.map((wall) => [wall.start, wall.end, wall.bottom, wall.top]), below.walls.map((wall) => [wall.start, wall.end, 3, 5.5]));
+    add([['lifts', liftOf(history.now, [9.1, 3], Math.PI)]]);
+    history.do(withFloor(history.now, false));
+    assert.equal(history.now.plan.storeys[2].walls, undefined);
+    assert.deepEqual(history.now.plan.lifts.map((lift) => lift.stops), [[0, 1, 2]]);
+    history.do({ ...moved(storeyOf(history.now, 1), ['lifts/0'], 0, 1), storey: 1 });
+    close([history.now.plan.lifts[0].x, history.now.plan.lifts[0].y], [9.1, 4]);
+    assert.equal(history.undo(), 1); // the floor of that edit
+    history.do(withoutFloor(history.now, 0));
+    const lower = history.now.plan.storeys[0];
+    assert.deepEqual([lower.number, lower.elevation, lower.walls[0].bottom, lower.name], [0, 0, 0, 'Floor 0']);
+    assert.deepEqual(history.now.plan.lifts.map((lift) => lift.stops), [[0, 1]]);
+    history.do(withoutFloor(history.now, 1));
+    assert.equal(history.now.plan.lifts, undefined); // it would join nothing
+  },
+  'a lift whose shaft is drawn itself stays where it is'() {
+    const lift = { name: 'lift', x: 1, y: 1, yaw: 0, width: 1, depth: 1, stops: [0] };
+    assert.deepEqual(keysOf({ lifts: [lift], cutouts: [[[0, 0], [2, 0], [2, 2], [0, 2]]] }), []);
+    assert.deepEqual(keysOf({ lifts: [lift] }), ['lifts/0']);
   },
   'copies are elsewhere, with what is in them'() {
     const { history, storey } = flat(), keys = ['walls/4', 'openings/0'], made = shifted(copied(storey(), keys), 0, 10);

@@ -83,3 +83,24 @@ def test_three_apartments_from_the_empty_world() -> None:
     saved = world.save()
     assert len(etree.fromstring(saved.encode()).xpath('world/include')) == 22
     assert len(angen.World.from_text(saved).models) == 23  # and the ground
+
+
+def test_a_static_model_that_was_put_elsewhere_is_saved_there(building: str) -> None:
+    world = angen.World(building)
+    before = pose_texts(world.save())
+    world.set_state('kitchen_pir0_a', [1.0, 1.5, 2.0, 0.0, 0.25, 1.0])
+    world.run(0.01)
+    place = world.motion('kitchen_pir0_a')[0]
+    saved = world.save()
+    again = angen.World.from_text(saved)
+    again.run(0.01)
+    assert again.motion('kitchen_pir0_a')[0] == pytest.approx(place, abs=1e-6)
+    after = pose_texts(saved)
+    assert [name for name, text in after.items() if before[name] != text
+            and 'pir' in name] == ['kitchen_pir0_a']
+
+
+def pose_texts(world: str) -> dict[str, str]:
+    """The poses of included models, by name."""
+    return {block.findtext('name'): block.findtext('pose')
+            for block in etree.fromstring(world.encode()).iterfind('world/include')}

@@ -9,8 +9,10 @@ from typing import Iterator
 import angen
 import pytest
 from browser import LIMIT, Page
+from angen_apps.residents.profiles import read
 from hand import ROOMS, Hand, draw_flat
 from harness import end, free_port, until
+from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.actions.interaction import POINTER_TOUCH
 from selenium.webdriver.common.keys import Keys
 
@@ -150,6 +152,111 @@ def test_a_sensor_is_aimed_with_its_field(editor: Editor) -> None:
     hand.control('z')
 
 
+def test_what_motion_sensors_see_is_shown_while_one_is_aimed(editor: Editor) -> None:
+    page, hand = editor.page, Hand(editor.page)
+    covers = 'return document.querySelectorAll("#board .cover").length'
+    hand.keys(Keys.ESCAPE)
+    page.run('angen.survey()')
+    page.until('return !!angen.told.coverage && !angen.asking && !angen.stale')
+    assert page.run(covers) == 0
+    before = page.run('return angen.told.coverage.share')
+    assert f'{before:.0%}'.replace('%', ' %') in page.text('#findings .seen')
+    hand.button('[data-name="motion sensor"]')
+    ActionChains(page.driver, duration=0).move_to_element_with_offset(
+        page.driver.find_element('id', 'board'), 0, 0).perform()
+    page.until('return angen.tried && !angen.asking && !angen.stale')
+    assert page.run(covers) == 3
+    assert page.run('return angen.told.coverage.share') >= before
+    assert page.run('return angen.told.coverage.sensors.length') == 1 + len(
+        [sensor for sensor in editor.storey()['sensors'] if 'sensor' not in str(sensor['model'])
+         and sensor['model'] != 'camera'])
+    hand.keys(Keys.ESCAPE)
+    page.until('return !angen.tried && !angen.asking && !angen.stale')
+    assert page.run('return angen.told.coverage.share') == before
+    hand.keys('c')
+    assert page.run(covers) == 3
+    hand.keys('c')
+    hand.press((7.2, 5.5))  # in sight of the sensor in that corner
+    seen = page.text('#card')
+    assert 'livingroom_pir0' in seen.partition('fallen')[0]
+    hand.keys(Keys.ESCAPE)
+
+
+def test_a_second_floor_with_an_elevator_is_drawn(editor: Editor) -> None:
+    page, hand = editor.page, Hand(editor.page)
+    before = page.run(NOW)
+    hand.put('elevator', (-1.2, 4.5))
+    assert 'add one first' in page.text('#hint')
+    hand.keys(Keys.ESCAPE)
+    gestures = hand.gestures
+    hand.button('#floor-add')
+    page.press('#dialog button', 'the walls of the one below')
+    hand.put('elevator', (-1.2, 4.5))
+    assert hand.gestures - gestures == 3  # with the answer one more
+    assert page.run('return angen.floor') == 1
+    assert len(editor.storey()['walls']) == 6
+    lift, = editor.storey()['lifts']
+    assert (lift['x'], lift['y'], lift['stops']) == (-1.1, 4.5, [0, 1])
+    assert page.run('return document.querySelectorAll("#board .wall.below").length') == 6
+    page.until('return angen.rooms.length === 3 && !angen.asking && !angen.stale')
+    hand.drag((-1.2, 4.5), (-1.2, 4.3), (-1.2, 4.0))
+    lift, = editor.storey()['lifts']
+    assert (lift['x'], lift['y']) == (-1.1, 4.0)
+    last = page.run(NOW)
+    page.press('#floors button', 'Ground floor')
+    assert page.run('return angen.floor') == 0
+    page.run('document.querySelector("#board").focus()')
+    hand.control('z')
+    assert page.run('return angen.floor') == 1  # where that was done
+    hand.control('y')
+    assert page.run(NOW) == last
+    hand.button('#save')
+    page.until('return !angen.dirty')
+    world = angen.World(str(editor.path))
+    assert [landing['room'] for landing in world.home['elevators'][0]['landings']] == [
+        'livingroom0', 'room_c1']
+    subprocess.run(['angen', 'check', str(editor.path)], check=True, capture_output=True)
+    hand.button('#floor-remove')
+    assert 'lifts' not in editor.storey() and page.run('return angen.floor') == 0
+    hand.control('zzzz')
+    assert page.run(NOW) == before
+    hand.button('#save')
+    page.until('return !angen.dirty')
+
+
+def test_the_day_of_a_person_is_changed_and_lived(editor: Editor) -> None:
+    page, hand = editor.page, Hand(editor.page)
+    before = page.run(NOW)
+    hand.press((5, 4.2))
+    hand.button('#day-open')
+    block = '#day .block[aria-label^="Cook, eat"]'
+    assert page.text(block).startswith('07:07')
+    page.run('document.querySelector(arguments[0]).focus()', block)
+    hand.keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
+    assert page.text(block).startswith('07:37')
+    element = page.driver.find_element('css selector', block)
+    hour = page.run('return document.querySelector("#day .track").clientWidth') / 24
+    ActionChains(page.driver, duration=0).drag_and_drop_by_offset(
+        element, round(2 * hour), 0).perform()
+    movers = editor.storey()['movers']
+    who = next(one for one in movers if one.get('day'))
+    cook = next(part for part in who['day'] if part['do'][0] == 'cook')
+    assert cook['low'] == pytest.approx(6 * 3600 + 55 * 60 + 1800 + 7200, abs=301)
+    assert cook['high'] - cook['low'] == 25 * 60
+    assert page.run('return document.querySelectorAll("#day .block").length') > 4
+    hand.button('#save')
+    page.until('return !angen.dirty')
+    own, = editor.path.parent.glob('home_person*.yaml')
+    assert read(str(own)).scheduled[0].at.low == cook['low']
+    listed = editor.path.with_name('home_residents.yaml').read_text()
+    assert own.name in listed and 'worker' in listed
+    page.run('document.querySelector("#board").focus()')
+    hand.control('zzz')
+    assert page.run(NOW) == before
+    hand.button('#save')
+    page.until('return !angen.dirty')
+
+
 def test_a_draft_outlives_server_and_page(editor: Editor) -> None:
     page, hand = editor.page, Hand(editor.page)
     draft = editor.path.with_name('home.world.draft')
@@ -204,6 +311,19 @@ def test_simulate_shows_the_home_live(editor: Editor) -> None:
     page.until('return window.angen?.home?.entities?.length > 0 && !!angen.home.scene')
     assert page.run('return angen.home.rooms.map((room) => room.name).sort()') == [
         'bedroom0', 'kitchen0', 'livingroom0']
+    page.driver.close()
+    page.driver.switch_to.window(drawing)
+
+
+def test_a_day_of_these_people_is_played(editor: Editor) -> None:
+    page = editor.page
+    drawing = page.driver.current_window_handle
+    page.press('#a-day')
+    until(lambda: len(page.driver.window_handles) == 2, 'a window of the player', LIMIT)
+    page.driver.switch_to.window(next(
+        each for each in page.driver.window_handles if each != drawing))
+    page.until('return !!window.angen?.home?.status?.replay && angen.home.entities.length > 0')
+    assert page.run('return angen.home.entities.filter((e) => e.kind === "person").length') == 2
     page.driver.close()
     page.driver.switch_to.window(drawing)
 

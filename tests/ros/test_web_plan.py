@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import io
 import random
+import re
 from collections import Counter
 from typing import Any
 
@@ -11,6 +12,7 @@ import pytest
 from actionlib_msgs.msg import GoalID, GoalStatus, GoalStatusArray
 from angen_msgs.srv import SendCommand
 from browser import LIMIT, Page
+from gazebo_msgs.srv import GetModelState
 from geometry_msgs.msg import PoseStamped
 from harness import Angen, Inbox, publisher_of, until
 from PIL import Image
@@ -196,6 +198,57 @@ def test_what_is_near_a_tap_is_found_and_a_room_in_the_open(home: Angen, page: P
     assert page.until('return angen.card.shown?.room?.name') == free[0]
     page.run('angen.card.close()')
     home.call('/gazebo/unpause_physics', Empty)
+
+
+PLACE = 'return [...angen.carry.pose(arguments[0])].slice(0, 2)'
+
+
+@pytest.mark.parametrize('kind, by', [(POINTER_MOUSE, (1.0, 0.8)), (POINTER_TOUCH, (-0.6, 0.4))])
+def test_sensors_and_furniture_are_carried_elsewhere(home: Angen, page: Page, kind: str,
+                                                     by: tuple[float, float]) -> None:
+    resize(page, kind)
+    page.run('angen.setStorey(0)')
+    page.press('#carry')
+    for model, far in (('kitchen_pir0_a', by), ('kitchen_chair0_a', (0.4, -0.3))):
+        x, y = page.run(PLACE, model)
+        begin, end = page.run(f'{AT} const [x, y, dx, dy] = arguments;'
+                              'return [at(x, y), at(x + dx, y + dy)]', x, y, *far)
+        drag(page, kind, begin, end)
+        page.until('const [x, y] = angen.carry.pose(arguments[0]);'
+                   'return Math.hypot(x - arguments[1], y - arguments[2]) < 0.15', model,
+                   x + far[0], y + far[1])
+        told = home.call('/gazebo/get_model_state', GetModelState, model_name=model).pose.position
+        assert (told.x, told.y) == pytest.approx(page.run(PLACE, model), abs=0.02)
+    told = home.call('/gazebo/get_model_state', GetModelState, model_name='kitchen_pir0_a').pose
+    page.until('const e = angen.home.entities.find((e) => e.name === "kitchen_pir0_a");'
+               'return Math.abs(e.pose[0] - arguments[0]) < 0.01', told.position.x)
+    mark = page.run('''return angen.plan.items.get("pir/kitchen_pir0_a").getAttribute(
+        "transform")''')
+    drawn = re.findall(r'-?[\d.]+', mark)
+    assert float(drawn[0]) == pytest.approx(told.position.x, abs=0.01)  # it is drawn there
+    saved = page.run('return angen.home.order({do: "save"}).then((answer) => answer.xml)')
+    pose = re.search(r'kitchen_pir0_a.*?<pose[^>]*>\s*(\S+) (\S+) ', saved, re.DOTALL)
+    assert pose is not None
+    assert [float(word) for word in pose.groups()] == pytest.approx(
+        [told.position.x, told.position.y], abs=0.01)
+    page.press('#carry')
+
+
+def test_a_thing_is_carried_by_keys(page: Page) -> None:
+    resize(page, POINTER_MOUSE)
+    page.run('document.activeElement.blur()')
+    ActionChains(page.driver, duration=0).send_keys('m', '.').perform()
+    model, (x, y) = page.run('return [angen.carry.held.model, '
+                             '[...angen.carry.held.pose].slice(0, 2)]')
+    assert model.replace('_', ' ') in page.text('#hint')
+    ActionChains(page.driver, duration=0).send_keys(
+        *[Keys.ARROW_RIGHT] * 3, Keys.ARROW_UP, 'r', Keys.ENTER).perform()
+    page.until('const [x, y] = angen.carry.pose(arguments[0]);'
+               'return Math.hypot(x - arguments[1], y - arguments[2]) < 0.02', model, x + 0.3,
+               y + 0.1)
+    ActionChains(page.driver, duration=0).send_keys('m').perform()
+    assert page.run('return [angen.carry.on, document.querySelector("#hint").hidden]') == [
+        False, True]
 
 
 @pytest.mark.parametrize('kind', SIZES)

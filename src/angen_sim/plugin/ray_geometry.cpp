@@ -40,6 +40,17 @@ std::vector<Vec3> RayGeometry::directions(double tilt) const {
   return result;
 }
 
+std::vector<Vec3> RayGeometry::detecting() const {
+  if (!zones.empty()) return zones;
+  if (tilts.empty()) return directions();
+  std::vector<Vec3> all;
+  for (const double tilt : tilts) {
+    const std::vector<Vec3> tilted = directions(tilt);
+    all.insert(all.end(), tilted.begin(), tilted.end());
+  }
+  return all;
+}
+
 RayGeometry read_rays(Params& params, const RayGeometry& fallback) {
   const std::string h = "ray/scan/horizontal/";
   const std::string v = "ray/scan/vertical/";

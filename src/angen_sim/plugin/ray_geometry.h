@@ -20,11 +20,15 @@ struct RayGeometry {
   double min = 0.0;           // m, nearer is not seen
   double max = 0.0;           // m, length of a ray that hits nothing
   std::vector<double> tilts;  // rad upwards, of all rays: of each sample in turn; empty: never
+  std::vector<Vec3> zones;    // unit vectors in which it detects, if its rays only show where
 
   std::size_t size() const { return static_cast<std::size_t>(columns) * rows; }
 
   /// Unit vectors, row after row from below, all of them tilted upwards by `tilt` rad.
   std::vector<Vec3> directions(double tilt = 0.0) const;
+
+  /// Unit vectors in which it detects, at all of its tilts.
+  std::vector<Vec3> detecting() const;
 
   /// The tilt of sample number `samples`, from 0.
   double tilt(std::int64_t samples) const {

@@ -261,6 +261,10 @@ class World:
         """Horizontal limits (rad, left is positive) and range (m) of a sensor's field of view; None
         if it has none."""
 
+    def detection_rays(self, kind: str, name: str) -> typing.Any:
+        """(n, 8) rows of origin, direction, min, max (m, in the world): where a sensor with rays or
+        zones detects, whatever hides that; a zone has nine. None if it has none."""
+
     def cast(self, origins: numpy.typing.ArrayLike, directions: numpy.typing.ArrayLike, reach: typing.Union[float, numpy.typing.ArrayLike]) -> numpy.typing.NDArray[numpy.float64]:
         """Ranges (n,) in m of rays from origins (n, 3) along unit directions (n, 3), in the world,
         against the shapes as they are now; `reach` (m, a number or (n,)) of rays that hit nothing

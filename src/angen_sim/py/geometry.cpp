@@ -90,6 +90,30 @@ pyb::object field_of(const sim::SensorEntry& sensor) {
   return pyb::make_tuple(-half, half, std::numeric_limits<double>::infinity());
 }
 
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, 8, Eigen::RowMajor>;
+
+const sim::SensorEntry& sensor_of(const World& world, const std::string& kind,
+                                  const std::string& name) {
+  for (const sim::SensorEntry& sensor : world.now().structure->sensors) {
+    if (sensor.kind == kind && sensor.name == name) return sensor;
+  }
+  throw Error("no " + printable(kind) + " named '" + printable(name) + "'");
+}
+
+pyb::object detection_rays(const World& world, const std::string& kind, const std::string& name) {
+  const sim::SensorEntry& sensor = sensor_of(world, kind, name);
+  if (sensor.rays == nullptr) return pyb::none();
+  const Pose pose = world.now().link_poses[sensor.link] * sensor.pose;
+  const std::vector<Vec3> ways = sensor.rays->detecting();
+  Rows rows(static_cast<Eigen::Index>(ways.size()), 8);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    rows.row(i) << pose.position.transpose(),
+        (pose.rotation * ways[static_cast<std::size_t>(i)]).transpose(), sensor.rays->min,
+        sensor.rays->max;
+  }
+  return pyb::cast(rows);
+}
+
 }  // namespace
 
 void bind_geometry(pyb::class_<World>& world) {
@@ -106,14 +130,14 @@ void bind_geometry(pyb::class_<World>& world) {
       .def(
           "field_of_view",
           [](const World& w, const std::string& kind, const std::string& name) {
-            for (const sim::SensorEntry& sensor : w.now().structure->sensors) {
-              if (sensor.kind == kind && sensor.name == name) return field_of(sensor);
-            }
-            throw Error("no " + printable(kind) + " named '" + printable(name) + "'");
+            return field_of(sensor_of(w, kind, name));
           },
           pyb::arg("kind"), pyb::arg("name"),
           "Horizontal limits (rad, left is positive) and range (m) of a sensor's field of view; "
-          "None if it has none.");
+          "None if it has none.")
+      .def("detection_rays", &detection_rays, pyb::arg("kind"), pyb::arg("name"),
+           "(n, 8) rows of origin, direction, min, max (m, in the world): where a sensor with rays "
+           "or zones detects, whatever hides that; a zone has nine. None if it has none.");
 }
 
 }  // namespace angen::py

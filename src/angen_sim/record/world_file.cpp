@@ -10,6 +10,13 @@ namespace angen::record {
 
 namespace {
 
+constexpr double kSame = 1e-7;  // m, rad: a static model that nobody has put elsewhere
+
+bool is_at(const Pose& pose, const Pose& other) {
+  return (pose.position - other.position).norm() < kSame &&
+         pose.rotation.angularDistance(other.rotation) < kSame;
+}
+
 // The world's own; those of models are added to their states.
 std::vector<load::LightState> lights_of(const sim::SavedState& state,
                                         std::vector<load::ModelState>& models) {
@@ -41,8 +48,9 @@ std::string world_file(const desc::World& settings, const sim::SavedState& state
   for (const auto& model : all.models) states.push_back({model.get(), model->pose, {}});
   for (std::size_t i = 0; i < all.links.size(); ++i) {
     const sim::LinkEntry& link = all.links[i];
-    if (link.link != 0 || !link.moves) continue;
+    if (link.link != 0) continue;
     const Pose& rest = all.models[link.model]->links.front().pose;
+    if (!link.moves && is_at(snapshot.link_poses[i], states[link.model].pose * rest)) continue;
     states[link.model].pose = snapshot.link_poses[i] * rest.inverse();
   }
   for (std::size_t i = 0; i < all.joints.size(); ++i) {

@@ -11,6 +11,7 @@ from angen_apps.edit.desk import Conflict, Desk, in_use
 from angen_apps.edit.worker import Worker
 from angen_apps.plan.tower import building
 from angen_apps.plan.writer import write_world
+from angen_apps.residents.profiles import read
 from angen_tools.common.failure import Failure
 from angen_tools.world import models
 
@@ -93,6 +94,71 @@ def test_rooms_and_findings_of_a_drawing(tmp_path: Path, worker: Worker) -> None
     del shut['plan']['storeys'][0]['openings']
     assert any('outside' in text for text in desk.survey(shut)['findings'])
     assert not list(tmp_path.iterdir())
+
+
+def two_floors() -> dict[str, Any]:
+    """The room twice, with an elevator beside it; one lives below and one stands above."""
+    data = drawn('hall')
+    ground, = data['plan']['storeys']
+    ground['height'] = 3
+    corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]]
+    walls = [{**wall(*pair), 'bottom': 3, 'top': 5.5}
+             for pair in zip(corners, corners[1:] + corners[:1])]
+    data['plan']['storeys'].append({
+        'number': 1, 'name': 'Floor 1', 'elevation': 3, 'height': 2.5, 'slab': 0.49,
+        'walls': walls, 'labels': [{'name': 'bedroom', 'x': 1, 'y': 1}],
+        'movers': [{'name': 'upstairs', 'kind': 'person', 'x': 1, 'y': 2}]})
+    data['plan']['lifts'] = [{'name': 'elevator', 'x': 5.1, 'y': 1.5, 'yaw': 3.1415927,
+                              'width': 1.58, 'depth': 1.5, 'stops': [0, 1], 'front': 0.98}]
+    return data
+
+
+def test_people_take_the_elevator_of_a_home_with_two_floors(tmp_path: Path, worker: Worker
+                                                            ) -> None:
+    desk = Desk(tmp_path / 'home.world', worker)
+    found = desk.survey(two_floors(), 1)
+    assert found['findings'] == [] and [room['name'] for room in found['rooms']] == [
+        'hall', 'bedroom']
+    assert found['coverage']['rooms'] == {'bedroom1': 0.0}  # no sensor is there
+    text = desk.save(two_floors(), 0, False)
+    assert '2 floors, 2 rooms' in text and '1 lift' in text
+    world = angen.World(str(desk.path))
+    assert [landing['room'] for landing in world.home['elevators'][0]['landings']] == [
+        'hall0', 'bedroom1']
+    world.run(1.0)
+    assert world.device('person', 'upstairs')['z'] == pytest.approx(3.0, abs=0.01)
+    world.command('person', 'hall', 'GoTo bedroom1')
+    world.run(60.0)
+    state = world.device('person', 'hall')
+    assert not state['going'] and state['z'] == pytest.approx(3.0, abs=0.01)
+    first = desk.path.read_bytes()
+    desk.save(Desk(desk.path, worker).drawing, desk.version, False)
+    assert desk.path.read_bytes() == first
+
+
+@pytest.mark.parametrize('stops', [[], [0, 7], [3]])
+def test_a_lift_that_stops_nowhere_is_refused(tmp_path: Path, worker: Worker, stops: list[int]
+                                              ) -> None:
+    data = two_floors()
+    data['plan']['lifts'][0]['stops'] = stops
+    with pytest.raises(Failure, match=r'plan.lifts\[0\].stops must be numbers of storeys'):
+        Desk(tmp_path / 'home.world', worker).survey(data, 0)
+
+
+def test_a_day_that_was_drawn_is_saved_as_a_profile(tmp_path: Path, worker: Worker) -> None:
+    data = drawn()
+    person = data['plan']['storeys'][0]['movers'][0]
+    person['day'] = [{'do': ['wake'], 'low': 25200, 'high': 27000},
+                     {'do': ['sleep'], 'low': 79200, 'high': 81000}]
+    desk = Desk(tmp_path / 'home.world', worker)
+    assert desk.save(data, 0, False).endswith('1 piece')
+    assert read(str(tmp_path / 'home_kitchen.yaml')).wakes['weekday'].low == 25200
+    assert 'kitchen: home_kitchen.yaml' in (tmp_path / 'home_residents.yaml').read_text()
+    assert desk.household(data) == {'kitchen': str(tmp_path / 'home_kitchen.yaml')}
+    del person['day'][1]
+    assert any('the day of kitchen must say' in text for text in desk.survey(data)['findings'])
+    assert 'the day of kitchen must say' in desk.save(data, desk.version, False)
+    assert desk.opened()['drawing'] == data  # the world is saved
 
 
 def test_the_second_who_changes_a_home_is_told(tmp_path: Path, worker: Worker) -> None:

@@ -31,6 +31,9 @@ class Simulation:
             raise Failure('the node ended')
         return 'http://127.0.0.1:1/'
 
+    def day(self, world: Path, household: dict[str, str]) -> str:
+        return f'http://127.0.0.1:2/{world.name}/{household["kitchen"]}'
+
     def close(self) -> None:
         self.closed = True
 
@@ -101,6 +104,8 @@ def test_orders(tmp_path: Path) -> None:
         assert status == 200 and said['wrong'] == 'the node ended' and said['version'] == 3
         status, said = await page.do('simulate', {'drawing': drawn(), 'base': 3})
         assert said['address'] == 'http://127.0.0.1:1/' and page.simulation.worlds == [path] * 2
+        status, said = await page.do('day', {'drawing': drawn(), 'base': 4})
+        assert said['address'] == 'http://127.0.0.1:2/home.world/worker' and said['version'] == 5
         status, picture = await page.get('/plan.svg')
         assert status == 200 and '<svg' in picture
 

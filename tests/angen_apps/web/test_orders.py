@@ -3,11 +3,13 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
-from angen_apps.web.orders import LONGEST, Orders, number, text
+from angen_apps.web.orders import LONGEST, Orders, about_z, number, text
 from angen_apps.web.store import Store
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import quaternion
 
 
 @pytest.mark.parametrize('order, reason', [
@@ -27,6 +29,9 @@ from angen_tools.common.failure import Failure
     ({'do': 'goal', 'x': float('inf'), 'y': 0}, "'x' must be a number"),
     ({'do': 'goal', 'x': 10 ** 400, 'y': 0}, "'x' must be a number"),
     ({'do': 'goal', 'x': 0, 'y': 0, 'yaw': 7}, "'yaw' must be a number"),
+    ({'do': 'move', 'x': 0, 'y': 0}, "'model' must be a text"),
+    ({'do': 'move', 'model': 'chair', 'x': float('nan')}, "'x' must be a number"),
+    ({'do': 'move', 'model': 'chair', 'turn': 7}, "'turn' must be a number"),
     ({'do': 'command', 'target': '\ud800', 'text': 'On'}, "'target' must be a text"),
 ])
 def test_malformed_orders_are_rejected(order: dict[str, Any], reason: str) -> None:
@@ -40,3 +45,11 @@ def test_texts_and_numbers_pass() -> None:
     for wrong in ('', 5, None, ['a']):
         with pytest.raises(Failure):
             text({'a': wrong}, 'a')
+
+
+def test_a_pose_is_turned_about_the_vertical() -> None:
+    for roll, pitch, yaw, turn in ((0.0, 0.25, 0.5, 1.0), (0.3, -0.2, 3.0, 0.5)):
+        assert np.allclose(about_z(turn, *quaternion(roll, pitch, yaw)),
+                           quaternion(roll, pitch, yaw + turn)) or np.allclose(
+            about_z(turn, *quaternion(roll, pitch, yaw)),
+            [-part for part in quaternion(roll, pitch, yaw + turn)])

@@ -1,7 +1,10 @@
+#include "sensors/pir/fresnel_lens.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "warm_bench.h"
 
@@ -217,6 +220,20 @@ TEST(FresnelLens, ADoorThatSwingsIsNoMotionUnlessItUncoversSomebody) {
       EXPECT_EQ(peak, 0.0);
     }
   }
+}
+
+TEST(FresnelLens, ItsDirectionsAreInZonesThatSee) {
+  sensors::FresnelLens lens(sensors::lens_rows("area"));
+  const auto seen = [&](const Vec3& way) {
+    return lens.sensitivity(std::atan2(way.y(), way.x()), std::asin(way.z()));
+  };
+  const std::vector<Vec3> all = lens.directions();
+  EXPECT_EQ(all.size(), 9 * 2 * (11 + 8 + 6 + 4 + 3 + 2));
+  for (const Vec3& way : all) EXPECT_GT(std::abs(seen(way)), 0.5);
+  lens.tape({-M_PI, 0.0, -M_PI_2, M_PI_2});  // the right half
+  const std::vector<Vec3> left = lens.directions();
+  EXPECT_LT(left.size(), all.size());
+  for (const Vec3& way : left) EXPECT_GT(std::abs(seen(way)), 0.5);
 }
 
 }  // namespace

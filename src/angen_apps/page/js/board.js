@@ -1,6 +1,6 @@
 /** What pointers, keys and tools do on the sheet on which a home is drawn. */
 import { svg } from './dom.js';
-import { GRID, STEP, along, directionOf, distance, gridded, itemOf, keysOf, lengthOf, moved, normal, onWall, openingOf, placeOn, placesOf, roomWalls, snapped, stretched, turnedDoor, wallAt, wallOf } from './drawing.js';
+import { DOORWAY, GRID, STEP, along, directionOf, distance, gridded, itemOf, keysOf, lengthOf, liftOf, moved, normal, onWall, openingOf, placeOn, placesOf, roomWalls, snapped, stretched, turnedDoor, wallAt, wallOf } from './drawing.js';
 import { BODY, MOUSE, SIGN, SPOT, Sheet } from './sheet.js';
 
 /** @typedef {import('./drawing.js').Item} Item @typedef {import('./drawing.js').Point} Point */
@@ -8,6 +8,7 @@ import { BODY, MOUSE, SIGN, SPOT, Sheet } from './sheet.js';
 const CLICK = 5; // px that a pointer moves at most in a click
 const HANDLE = 8; // px of a handle's radius
 const HANGS = 0.5; // m to a wall on which a door is put
+const BEHIND = 1.6; // m to the wall in which the doors of an elevator are
 const STICKS = 0.45; // m to a wall to which furniture and sensors stick
 const GAP = 0.02, OFF = 0.1, CORNER = 0.15; // m from a wall to furniture, to a sensor; by which furniture is drawn into a corner
 const LEAST_WALL = 0.05; // m
@@ -66,6 +67,11 @@ export class Board extends Sheet {
       let made = openingOf(of, storey, on.wall, gridded(on.u), on.v >= 0);
       for (let i = 0; i < (Math.round(turn / (PI / 2)) & 3); i++) made = turnedDoor(made);
       return ['openings', onWall(made, on.wall, gridded(on.u))];
+    }
+    if (list === 'lifts') {
+      if (this.editor.history.now.plan.storeys.length < 2) return null;
+      const on = wallAt(storey, at, BEHIND), side = on && on.v < 0 ? -1 : 1;
+      return ['lifts', on && !turn ? liftOf(this.editor.history.now, placeOn(on.wall, gridded(on.u), side * DOORWAY), directionOf(on.wall) - (side * PI) / 2) : liftOf(this.editor.history.now, free, turn)];
     }
     if (list === 'lamps') return ['lamps', { name: '', x: free[0], y: free[1], z: storey.elevation + this.editor.ceiling - 0.3, flux: 800 }];
     if (list === 'movers') return ['movers', { name: of, kind: of, x: free[0], y: free[1], yaw: normal(turn), ...(of === 'person' ? { habits: 'worker' } : {}) }];
@@ -240,9 +246,9 @@ export class Board extends Sheet {
   fix(press, again) {
     const { editor, tool } = this, { storey } = editor;
     if (tool.name === 'put') {
-      const aims = tool.list === 'sensors' && press.far > CLICK, made = aims ? this.ghost(press.at, this.aim(press.at)) : this.ghost(this.at);
+      const made = this.putAt({ does: 'tool', ...press });
       if (!made) {
-        editor.hint('A door or a window goes on a wall');
+        editor.hint(tool.list === 'lifts' ? 'An elevator joins floors: add one first, by + Floor below' : 'A door or a window goes on a wall');
         return;
       }
       editor.do({ add: [made] }, [`${made[0]}/${(storey[made[0]] ?? []).length}`]);
@@ -298,9 +304,10 @@ export class Board extends Sheet {
       const [dx, dy] = [at[0] - item.x, at[1] - item.y], [c, s] = [cos(item.yaw), sin(item.yaw)];
       return hypot(max(0, abs(dx * c + dy * s) - deep / 2), max(0, abs(dy * c - dx * s) - wide / 2));
     };
+    const keys = new Set(keysOf(storey)), lift = found('lifts', (item) => rect(item, item.depth + 0.3, item.width + 0.3));
     return found('movers', spot(BODY)) ?? found('sensors', spot(SPOT)) ?? found('lamps', spot(SIGN)) ?? found('openings', (item) => rect(item, item.width, item.band[1] - item.band[0]))
       ?? found('pieces', (item) => (item.shape === 'flat' ? MOUSE / this.scale : 1) * 1e-6 + rect(item, item.depth, item.width))
-      ?? wallAt(storey, at, this.reach)?.key ?? null;
+      ?? (lift && keys.has(lift) ? lift : null) ?? wallAt(storey, at, this.reach)?.key ?? null;
   }
 
   // --- keys
@@ -323,6 +330,27 @@ export class Board extends Sheet {
     return true;
   }
 
+  /** @returns {any} the edit that a sensor which is put or aimed would be */
+  aimed() {
+    const { tool, press, editor } = this;
+    if (this.preview && editor.selection.length === 1 && editor.selection[0].startsWith('sensors/')) return this.preview;
+    if (tool.name !== 'put' || tool.list !== 'sensors' || !this.inside) return null;
+    const made = this.putAt(press);
+    return made && { add: [made] };
+  }
+
+  /** @param {any} press @returns {[string, Item] | null} what the tool would put where the pointer is, or aim there */
+  putAt(press) {
+    const aims = press?.does === 'tool' && this.tool.list === 'sensors' && press.far > CLICK;
+    return aims ? this.ghost(press.at, this.aim(press.at)) : this.ghost(this.at);
+  }
+
+  /** @returns {boolean} whether one sees what motion sensors see */
+  get covered() {
+    const { tool, editor: { covers, selection } } = this;
+    return covers || (tool.name === 'put' && tool.list === 'sensors') || (selection.length === 1 && selection[0].startsWith('sensors/'));
+  }
+
   // --- what it shows
 
   later() {
@@ -336,7 +364,8 @@ export class Board extends Sheet {
     this.root.setAttribute('viewBox', `${this.middle[0] - w / 2} ${-this.middle[1] - h / 2} ${w} ${h}`);
     const storey = this.preview ? editor.previewed(this.preview) : editor.storey, chosen = new Set(this.preview ? [] : editor.selection);
     this.handles = [];
-    this.root.replaceChildren(this.grid(w, h), ...this.rooms(storey), ...this.walls(storey, chosen), ...this.things(storey, chosen), ...this.marks(storey, chosen), ...this.tooled(), ...this.frame(), ...this.grips());
+    this.root.replaceChildren(this.grid(w, h), ...this.below(storey), ...this.rooms(storey), ...this.cover(), ...this.lifts(storey, chosen), ...this.walls(storey, chosen), ...this.things(storey, chosen), ...this.marks(storey, chosen), ...this.tooled(), ...this.frame(), ...this.grips());
+    editor.tryOut(this.aimed());
   }
 
   /** What the tool would make where the pointer is. */
@@ -344,11 +373,12 @@ export class Board extends Sheet {
     const { tool, editor, press } = this, { storey } = editor;
     if (tool.name === 'select' || (!this.inside && !tool.from)) return [];
     if (tool.name === 'put') {
-      const made = press?.does === 'tool' && tool.list === 'sensors' && press.far > CLICK ? this.ghost(press.at, this.aim(press.at)) : this.ghost(this.at);
+      const made = this.putAt(press);
       if (!made) return [svg('circle', { class: 'dot', r: 5 / this.scale, cx: this.at[0], cy: -this.at[1] })];
       const [list, item] = made;
       if (list === 'openings') return [this.opening(item, false, 'ghost')];
       if (list === 'pieces') return [this.piece(item, false, 'ghost')];
+      if (list === 'lifts') return [this.lift(item, false, 'ghost')];
       return [list === 'sensors' ? this.field(storey, item, true) : null, this.mark(list, item, false, 'ghost')].filter(Boolean);
     }
     const dot = (/** @type {Point} */ at) => svg('circle', { class: 'dot', r: 5 / this.scale, cx: at[0], cy: -at[1] });

@@ -3,18 +3,19 @@
 /**
  * @typedef {number[]} Point x y, m
  * @typedef {Record<string, any>} Item
- * @typedef {{plan: {name: string, storeys: Item[]}, sensors: string}} Drawing
- * @typedef {{storey?: number, change?: Record<string, Item | null>, add?: [string, Item][], home?: Record<string, any>}} Edit
- * Items by their keys, such as `walls/3`; null removes one. `home`: values of the drawing itself.
+ * @typedef {{plan: {name: string, storeys: Item[], lifts?: Item[]}, sensors: string}} Drawing
+ * @typedef {{storey?: number, change?: Record<string, Item | null>, add?: [string, Item][], home?: Record<string, any>, plan?: Record<string, any>}} Edit
+ * Items by their keys, such as `walls/3`; null removes one. `home`: values of the drawing itself, `plan`: of its plan.
  */
 
-export const LISTS = ['rooms', 'labels', 'walls', 'openings', 'pieces', 'lamps', 'sensors', 'movers'];
+export const LISTS = ['rooms', 'labels', 'walls', 'openings', 'pieces', 'lamps', 'sensors', 'movers', 'lifts'];
 export const GRID = 0.1; // m
 export const STEP = Math.PI / 12; // between the directions of walls
 export const HEIGHT = 2.5; // m of a floor's walls
 const SAME = 0.02; // m between ends that are joined
 const JOINED = 0.12; // m between a wall's end and the face of another on which it ends
 const BESIDE = 0.35; // m from a wall's middle to the edge of a room that it encloses
+const RISE = 3, SLAB = 0.49; // m from floor to floor, and of the floor between
 const LEAF_THICK = 0.04, LAP = 0.03; // m of a leaf, and of one that slides before the jamb
 const { PI, cos, sin, hypot, abs, round, min, max, atan2 } = Math;
 
@@ -22,24 +23,31 @@ const { PI, cos, sin, hypot, abs, round, min, max, atan2 } = Math;
 export const empty = () => ({ plan: { name: 'home', storeys: [{ number: 0, name: 'Ground floor', elevation: 0, height: HEIGHT }] }, sensors: 'none' });
 
 /** @param {Drawing} drawing @param {Edit} edit @returns {Drawing} */
-export function apply(drawing, { storey = 0, change = {}, add = [], home = {} }) {
-  const before = drawing.plan.storeys[storey], after = { ...before };
+export function apply(drawing, { storey = 0, change = {}, add = [], home = {}, plan = {} }) {
+  const after = { ...drawing.plan.storeys[storey] }, whole = /** @type {Drawing['plan']} */ ({ ...drawing.plan, storeys: drawing.plan.storeys.map((each, i) => (i === storey ? after : each)) });
   for (const list of LISTS) {
-    const items = before[list] ?? [], kept = items.map((/** @type {Item} */ item, /** @type {number} */ i) => {
+    const owner = /** @type {Item} */ (list === 'lifts' ? whole : after), kept = (owner[list] ?? []).map((/** @type {Item} */ item, /** @type {number} */ i) => {
       const changed = change[`${list}/${i}`];
       return changed === undefined ? item : changed;
     }).filter(Boolean), made = [...kept, ...add.filter(([name]) => name === list).map(([, item]) => item)];
-    if (made.length) after[list] = made;
-    else delete after[list];
+    if (made.length) owner[list] = made;
+    else delete owner[list];
   }
-  return { ...drawing, ...home, plan: { ...drawing.plan, storeys: drawing.plan.storeys.map((each, i) => (i === storey ? after : each)) } };
+  return { ...drawing, ...home, plan: { ...whole, ...plan } };
 }
 
-/** All drawings since the first; undo and redo go through them. */
+/** @param {Drawing} drawing @param {number} index @returns {Item} a floor with the lifts that stop there */
+export function storeyOf({ plan }, index) {
+  const storey = plan.storeys[index];
+  return plan.lifts ? { ...storey, lifts: plan.lifts } : storey;
+}
+
+/** All drawings since the first, each with the floor of its edit; undo and redo go through them. */
 export class History {
   /** @param {Drawing} drawing */
   constructor(drawing) {
     this.all = [drawing];
+    this.floors = [0];
     this.at = 0;
   }
 
@@ -48,15 +56,57 @@ export class History {
   /** @param {Edit} edit */
   do(edit) {
     this.all.splice(this.at + 1);
+    this.floors.splice(this.at + 1);
     this.all.push(apply(this.now, edit));
+    this.floors.push(edit.storey ?? 0);
     this.at++;
   }
 
-  /** @returns {boolean} */
-  undo() { return this.at > 0 && Boolean(this.at--); }
+  /** @returns {number | null} the floor of what is undone */
+  undo() { return this.at > 0 ? this.floors[this.at--] : null; }
 
-  /** @returns {boolean} */
-  redo() { return this.at < this.all.length - 1 && Boolean(++this.at); }
+  /** @returns {number | null} the floor of what is done again */
+  redo() { return this.at < this.all.length - 1 ? this.floors[++this.at] : null; }
+}
+
+// --- floors
+
+/** @param {Item} storey @param {number} by m @returns {Item} with all that is on it */
+function raised(storey, by) {
+  const up = (/** @type {Item} */ item, /** @type {string[]} */ keys) => ({ ...item, ...Object.fromEntries(keys.filter((key) => typeof item[key] === 'number').map((key) => [key, exact(item[key] + by)])) });
+  /** @type {Record<string, string[]>} */
+  const heights = { walls: ['bottom', 'top', 'top_at_end'], openings: ['bottom', 'top'], rooms: ['floor'], pieces: ['z'], lamps: ['z'], sensors: ['z'] };
+  return { ...up(storey, ['elevation']), ...Object.fromEntries(Object.entries(heights).filter(([list]) => storey[list]).map(([list, keys]) => [list, storey[list].map((/** @type {Item} */ item) => up(item, keys))])) };
+}
+
+/** @param {Drawing} drawing @param {boolean} walled whether it has the walls of the floor below @returns {Edit} with a floor on top */
+export function withFloor({ plan }, walled) {
+  const { storeys, lifts } = plan, top = storeys.reduce((a, b) => (b.elevation > a.elevation ? b : a)), number = max(...storeys.map((each) => each.number)) + 1, height = exact(max(RISE, top.height));
+  const above = { number, name: `Floor ${number}`, elevation: exact(top.elevation + height), height: HEIGHT, slab: SLAB };
+  const walls = walled && top.walls ? { walls: raised({ walls: top.walls }, height).walls } : {};
+  return { plan: { storeys: [...storeys.map((each) => (each === top ? { ...top, height } : each)), { ...above, ...walls }],
+    ...(lifts ? { lifts: lifts.map((lift) => (isBuilt(plan, lift) ? lift : { ...lift, stops: [...lift.stops, number] })) } : {}) } };
+}
+
+/** @param {Drawing} drawing @param {number} index @returns {Edit} without a floor; those above come down */
+export function withoutFloor({ plan }, index) {
+  const gone = plan.storeys[index], above = plan.storeys.filter((each) => each.elevation > gone.elevation), down = min(...above.map((each) => each.elevation)) - gone.elevation;
+  const lower = (/** @type {number} */ number) => (above.some((each) => each.number === number) ? number - 1 : number);
+  const storeys = plan.storeys.filter((each) => each !== gone).map((each) => (above.includes(each) ? { ...raised(each, -down), number: lower(each.number), ...(each.name === `Floor ${each.number}` ? { name: `Floor ${lower(each.number)}` } : {}) } : each));
+  const lifts = (plan.lifts ?? []).map((lift) => ({ ...lift, stops: lift.stops.filter((/** @type {number} */ stop) => stop !== gone.number).map(lower) })).filter((lift) => lift.stops.length > 1);
+  return { plan: { storeys, lifts: lifts.length ? lifts : undefined } };
+}
+
+/** @param {{storeys: Item[]}} plan @param {Item} lift @returns {boolean} whether its shaft is drawn itself, as in imported homes: it stays where it is */
+export const isBuilt = (plan, lift) => plan.storeys.some((storey) => (storey.cutouts ?? []).some((/** @type {Point[]} */ cutout) => within(cutout, [lift.x, lift.y])));
+
+const SHAFT = { width: 1.58, depth: 1.5, front: 0.98 }; // m of an elevator that is drawn, and from its middle to the floors of its landings
+export const DOORWAY = 1.1; // m from its middle to the middle of the wall in which its doors are
+
+/** @param {Drawing} drawing @param {Point} at its middle @param {number} yaw of its doorway @returns {Item} an elevator that stops on each floor */
+export function liftOf({ plan }, [x, y], yaw) {
+  const names = (plan.lifts ?? []).map((lift) => lift.name), name = ['elevator', ...names.map((_, i) => `elevator${i + 2}`)].find((each) => !names.includes(each));
+  return { name, x: exact(x), y: exact(y), yaw: normal(yaw), ...SHAFT, stops: plan.storeys.map((storey) => storey.number).sort((a, b) => a - b) };
 }
 
 /** @param {Item} storey @param {string} key */
@@ -65,8 +115,8 @@ export function itemOf(storey, key) {
   return storey[list]?.[Number(index)];
 }
 
-/** @param {Item} storey @returns {string[]} the keys of all items */
-export const keysOf = (storey) => LISTS.flatMap((list) => (storey[list] ?? []).map((/** @type {Item} */ _, /** @type {number} */ i) => `${list}/${i}`));
+/** @param {Item} storey @returns {string[]} the keys of all items but lifts that stay where they are */
+export const keysOf = (storey) => LISTS.flatMap((list) => (storey[list] ?? []).map((/** @type {Item} */ item, /** @type {number} */ i) => (list === 'lifts' && isBuilt({ storeys: [storey] }, item) ? '' : `${list}/${i}`))).filter(Boolean);
 
 /** @param {number} value m @returns {number} to 0.1 mm */
 const exact = (value) => round(value * 1e4) / 1e4 + 0;
@@ -361,7 +411,7 @@ export function removed(storey, keys) {
 }
 
 /** @param {Item} item @returns {Point[]} its places */
-export const placesOf = (item) => (item.start ? [item.start, item.end] : item.polygon ?? [[item.x, item.y]]);
+export const placesOf = (item) => (item.start ? [item.start, item.end] : item.polygon ?? (item.stops ? [[item.x - DOORWAY, item.y - DOORWAY], [item.x + DOORWAY, item.y + DOORWAY]] : [[item.x, item.y]]));
 
 /** @param {Item} storey @param {string[]} keys @returns {Point} the middle of a selection */
 export function middleOf(storey, keys) {

@@ -1,7 +1,9 @@
 /** The page of angen edit: a home is drawn, checked while one draws, saved and simulated. */
 import { Board } from './board.js';
+import { sentence } from './coverage.js';
+import { DayPlan } from './dayplan.js';
 import { by, el, notice } from './dom.js';
-import { GRID, HEIGHT, History, apply, copied, empty, innerPoint, keysOf, middleOf, removed, shifted, turned, within } from './drawing.js';
+import { GRID, HEIGHT, History, apply, copied, empty, innerPoint, keysOf, middleOf, removed, shifted, storeyOf, turned, withFloor, within, withoutFloor } from './drawing.js';
 import { Form, labelIn } from './form.js';
 import { help, pressed } from './keys.js';
 import { Shelf } from './shelf.js';
@@ -18,6 +20,10 @@ export class Editor {
     this.symbols = {};
     /** @type {string[]} */
     this.profiles = []; // habits that a person can have
+    /** @type {Record<string, import('./dayplan.js').Planned[]>} */
+    this.days = {}; // the usual day of each
+    /** @type {Record<string, number>} */
+    this.durations = {}; // s of each activity
     /** @type {History} */
     this.history = /** @type {any} */ (null);
     this.floor = 0;
@@ -25,12 +31,18 @@ export class Editor {
     this.selection = [];
     /** @type {number | null} index in the rooms that are shown */
     this.room = null;
+    /** @type {number[] | null} the place in that room that was pressed */
+    this.spot = null;
+    this.covers = false; // whether one wants to see what motion sensors see
+    /** @type {any} a drawing with a sensor that is aimed, which is not done yet */
+    this.trial = null;
+    this.tried = ''; // that edit as text
     this.several = false;
     this.closed = true;
     this.thickness = 0.1;
     /** @type {any[]} rooms of all floors, as the server found them */
     this.found = [];
-    /** @type {{findings: string[], remarks: string[], ruled?: any[], wrong?: string}} */
+    /** @type {{findings: string[], remarks: string[], ruled?: any[], wrong?: string, coverage?: import('./coverage.js').Coverage | null}} */
     this.told = { findings: [], remarks: [] };
     this.version = 0;
     this.line = Promise.resolve(); // ends with the last change that was sent
@@ -47,12 +59,13 @@ export class Editor {
     by('redo').addEventListener('click', () => this.redo());
     by('save').addEventListener('click', () => this.save());
     by('simulate').addEventListener('click', () => this.simulate());
+    by('a-day').addEventListener('click', () => this.simulate(false, 'day'));
     document.addEventListener('keydown', (e) => pressed(this, e));
     addEventListener('beforeunload', (e) => { if (this.dirty && !this.connected) e.preventDefault(); });
     this.load();
   }
 
-  get storey() { return this.history.now.plan.storeys[this.floor]; }
+  get storey() { return storeyOf(this.history.now, this.floor); }
 
   /** The rooms of the floor that is shown. */
   get rooms() { return this.found.filter((room) => room.storey === this.storey.number); }
@@ -73,7 +86,7 @@ export class Editor {
       return;
     }
     const given = await answer.json();
-    Object.assign(this, { catalog: given.catalog, symbols: given.symbols, profiles: given.profiles, version: given.version });
+    Object.assign(this, { catalog: given.catalog, symbols: given.symbols, profiles: given.profiles, days: given.days, durations: given.durations, version: given.version });
     this.given = given;
     this.place = `angen-edit ${given.path}`;
     by('file').textContent = given.file;
@@ -86,6 +99,7 @@ export class Editor {
     this.closed = Boolean(given.reason);
     this.shelf = new Shelf(this);
     this.form = new Form(this);
+    this.dayPlan = new DayPlan(this);
     this.buildTools();
     if (this.closed) this.showClosed(given.reason);
     else if (this.dirty && draft) this.ask('The changes that were not saved are here again.', [['Continue', () => {}], ['Show the saved home', () => this.discard()]]);
@@ -154,24 +168,48 @@ export class Editor {
   do(edit, selection = []) {
     if (this.closed) return;
     this.history.do({ ...edit, storey: this.floor });
+    this.floor = Math.min(this.floor, this.history.now.plan.storeys.length - 1);
     this.selection = selection;
     this.room = null;
     this.changed();
   }
 
   /** @param {any} edit @returns {any} the floor as it would be */
-  previewed(edit) { return apply(this.history.now, { ...edit, storey: this.floor }).plan.storeys[this.floor]; }
+  previewed(edit) { return storeyOf(apply(this.history.now, { ...edit, storey: this.floor }), this.floor); }
 
   undo() { this.step(this.history.undo()); }
   redo() { this.step(this.history.redo()); }
 
-  /** @param {boolean} stepped */
-  step(stepped) {
-    if (!stepped) return;
+  /** @param {number | null} floor on which something was undone or done again */
+  step(floor) {
+    if (floor === null) return;
     this.selection = [];
     this.room = null;
-    this.floor = Math.min(this.floor, this.history.now.plan.storeys.length - 1);
+    this.goTo(Math.min(floor, this.history.now.plan.storeys.length - 1));
     this.changed();
+  }
+
+  /** @param {number} floor that is shown */
+  goTo(floor) {
+    if (floor === this.floor) return;
+    this.floor = floor;
+    this.later(); // what its sensors see
+  }
+
+  /** Asks for the walls of a further floor, and adds it. */
+  addFloor() {
+    const add = (/** @type {boolean} */ walled) => {
+      this.do(withFloor(this.history.now, walled));
+      this.goTo(this.history.now.plan.storeys.length - 1);
+      this.show();
+    };
+    if (this.closed) return;
+    if (this.history.now.plan.storeys.every((storey) => !storey.walls)) add(false);
+    else this.ask('The new floor on top of the home has', [['the walls of the one below', () => add(true)], ['no walls', () => add(false)], ['Cancel', () => {}]]);
+  }
+
+  removeFloor() {
+    if (this.history.now.plan.storeys.length > 1) this.do(withoutFloor(this.history.now, this.floor));
   }
 
   /** Shows, keeps and checks the drawing. */
@@ -203,15 +241,34 @@ export class Editor {
     this.showStatus();
   }
 
+  /**
+   * Shows what motion sensors would see after an edit that is not done yet; null: there is none.
+   * @param {any} edit
+   */
+  tryOut(edit) {
+    const text = edit ? JSON.stringify(edit) : '';
+    if (text === this.tried) return;
+    this.tried = text;
+    this.trial = edit && apply(this.history.now, { ...edit, storey: this.floor });
+    this.survey();
+  }
+
+  showCoverage() {
+    this.covers = !this.covers;
+    this.showFindings();
+    this.board.draw();
+  }
+
   async survey() {
     if (this.asking) {
       this.stale = true;
       return;
     }
     this.asking = true;
-    const answer = await this.send('survey', { drawing: this.history.now });
+    const { trial } = this, answer = await this.send('survey', { drawing: trial ?? this.history.now, floor: this.storey.number });
     this.asking = false;
-    if (answer.ok) {
+    if (trial) this.told.coverage = answer.ok ? answer.coverage : null;
+    else if (answer.ok) {
       this.found = answer.rooms;
       this.told = answer;
     } else if (!answer.lost) this.told = { findings: [], remarks: [], wrong: answer.text };
@@ -245,16 +302,17 @@ export class Editor {
     this.changed(); // there may be later ones
   }
 
-  async simulate(anyway = false) {
+  /** @param {boolean} [anyway] @param {'simulate' | 'day'} [what] live, or a generated day in the player */
+  async simulate(anyway = false, what = 'simulate') {
     if (this.closed) return;
     clearTimeout(this.keeping);
-    const shown = window.open('', 'angen-home'); // while it is the answer to a click
-    by('simulate').disabled = true;
-    this.hint('Writes the world and starts the simulator …');
-    const drawing = this.history.now, answer = await this.order('simulate', { drawing, anyway });
-    by('simulate').disabled = false;
+    const shown = window.open('', `angen-${what}`), buttons = [by('simulate'), by('a-day')]; // while it is the answer to a click
+    for (const button of buttons) button.disabled = true;
+    this.hint(what === 'day' ? 'Writes the world, and people live in it for a day …' : 'Writes the world and starts the simulator …');
+    const drawing = this.history.now, answer = await this.order(what, { drawing, anyway });
+    for (const button of buttons) button.disabled = false;
     this.hint('');
-    this.saved(answer, drawing, () => this.simulate(true));
+    this.saved(answer, drawing, () => this.simulate(true, what));
     if (answer.address && shown) shown.location.href = answer.address;
     else if (answer.address) location.href = answer.address;
     else shown?.close();
@@ -296,6 +354,7 @@ export class Editor {
     this.selection = [];
     const index = at ? this.rooms.findIndex((room) => inRoom(room, at)) : -1;
     this.room = index < 0 ? null : index;
+    this.spot = index < 0 ? null : at;
     this.show();
   }
 
@@ -352,7 +411,7 @@ export class Editor {
     this.room = null;
     this.board.use({ name: 'put', ...what });
     this.form?.show();
-    this.hint(what.list === 'openings' ? 'Press on a wall; R turns it' : what.list === 'sensors' ? 'Press at its place, and drag to aim it' : 'Press at its place; R turns it');
+    this.hint(what.list === 'openings' ? 'Press on a wall; R turns it' : what.list === 'lifts' ? 'Press behind the wall in which its doors are; R turns it' : what.list === 'sensors' ? 'Press at its place, and drag to aim it' : 'Press at its place; R turns it');
     by('board').focus();
   }
 
@@ -361,12 +420,13 @@ export class Editor {
   show() {
     this.board.draw();
     this.form?.show();
+    this.dayPlan?.show();
     this.shelf?.show();
     this.buildFloors();
     by('undo').disabled = this.closed || this.history.at === 0;
     by('redo').disabled = this.closed || this.history.at === this.history.all.length - 1;
     by('save').disabled = this.closed;
-    by('simulate').disabled = this.closed;
+    by('simulate').disabled = by('a-day').disabled = this.closed;
     this.showStatus();
   }
 
@@ -387,8 +447,11 @@ export class Editor {
   showFindings() {
     const { findings, remarks, wrong } = this.told, item = (/** @type {string} */ text, cls = '') => el('li', { class: cls }, text);
     const rows = wrong ? [item(wrong, 'bad')] : [...findings.map((text) => item(text)), ...remarks.map((text) => item(text))];
-    const none = this.rooms.length ? 'Nothing is wrong with the home.' : 'Draw a room first: the tool Room, or walls around it.';
-    by('findings').replaceChildren(el('h2', {}, rows.length ? `Findings (${rows.length})` : 'Findings'), el('ul', {}, ...(rows.length ? rows : [item(none, 'good')])));
+    const none = this.rooms.length ? 'Nothing is wrong with the home.' : 'Draw a room first: the tool Room, or walls around it.', { coverage } = this.told;
+    const button = (/** @type {string} */ text, /** @type {boolean} */ on, /** @type {() => void} */ does) => el('button', { type: 'button', 'aria-pressed': String(on), onclick: does }, text);
+    const rules = this.history.now.sensors !== 'none', seen = coverage ? [el('div', { class: 'seen' }, el('p', {}, sentence(coverage)), button('Show coverage', this.covers, () => this.showCoverage()),
+      button('Sensors for me', rules, () => this.do({ home: { sensors: rules ? 'none' : 'seed' } }, this.selection)))] : [];
+    by('findings').replaceChildren(el('h2', {}, rows.length ? `Findings (${rows.length})` : 'Findings'), el('ul', {}, ...(rows.length ? rows : [item(none, 'good')])), ...seen);
   }
 
   showTool() {
@@ -410,7 +473,10 @@ export class Editor {
 
   buildFloors() {
     const { storeys } = this.history.now.plan;
-    by('floors').replaceChildren(...(storeys.length > 1 ? [...storeys.entries()].reverse().map(([i, one]) => el('button', { type: 'button', 'aria-pressed': String(i === this.floor), onclick: () => { this.floor = i; this.select([]); this.showFindings(); this.board.whole(); } }, one.name || `Floor ${one.number}`)) : []));
+    const button = (/** @type {string} */ id, /** @type {string} */ sign, /** @type {string} */ text, /** @type {() => void} */ does) => el('button', { id, type: 'button', title: text, 'aria-label': text, onclick: does }, sign);
+    by('floors').replaceChildren(...(this.closed ? [] : [button('floor-add', '+ Floor', 'Add a floor on top', () => this.addFloor())]),
+      ...(storeys.length > 1 ? [...storeys.entries()].sort(([, a], [, b]) => b.elevation - a.elevation).map(([i, one]) => el('button', { type: 'button', 'aria-pressed': String(i === this.floor), onclick: () => { this.goTo(i); this.select([]); this.board.whole(); } }, one.name || `Floor ${one.number}`)) : []),
+      ...(this.closed || storeys.length < 2 ? [] : [button('floor-remove', '− Floor', 'Remove this floor', () => this.removeFloor())]));
   }
 
   /** @param {string} reason why the world cannot be edited */

@@ -1,4 +1,5 @@
 /** The card of what is selected: its numbers and names, and what one can do with it. */
+import { sensorsAt } from './coverage.js';
 import { by, el, words } from './dom.js';
 import { itemOf, lengthOf, mirrored, normal, placeOn, stretched, swung, widened, within, withWalls } from './drawing.js';
 import { areaOf } from './sheet.js';
@@ -30,7 +31,7 @@ export class Form {
   /** @param {string} list @param {any} item @returns {string} */
   title(list, item) {
     const sensor = this.editor.catalog.sensors.find((/** @type {any} */ one) => one.model === item.model);
-    return list === 'walls' ? 'Wall' : list === 'lamps' ? 'Lamp' : list === 'sensors' ? sensor?.name ?? item.model : list === 'movers' ? item.kind : item.source || item.name || item.thing || item.kind || list;
+    return list === 'walls' ? 'Wall' : list === 'lamps' ? 'Lamp' : list === 'sensors' ? sensor?.name ?? item.model : list === 'movers' ? item.kind : list === 'lifts' ? 'Elevator' : item.source || item.name || item.thing || item.kind || list;
   }
 
   /** @param {string[]} keys @param {any} item */
@@ -61,7 +62,15 @@ export class Form {
   /** @param {any} room */
   ofRoom(room) {
     const { editor } = this, use = el('select', { onchange: () => editor.nameRoom(room, room.name, use.value) }, ...USES.map((value) => el('option', { value, selected: value === room.use }, value ? words(value) : 'by its name')));
-    return [this.text('Name', room.name, (name) => editor.nameRoom(room, name, ''), 'kitchen, bathroom, …'), el('label', {}, 'Use', use), el('label', {}, 'Area', el('output', {}, `${areaOf(room.polygon).toFixed(1)} m²`))];
+    return [this.text('Name', room.name, (name) => editor.nameRoom(room, name, ''), 'kitchen, bathroom, …'), el('label', {}, 'Use', use), el('label', {}, 'Area', el('output', {}, `${areaOf(room.polygon).toFixed(1)} m²`)), ...this.ofSpot()];
+  }
+
+  /** @returns {any[]} what detects somebody at the place that was pressed */
+  ofSpot() {
+    const { told: { coverage }, spot } = this.editor;
+    if (!coverage || !spot) return [];
+    const { standing, fallen } = sensorsAt(coverage, spot), row = (/** @type {string} */ text, /** @type {string[]} */ names) => el('label', { class: 'wide' }, text, el('output', {}, names.join(', ') || 'no sensor'));
+    return [row('Who walks here is seen by', standing), row('Who has fallen here and moves, by', fallen)];
   }
 
   /** @param {string} list @param {string} key @param {any} item @returns {any[]} */
@@ -84,8 +93,13 @@ export class Form {
     }
     if (list === 'lamps') return [this.number('Light, lm', item.flux, 100, (flux) => put({ flux }), 0, 20000), this.number('Height, m', item.z - storey.elevation, 0.1, (high) => put({ z: exact(storey.elevation + high) }), 0.1, 10)];
     if (list === 'movers') {
-      const habits = el('select', { onchange: () => put({ habits: habits.value }) }, ...['', ...editor.profiles].map((value) => el('option', { value, selected: value === (item.habits ?? '') }, value ? words(value) : 'stands')));
-      return [this.text('Name', item.name ?? '', (name) => put({ name }), item.kind), degrees('Direction, °'), item.kind === 'person' ? el('label', {}, 'Lives as', habits) : null];
+      const { day, ...undated } = item, habits = el('select', { onchange: () => this.set(key, { ...undated, habits: habits.value }) }, ...['', ...editor.profiles].map((value) => el('option', { value, selected: value === (item.habits ?? '') }, value ? words(value) : 'stands')));
+      return [this.text('Name', item.name ?? '', (name) => put({ name }), item.kind), degrees('Direction, °'), item.kind === 'person' ? el('label', {}, 'Lives as', habits) : null,
+        item.habits ? el('button', { type: 'button', id: 'day-open', onclick: () => editor.dayPlan?.open(key) }, 'Its day …') : null];
+    }
+    if (list === 'lifts') {
+      const floors = editor.history.now.plan.storeys.filter((each) => item.stops.includes(each.number)).map((each) => each.name || `Floor ${each.number}`);
+      return [this.text('Name', item.name, (name) => put({ name: name || 'elevator' })), degrees('Doors to, °'), el('label', {}, 'Stops at', el('output', {}, floors.join(', ')))];
     }
     if (list === 'sensors') {
       return [this.text('Name', item.name ?? '', (name) => put({ name }), 'by its room'), this.number('Height, m', item.z - storey.elevation, 0.1, (high) => put({ z: exact(storey.elevation + high) }), 0, 10), degrees('Direction, °'),

@@ -42,7 +42,7 @@ function plain(editor, e, key) {
   }
   /** @type {Record<string, () => void>} */
   const keys = { r: () => editor.turn((e.shiftKey ? 15 : 90) * (Math.PI / 180)), Delete: () => editor.remove(), Backspace: () => editor.remove(), v: () => board.use({ name: 'select' }), w: () => board.use({ name: 'wall' }), q: () => board.use({ name: 'room' }),
-    '.': () => next(editor, 1), ',': () => next(editor, -1), '+': () => board.zoom(1.25), '-': () => board.zoom(0.8), h: () => board.whole(), t: () => by('theme').click(), '?': () => help() };
+    '.': () => next(editor, 1), ',': () => next(editor, -1), '+': () => board.zoom(1.25), '-': () => board.zoom(0.8), h: () => board.whole(), c: () => editor.showCoverage(), t: () => by('theme').click(), '?': () => help() };
   keys[key]?.();
   return key in keys;
 }
@@ -57,7 +57,7 @@ function next(editor, way) {
 export function help() {
   const rows = [['Walls (W)', 'press where they begin, then at each corner; type a length and Enter'], ['Room (Q)', 'press at two corners, or drag'], ['Click', 'selects; with Shift several; in a room: its name'], ['Drag', 'moves what is selected; on the ground selects all within'],
     ['Wheel, right button', 'zooms, moves the sheet; on a phone two fingers'], ['Arrows', '0.1 m, with Shift 0.01 m; with a tool: its place, Enter puts'], ['R, Shift+R', 'turns by 90°, by 15°; a door: hinge and side'], ['. ,', 'the next, the last thing'],
-    ['Delete', 'removes it'], ['Ctrl+C X V D A', 'copy, cut, paste, twice, all'], ['Ctrl+Z Y', 'undo, redo'], ['Ctrl+S', 'saves'], ['Esc', 'ends a tool'], ['H, + −', 'the whole home, zoom'], ['Alt', 'turns a sensor freely']];
+    ['Delete', 'removes it'], ['Ctrl+C X V D A', 'copy, cut, paste, twice, all'], ['Ctrl+Z Y', 'undo, redo'], ['Ctrl+S', 'saves'], ['Esc', 'ends a tool'], ['H, + −', 'the whole home, zoom'], ['C', 'what motion sensors see'], ['Alt', 'turns a sensor freely']];
   by('dialog').replaceChildren(el('h2', {}, 'Keys'), el('dl', {}, ...rows.flatMap(([key, text]) => [el('dt', {}, el('kbd', {}, key)), el('dd', {}, text)])), el('form', { method: 'dialog' }, el('button', { class: 'main' }, 'Close')));
   by('dialog').showModal();
 }

@@ -2,6 +2,7 @@
 import { accessed, denied } from './access.js';
 import { by, download, el, isForOthers, isNarrow, limit, notice } from './dom.js';
 import { Card } from './card.js';
+import { Carry } from './carry.js';
 import { sunAt } from './daylight.js';
 import { Goal } from './goal.js';
 import { Home } from './home.js';
@@ -41,6 +42,7 @@ class Page {
     this.buildBar();
     this.buildFloors();
     this.buildLayers();
+    this.carry = new Carry(this.home, this);
     for (const topic of ['status', 'access']) this.home.on(topic, () => this.showStatus());
     this.home.on('stats', () => this.showClock());
     this.home.on('home', () => this.buildFloors());
@@ -355,7 +357,7 @@ class Page {
   help() {
     const rows = [['Click', 'a door, lamp, person, sensor or floor: what it is and does'], ['Drag', 'turns the view; with the right button or two fingers it moves'], ['Wheel', 'zooms'],
       ['Space', 'pauses'], ['.', 'one second on, while paused'], ['N', 'the next event, in a recording'], ['0 – 9, *', 'a floor, all floors'], ['H, P', 'the whole home, from above'], ['V', '3D or plan'], ['F', 'sensor fields'],
-      ['T', 'light or dark'], ['W A S D', 'drive the robot, in its tab'], ['Drag the robot', 'its goal'], ['Esc', 'closes']];
+      ['T', 'light or dark'], ['W A S D', 'drive the robot, in its tab'], ['Drag the robot', 'its goal'], ['M', 'moves things: drag them; by keys . and , choose one, arrows move it, R turns it, Enter puts it there'], ['Esc', 'closes']];
     by('dialog').replaceChildren(el('h2', {}, 'Keys'), el('dl', {}, ...rows.flatMap(([key, text]) => [el('dt', {}, el('kbd', {}, key)), el('dd', {}, text)])),
       el('form', { method: 'dialog' }, el('button', { class: 'main' }, 'Close')));
     by('dialog').showModal();

@@ -18,6 +18,7 @@ const TOP = 1.8, HUNG = 1.3, PANE = 0.07, LEAST_PART = 0.03; // m over the floor
 const MESH = 3; // type of a shape
 const LEAVES = ['door', 'window'], LEAST_LEAF = 0.2; // m
 const EMPTY = 5; // m: half of the ground that is drawn where there are no models
+const PUSHED = 0.05; // m from where a thing is drawn
 const HEIGHT = 0.9; // m of walls over their floor that are drawn where the home has no rooms
 
 export class Plan {
@@ -41,6 +42,8 @@ export class Plan {
     this.items = new Map();
     /** @type {Map<any, number[][]>} by entity: where its mark is, from one end to the other */
     this.lines = new Map();
+    /** @type {Map<number, number[]>} x y of things as they are drawn, by link */
+    this.drawnAt = new Map();
     for (const topic of ['scene', 'home', 'entities']) home.on(topic, () => { this.stale = true; this.draw(); });
     home.on('rows', () => this.update());
     home.on('poses', () => this.later());
@@ -70,6 +73,7 @@ export class Plan {
     this.stale = false;
     this.items.clear();
     this.lines.clear();
+    this.drawnAt.clear();
     const { home } = this, number = this.number();
     const rooms = home.rooms.filter((room) => room.storey === number), shown = home.entities.filter((e) => this.isShown(e, number));
     const walls = rooms.length ? [] : this.walls(number);
@@ -133,7 +137,7 @@ export class Plan {
 
   /** @param {any} shape a box of the scene @returns {number[]} x y yaw of its middle */
   placeOf(shape) {
-    const link = this.home.scene.links[shape.link].pose, yaw = 2 * Math.atan2(link[5], link[6]), [c, s] = [Math.cos(yaw), Math.sin(yaw)];
+    const link = this.home.pose(shape.link), yaw = 2 * Math.atan2(link[5], link[6]), [c, s] = [Math.cos(yaw), Math.sin(yaw)];
     return [link[0] + c * shape.pose[0] - s * shape.pose[1], link[1] + s * shape.pose[0] + c * shape.pose[1], yaw + 2 * Math.atan2(shape.pose[5], shape.pose[6])];
   }
 
@@ -187,7 +191,7 @@ export class Plan {
    * @param {any} thing @returns {any[]}
    */
   thing(thing) {
-    const { home } = this, links = home.linksOf(thing.name), [tx, ty, , , , qz, qw] = thing.pose, turn = 2 * Math.atan2(qz, qw), [c, s] = [Math.cos(turn), Math.sin(turn)];
+    const { home } = this, links = home.linksOf(thing.name), [tx, ty, turn] = this.placeOfThing(thing, links), [c, s] = [Math.cos(turn), Math.sin(turn)];
     const floor = home.storeys.find((one) => one.number === home.storeyAt(thing.pose[2] + 0.2))?.elevation ?? 0;
     const low = (/** @type {any} */ part) => home.scene.links[part.link].pose[2] + part.pose[2] - part.size[2] / 2 - floor;
     const parts = home.scene.shapes.filter((/** @type {any} */ part) => links.includes(part.link)).map((/** @type {any} */ part) => this.boxOf(part)).filter((/** @type {any} */ part) => low(part) < TOP);
@@ -200,6 +204,18 @@ export class Plan {
       return [tx + x * c - y * s, ty + x * s + y * c];
     };
     return furniture(home.symbols[thing.type], at, parts.length === 1 && Boolean(parts[0].type), parts.every((/** @type {any} */ part) => low(part) > HUNG));
+  }
+
+  /**
+   * Where a thing is now, which may be pushed or put elsewhere.
+   * @param {any} thing @param {number[]} links @returns {number[]} x y yaw
+   */
+  placeOfThing(thing, links) {
+    const [x, y, , , , qz, qw] = thing.pose, yaw = 2 * Math.atan2(qz, qw);
+    if (!links.length) return [x, y, yaw];
+    const was = this.home.scene.links[links[0]].pose, now = this.home.pose(links[0]), turn = yawOf(now) - yawOf(was), [c, s] = [Math.cos(turn), Math.sin(turn)];
+    this.drawnAt.set(links[0], [now[0], now[1]]);
+    return [now[0] + c * (x - was[0]) - s * (y - was[1]), now[1] + s * (x - was[0]) + c * (y - was[1]), yaw + turn];
   }
 
   /** @param {any} shape @returns {any} the box around a mesh; another shape as it is */
@@ -264,6 +280,11 @@ export class Plan {
   update() {
     if (this.hidden || !this.root || this.stale) return;
     const { home } = this, number = this.number(), taken = new Taken(), high = 0.4 * this.text;
+    if ([...this.drawnAt].some(([link, [x, y]]) => Math.hypot(home.pose(link)[0] - x, home.pose(link)[1] - y) > PUSHED)) {
+      this.stale = true;
+      this.draw();
+      return;
+    }
     taken.boxes.push(...this.names);
     for (const [e] of this.lines) {
       const [x, y, z] = Array.from(home.place(e)), half = this.half(e);

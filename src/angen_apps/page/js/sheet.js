@@ -1,6 +1,7 @@
 /** What the sheet shows of a home that is drawn, and where. */
+import { mapOf } from './coverage.js';
 import { by, svg } from './dom.js';
-import { distance, itemOf, keysOf, normal, placesOf } from './drawing.js';
+import { distance, isBuilt, itemOf, keysOf, normal, placesOf } from './drawing.js';
 import { reach } from './fields.js';
 import { Taken, nameOf } from './places.js';
 import { furniture, signOf } from './symbols.js';
@@ -136,6 +137,36 @@ export class Sheet {
       chosen ? svg('path', { class: 'halo', d: across(middle), 'stroke-width': high - low + 10 / this.scale }) : null, svg('path', { class: 'gap', d: across(middle), style: `stroke-width: ${high - low + 0.02}` }),
       kind === 'window' || opening.glazed || opening.glass ? svg('path', { class: 'pane', d: [low, middle, high].map(across).join('') }) : null,
       swings ? svg('path', { class: 'swing', d: swings }) : null, leaves ? svg('path', { class: 'leaf', d: leaves }) : null);
+  }
+
+  /** @returns {any[]} what motion sensors see, and the place whose sensors the card lists */
+  cover() {
+    const { told: { coverage }, spot, room } = this.editor, dot = spot && room !== null ? [svg('circle', { class: 'dot', r: 5 / this.scale, cx: spot[0], cy: -spot[1] })] : [];
+    if (!coverage || !this.covered) return dot;
+    const shown = this.once(coverage, '', () => svg('g', {}, ...mapOf(coverage)));
+    return [shown, ...dot];
+  }
+
+  get covered() { return false; }
+
+  /** @param {Item} storey @returns {any[]} the walls of the floor below */
+  below(storey) {
+    const lower = this.editor.history.now.plan.storeys.filter((each) => each.elevation < storey.elevation).sort((a, b) => b.elevation - a.elevation)[0];
+    return (lower?.walls ?? []).map((/** @type {Item} */ wall) => svg('line', { class: 'wall below', x1: wall.start[0], y1: -wall.start[1], x2: wall.end[0], y2: -wall.end[1], 'stroke-width': wall.thickness }));
+  }
+
+  /** @param {Item} storey @param {Set<string>} chosen */
+  lifts(storey, chosen) {
+    const built = (/** @type {Item} */ lift) => isBuilt({ storeys: [storey] }, lift);
+    return (storey.lifts ?? []).map((/** @type {Item} */ lift, /** @type {number} */ i) => (lift.stops.includes(storey.number) ? this.lift(lift, chosen.has(`lifts/${i}`), '', !built(lift)) : null)).filter(Boolean);
+  }
+
+  /** @param {Item} lift @param {boolean} chosen @param {string} [cls] @param {boolean} [walled] whether its shaft is shown with it */
+  lift({ x, y, yaw, width, depth, front }, chosen, cls = '', walled = true) {
+    const half = width / 2, deep = depth / 2, side = half + 0.16, back = -deep - 0.15, door = front + 0.12, gap = 0.58;
+    return svg('g', { class: `item lift ${chosen ? 'chosen' : ''} ${cls}`, transform: `translate(${x} ${-y}) rotate(${(-yaw * 180) / PI})` },
+      walled ? svg('path', { class: `wall${chosen ? ' chosen' : ''}`, 'stroke-width': 0.2, d: `M${door} ${-gap}V${-side}H${back}V${side}H${door}V${gap}` }) : null,
+      svg('path', { class: 'face', d: `M${-deep} ${-half}H${deep}V${half}H${-deep}Z` }), svg('path', { class: 'sign', d: `M${-deep} ${-half}L${deep} ${half}M${-deep} ${half}L${deep} ${-half}M${deep + 0.08} ${-gap}V-.02M${deep + 0.08} ${gap}V.02` }));
   }
 
   /** @param {Item} storey @param {Set<string>} chosen */

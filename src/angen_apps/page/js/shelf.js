@@ -17,7 +17,7 @@ export class Shelf {
     this.groups = [
       this.group('Doors and windows', Object.keys(SORTS).map((sort) => [sort, { list: 'openings', of: sort }])),
       this.group('Furniture', pieces.map((/** @type {any} */ piece) => [piece.name, { list: 'pieces', of: piece }])),
-      this.group('Lamps, people, robots', [['lamp', { list: 'lamps', of: 'lamp' }], ['person', { list: 'movers', of: 'person' }], ['robot', { list: 'movers', of: 'robot' }]]),
+      this.group('Lamps, people, robots, elevators', [['lamp', { list: 'lamps', of: 'lamp' }], ['person', { list: 'movers', of: 'person' }], ['robot', { list: 'movers', of: 'robot' }], ['elevator', { list: 'lifts', of: 'elevator' }]]),
       this.group('Sensors', sensors.map((/** @type {any} */ sensor) => [sensor.name, { list: 'sensors', of: sensor }])),
     ];
     by('panel').replaceChildren(search, ...this.groups.map(({ element }) => element), el('h3', {}, 'Sensors of the home'), el('label', { class: 'rules' }, this.rules));

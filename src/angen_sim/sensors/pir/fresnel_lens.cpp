@@ -87,6 +87,24 @@ double FresnelLens::Line::sensitivity(double azimuth) const {
   return sum;
 }
 
+std::vector<Vec3> FresnelLens::directions() const {
+  std::vector<Vec3> all;
+  for (const Zones& row : rows_) {
+    const double height = row.window.high - row.window.low;
+    for (std::size_t zone = 0; zone < row.sign.size(); ++zone) {
+      if (row.sign[zone] == 0.0) continue;
+      const double right = row.window.right + 0.5 * row.width * (static_cast<double>(zone) + 0.25);
+      for (int i = 0; i < 9; ++i) {
+        const double azimuth = right + 0.25 * row.width * (i % 3 + 0.5) / 3.0;
+        const double elevation = row.window.low + height * (i / 3 + 0.5) / 3.0;
+        all.emplace_back(std::cos(elevation) * std::cos(azimuth),
+                         std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+      }
+    }
+  }
+  return all;
+}
+
 double FresnelLens::narrowest() const {
   double least = 2.0 * M_PI;
   for (const Zones& row : rows_) least = std::min(least, 0.25 * row.width);  // and gaps as wide

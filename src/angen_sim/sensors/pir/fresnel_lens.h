@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/pose.h"
+
 namespace angen::sensors {
 
 /// A span of azimuth (to the left) and one of elevation (upwards) about the detector's x axis, rad.
@@ -55,6 +57,9 @@ class FresnelLens {
   double sensitivity(double azimuth, double elevation) const {
     return line(elevation).sensitivity(azimuth);
   }
+
+  /// Unit vectors into the zones that see something: nine evenly over each.
+  std::vector<Vec3> directions() const;
 
   /// rad: of the narrowest zone, and of the lowest row.
   double narrowest() const;

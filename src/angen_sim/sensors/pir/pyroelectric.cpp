@@ -78,6 +78,7 @@ BandPass::Corners read_corners(Params& params) {
 void Pyroelectric::configure(Params& params, Wiring&) {
   FresnelLens lens = read_camera(params);
   rays_ = read_rays(params, rays_across(lens.window()));
+  rays_.zones = lens.directions();
   const double facet =
       params.number("facet_area", 3e-5, "m^2", "of the lens, for one zone pair", kPositive);
   const double passes = params.number("transmission", 0.4, "",

@@ -9,13 +9,17 @@ from typing import Any
 from lxml import etree
 from shapely.geometry import Polygon
 
+from angen_apps.edit.coverage import coverage
+from angen_apps.edit.habits import check_day
 from angen_apps.imports.flood import rooms_of
 from angen_apps.plan.drawing import Drawing, from_json
 from angen_apps.plan.finish import finish, stem
+from angen_apps.plan.lifts import with_shafts
 from angen_apps.plan.model import Plan, Room, Storey
 from angen_apps.plan.polygons import contains
 from angen_apps.plan.writer import world_of, write_world, written
 from angen_tools.common.catalog import angen_module, simulator
+from angen_tools.common.failure import Failure
 from angen_tools.world import sdf
 
 MODELS = ('pir', 'pir_casas', 'luminosity_sensor')  # sensors that rules place
@@ -26,6 +30,7 @@ SAME = 0.5  # share of the smaller of two rooms that is in both, if they are one
 def finished(drawing: Drawing) -> Plan:
     """The plan with the rooms between its walls, and all names."""
     plan = deepcopy(drawing.plan)
+    with_shafts(plan)
     for storey in plan.storeys:
         top = max((wall.top - storey.elevation for wall in storey.walls), default=CEILING)
         found = rooms_of(storey, top, [((label.x, label.y), label.name)
@@ -48,8 +53,9 @@ def _used(room: Room, storey: Storey) -> Room:
     return replace(room, use=use or room.use)
 
 
-def survey(data: Any) -> dict[str, Any]:
-    """Rooms, findings and remarks of a drawing; Failure if it cannot be a world."""
+def survey(data: Any, floor: Any = None) -> dict[str, Any]:
+    """Rooms, findings and remarks of a drawing, and what sensors see of the storey of a number;
+    Failure if it cannot be a world."""
     drawing = from_json(data, 'the drawing')
     plan = finished(drawing)
     rooms = [{'storey': storey.number, 'name': stem(room.name), 'use': room.use,
@@ -64,8 +70,20 @@ def survey(data: Any) -> dict[str, Any]:
         world = angen_module().World.from_text(etree.tostring(root, encoding='unicode'))
     findings = [text.partition('; name it in <angen:')[0] for _, text in world.home_findings()
                 if not text.startswith('no <angen:')] if rooms else []
+    findings += _wrong_days(plan)
     return {'rooms': rooms, 'findings': findings, 'remarks': plan.remarks, 'counts': counts,
-            'ruled': ruled}
+            'ruled': ruled, 'coverage': coverage(world, floor) if rooms else None}
+
+
+def _wrong_days(plan: Plan) -> list[str]:
+    """What is wrong with the days of people."""
+    found = []
+    for mover in (mover for storey in plan.storeys for mover in storey.movers if mover.day):
+        try:
+            check_day(mover)
+        except Failure as failure:
+            found.append(str(failure))
+    return found
 
 
 def _by_rules(root: etree._Element, plan: Plan) -> list[dict[str, Any]]:

@@ -8,6 +8,7 @@ from typing import Any
 
 from angen_apps.edit.catalog import catalog
 from angen_apps.edit.desk import Desk, in_use
+from angen_apps.edit.habits import days, durations
 from angen_apps.edit.server import Editor
 from angen_apps.edit.simulation import Simulation
 from angen_apps.edit.worker import Worker
@@ -35,7 +36,7 @@ def edit(args: argparse.Namespace) -> None:
                 print(f'remark: {remark}', file=sys.stderr)
             desk = Desk(path, worker, drawing)
             given = {'catalog': worker.run('the catalog', catalog), 'symbols': symbols(),
-                     'profiles': names()}
+                     'profiles': names(), 'days': days(), 'durations': durations()}
             simulation = Simulation(args.host)
             serve('edit', lambda guard: Editor(desk, simulation, given, guard, page()), args.host,
                   args.port, args.json)

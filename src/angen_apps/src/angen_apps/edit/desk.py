@@ -12,6 +12,8 @@ from typing import Any
 from lxml import etree
 
 from angen_apps.edit import build
+from angen_apps.edit.habits import write_profiles
+from angen_apps.edit.simulation import STARTS
 from angen_apps.edit.worker import Worker
 from angen_apps.plan.drawing import from_json, recovered, to_json
 from angen_apps.plan.overlays import What
@@ -88,6 +90,10 @@ class Desk:
         self.drawing = drawing
         self.version += 1
         self.draft.unlink(missing_ok=True)
+        try:
+            self.household(drawing)
+        except Failure as failure:  # the world is saved
+            return f'{text}; {failure}'
         return text
 
     def discard(self, base: Any) -> None:
@@ -102,15 +108,16 @@ class Desk:
         return drawn
 
     def household(self, drawing: Any) -> dict[str, str]:
-        """Names of the people in the file who live by habits, and these."""
+        """Names of the people in the file who live by habits, and these, which it writes beside
+        the world if they are none of Angen's profiles."""
         names = etree.parse(str(self.path)).xpath('world/actor/@name')
         people = [mover for storey in from_json(drawing, 'the drawing').plan.storeys
                   for mover in storey.movers if mover.kind == 'person']
-        return {str(name): mover.habits for name, mover in zip(names, people) if mover.habits}
+        return write_profiles(self.path, dict(zip(map(str, names), people)), STARTS)
 
-    def survey(self, drawing: Any) -> dict[str, Any]:
+    def survey(self, drawing: Any, floor: Any = 0) -> dict[str, Any]:
         """See build.survey."""
-        found: dict[str, Any] = self._worker.run('the drawing', build.survey, drawing)
+        found: dict[str, Any] = self._worker.run('the drawing', build.survey, drawing, floor)
         return found
 
     def _take(self, base: Any) -> None:

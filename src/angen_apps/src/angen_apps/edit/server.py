@@ -28,6 +28,7 @@ class Editor(Site):
         self._desk, self._simulation, self._given = desk, simulation, given
         self._windows: set[web.WebSocketResponse] = set()
         self._turn = asyncio.Lock()  # one change at a time
+        self._runs = asyncio.Lock()  # one simulation at a time
         self.app.add_routes([web.get('/home.json', self._home), web.get('/windows', self._window),
                              web.get('/plan.svg', self._picture),
                              web.post('/do/{what}', self._do)])
@@ -95,7 +96,7 @@ class Editor(Site):
     async def _execute(self, what: str, order: dict[str, Any]) -> dict[str, Any]:
         desk, drawing, base = self._desk, order.get('drawing'), order.get('base')
         if what == 'survey':
-            found: dict[str, Any] = await in_thread(desk.survey, drawing)
+            found: dict[str, Any] = await in_thread(desk.survey, drawing, order.get('floor'))
             return found
         async with self._turn:
             text = ''
@@ -104,19 +105,21 @@ class Editor(Site):
                 await in_thread(desk.keep, drawing, at if isinstance(at, (int, float)) else 0, base)
             elif what == 'discard':
                 await in_thread(desk.discard, base)
-            elif what in ('save', 'simulate'):
+            elif what in ('save', 'simulate', 'day'):
                 text = await in_thread(desk.save, drawing, base, order.get('anyway') is True)
             else:
-                raise Failure(f'{what} is not known; there are survey, keep, discard, save and '
-                              'simulate')
+                raise Failure(f'{what} is not known; there are survey, keep, discard, save, '
+                              'simulate and day')
             answer = {'version': desk.version, 'text': text}
-            if what == 'simulate':
+        if what in ('simulate', 'day'):
+            async with self._runs:
+                run = self._simulation.run if what == 'simulate' else self._simulation.day
                 try:
                     household = await in_thread(desk.household, drawing)
-                    answer['address'] = await in_thread(self._simulation.run, desk.path, household)
+                    answer['address'] = await in_thread(run, desk.path, household)
                 except Failure as failure:  # it is saved
                     answer['wrong'] = str(failure)
-            return answer
+        return answer
 
 
 def _json(data: Any, status: int = 200) -> web.Response:

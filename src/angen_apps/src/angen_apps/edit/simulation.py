@@ -2,12 +2,14 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sys
 import tempfile
 from contextlib import ExitStack
 from pathlib import Path
-from subprocess import Popen
+from subprocess import Popen, TimeoutExpired
 
+from angen_apps.residents.profiles import is_file
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
 from angen_tools.common.port import free_port
@@ -17,6 +19,7 @@ from angen_tools.live.sandbox import Sandbox, end
 PROGRAM = 'from angen_tools.cli.main import main; main()'
 RESIDENTS = 'from angen_apps.residents.node import main; main()'
 STARTS = 7  # hour of the day
+GENERATES = 600.0  # s of wall time, at most
 LIMIT = 60.0  # s until the page is served
 
 
@@ -29,22 +32,62 @@ class Simulation:
         self._sandbox: Sandbox | None = None
         self._running: list[Popen[bytes]] = []  # the residents and the node
         self._page: Popen[bytes] | None = None
+        self._player: Popen[bytes] | None = None
 
     def run(self, world: Path, household: dict[str, str]) -> str:
         """The address of the page of the world, which runs. `household`: profiles of residents, by
         the names of people in the world whose places they take."""
+        sandbox = self._started()
+        if self._page is None:
+            self._page = self._serve(sandbox, 'web')
+        while self._running:
+            end(self._running.pop())
+        self._running = [sandbox.node(world.absolute(), 1.0)]
+        if household:
+            self._running.append(self._settle(sandbox, world.absolute(), household))
+        return self._address(self._page, sandbox.folder / 'web.log')
+
+    def day(self, world: Path, household: dict[str, str]) -> str:
+        """The address of a player of a day of these residents, which is generated."""
+        if not household:
+            raise Failure('nobody lives here: put a person, and choose in its card as what it '
+                          'lives')
+        sandbox = self._started()
+        folder = sandbox.folder / 'day'
+        if self._player is not None:
+            end(self._player)
+        shutil.rmtree(folder, ignore_errors=True)
+        who = []
+        for name, profile in household.items():  # their paths may have a comma
+            who.append(profile)
+            if is_file(profile):
+                who[-1] = str(shutil.copy(profile, sandbox.folder / f'{name}.yaml'))
+        made = sandbox.start([
+            sys.executable, '-c', PROGRAM, 'generate', str(world.absolute()), '--days', '1',
+            '--residents', ','.join(who), '--out', str(folder)], 'generate')
+        try:
+            failed = made.wait(GENERATES)
+        except TimeoutExpired:
+            end(made)
+            raise Failure(f'a day takes longer than {GENERATES / 60:g} minutes; use angen '
+                          f'generate {world.name}') from None
+        if failed:
+            log = (sandbox.folder / 'generate.log').read_text(errors='replace').strip()
+            raise Failure(log.splitlines()[-1] if log else 'angen generate ended')
+        self._player = self._serve(sandbox, 'player', '--replay', str(folder),
+                                   str(world.absolute()))
+        return self._address(self._player, sandbox.folder / 'player.log')
+
+    def _started(self) -> Sandbox:
         if self._sandbox is None:
             folder = self._all.enter_context(tempfile.TemporaryDirectory(prefix='angen_edit_'))
             self._sandbox = self._all.enter_context(Sandbox(Path(folder)))
-            self._page = self._sandbox.start([
-                sys.executable, '-c', PROGRAM, 'web', '--host', self._host, '--port',
-                str(free_port()), '--json'], 'web')
-        while self._running:
-            end(self._running.pop())
-        self._running = [self._sandbox.node(world.absolute(), 1.0)]
-        if household:
-            self._running.append(self._settle(self._sandbox, world.absolute(), household))
-        return self._address(self._sandbox.folder / 'web.log')
+        return self._sandbox
+
+    def _serve(self, sandbox: Sandbox, name: str, *words: str) -> Popen[bytes]:
+        """angen web, with a log of this name."""
+        return sandbox.start([sys.executable, '-c', PROGRAM, 'web', *words, '--host', self._host,
+                              '--port', str(free_port()), '--json'], name)
 
     @staticmethod
     def _settle(sandbox: Sandbox, world: Path, household: dict[str, str]) -> Popen[bytes]:
@@ -54,9 +97,10 @@ class Simulation:
         write_text(file, f'starts: {STARTS}\nresidents: {json.dumps(household)}\n')
         return sandbox.start([sys.executable, '-c', RESIDENTS, str(file), str(world)], 'residents')
 
-    def _address(self, log: Path) -> str:
+    @staticmethod
+    def _address(page: Popen[bytes], log: Path) -> str:
         def address() -> str:
-            if self._page is not None and self._page.poll() is not None:
+            if page.poll() is not None:
                 raise Failure(f'angen web ended: {log.read_text(errors="replace").strip()}')
             lines = [line for line in log.read_text().splitlines() if line.startswith('{"address"')]
             return str(json.loads(lines[0])['address']) if lines and lines[0][-1] == '}' else ''

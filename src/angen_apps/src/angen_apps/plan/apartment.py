@@ -11,10 +11,10 @@ from random import Random
 
 from angen_apps.plan.finish import finish
 from angen_apps.plan.furnished import furnished
-from angen_apps.plan.lifts import shaft
+from angen_apps.plan.lifts import THICK, add_shaft
 from angen_apps.plan.model import Lamp, Leaf, Lift, Opening, Plan, Point, Room, Storey, Wall, turned
 
-OUTER, INNER = 0.2, 0.1  # m, walls
+OUTER, INNER = THICK, 0.1  # m, walls
 CEILING, RISE = 2.5, 3.0  # m
 HALL = 1.5  # m wide
 LEAF = 0.86  # m
@@ -180,13 +180,5 @@ def add_elevator(plan: Plan, at: Point, yaw: float) -> None:
     x, y = turned(at, yaw, back, 0.0)
     plan.lifts.append(Lift('elevator', x, y, yaw, SHAFT[1] - 0.12, SHAFT[0] - 0.2,
                            tuple(storey.number for storey in plan.storeys), front=-0.12 - back))
-    end, side = -SHAFT[0] - 0.3, SHAFT[1] / 2 + OUTER / 2
-    right, left, back_right, back_left = (turned(at, yaw, u, v) for u in (0.0, end)
-                                          for v in (-side, side))
     for storey in plan.storeys:
-        z = storey.elevation
-        storey.openings.append(Opening('opening', *at, yaw + pi / 2, 1.16, z, z + 2.12,
-                                       (-OUTER / 2, OUTER / 2), source='shaft'))
-        storey.walls += [Wall(a, b, OUTER, z, z + CEILING) for a, b in (
-            (right, back_right), (left, back_left), (back_right, back_left))]
-        storey.cutouts.append(shaft(plan.lifts[0]))
+        add_shaft(storey, plan.lifts[0], at, SHAFT, storey.elevation + CEILING)

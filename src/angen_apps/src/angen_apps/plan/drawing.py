@@ -24,12 +24,14 @@ MOST = 5000  # entries of a list
 SENSORS = ('seed', 'casas', 'none')
 CHOICES = {('Opening', 'kind'): ('door', 'window', 'opening'),
            ('Mover', 'kind'): ('person', 'robot'),
+           ('Planned', 'days'): ('all', 'weekday', 'weekend'),
            ('Piece', 'shape'): ('box', 'cylinder', 'stairs', 'curved_stairs', 'tray', 'shell',
                                 'flat')}
 PLAIN = {('Piece', 'model'): r'\w*', ('Sensor', 'model'): r'\w+', ('Piece', 'thing'): r'\w*',
          ('Piece', 'mesh'): r'(?!.*\.\.)[\w./ -]*', ('Room', 'use'): r'\w*',
          ('Label', 'use'): r'\w*', ('Mover', 'habits'): r'\w*'}
-LENGTHS = ('thickness', 'width', 'height', 'depth', 'slab', 'flux', 'ceiling', 'doorway')  # >= 0
+LENGTHS = ('thickness', 'width', 'height', 'depth', 'slab', 'flux', 'ceiling', 'doorway',
+           'low', 'high', 'chance')  # >= 0
 MARK = '<!-- angen drawing '
 KEPT = re.compile(re.escape(MARK) + r'([0-9a-f]{64}) (\{.*\}) -->\n\Z')
 
@@ -102,6 +104,9 @@ def from_json(data: Any, what: str) -> Drawing:
     numbers = [storey.number for storey in plan.storeys]
     if not numbers or len(set(numbers)) < len(numbers):
         raise Failure(f'{what}: plan.storeys need numbers of their own, at least one')
+    for i, lift in enumerate(plan.lifts):
+        if not lift.stops or not set(lift.stops) <= set(numbers):
+            raise Failure(f'{what}: plan.lifts[{i}].stops must be numbers of storeys, at least one')
     return Drawing(plan, data.get('sensors', 'seed'))
 
 

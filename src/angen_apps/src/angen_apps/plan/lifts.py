@@ -2,13 +2,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import sin
+from math import pi, sin
 from typing import Sequence
 
 from lxml import etree
 
-from angen_apps.plan.model import Lift, Plan, Point, Wall, local, turned
-from angen_apps.plan.walls import direction, footprint
+from angen_apps.plan.model import Lift, Opening, Plan, Point, Storey, Wall, local, turned
+from angen_apps.plan.names import Names, slug
+from angen_apps.plan.polygons import contains
+from angen_apps.plan.walls import cuts_wall, direction, footprint
 from angen_models.sdf import (Part, add, add_fixed, add_joint, add_link, add_plugin, add_pose,
                               new_model, spanned)
 
@@ -16,6 +18,8 @@ STEEL = (0.7, 0.72, 0.75)
 CLEAR = 2.1  # m, height of the doorway
 TOP = 2.29  # m, of the cabin
 GAP = 0.002
+THICK = 0.2  # m, the walls of a shaft
+CEILING = 2.5  # m over a floor without walls
 CABIN_SILL = 0.04  # m that the cabin's floor reaches before the cabin, under its doors
 LANDING_DOOR = 0.06  # m before the cabin
 BESIDE = 0.03  # m between the cabin and the walls beside it
@@ -32,6 +36,46 @@ def shaft(lift: Lift) -> tuple[Point, ...]:
     return tuple(turned((lift.x, lift.y), lift.yaw, u, v)
                  for u, v in ((-half_x, -half_y), (front, -half_y), (front, half_y),
                               (-half_x, half_y)))
+
+
+def with_shafts(plan: Plan) -> None:
+    """Adds the shafts of lifts that have none yet, as of one that was drawn: where it stops, its
+    doorway is in the wall before it, or in one of its own."""
+    built = [any(contains(cutout, lift.x, lift.y) for storey in plan.storeys
+                 for cutout in storey.cutouts) for lift in plan.lifts]
+    names = Names()
+    for lift, has_shaft in zip(plan.lifts, built):
+        if has_shaft:
+            names.take(lift.name)
+    for i, lift in enumerate(plan.lifts):
+        if built[i]:
+            continue
+        stops = sorted((storey for storey in plan.storeys if storey.number in lift.stops),
+                       key=lambda storey: storey.elevation)
+        plan.lifts[i] = replace(lift, name=names.take(slug(lift.name, 'elevator')),
+                                stops=tuple(storey.number for storey in stops))
+        at = turned((lift.x, lift.y), lift.yaw, front_of(lift) + DOORS, 0.0)
+        for storey in stops:
+            top = max((wall.top for wall in storey.walls), default=storey.elevation + CEILING)
+            add_shaft(storey, lift, at, (lift.depth + 0.2, lift.width + 0.12), top)
+            if not any(cuts_wall(storey.openings[-1], wall) for wall in storey.walls):
+                v = lift.width / 2 + 0.06 + THICK / 2
+                right, left = (turned(at, lift.yaw, 0.0, side) for side in (-v, v))
+                storey.walls.append(Wall(right, left, THICK, storey.elevation, top))
+
+
+def add_shaft(storey: Storey, lift: Lift, at: Point, inner: tuple[float, float], top: float
+              ) -> None:
+    """Appends doorway, walls and hole of a lift's shaft. Its doorway is in a wall at a point, its
+    `inner` depth and width (m) are behind that wall."""
+    z, end, side = storey.elevation, -inner[0] - 0.3, inner[1] / 2 + THICK / 2
+    right, left, back_right, back_left = (turned(at, lift.yaw, u, v) for u in (0.0, end)
+                                          for v in (-side, side))
+    storey.openings.append(Opening('opening', *at, lift.yaw + pi / 2, 1.16, z, z + 2.12,
+                                   (-THICK / 2, THICK / 2), source='shaft'))
+    storey.walls += [Wall(a, b, THICK, z, top) for a, b in (
+        (right, back_right), (left, back_left), (back_right, back_left))]
+    storey.cutouts.append(shaft(lift))
 
 
 def front_of(lift: Lift) -> float:

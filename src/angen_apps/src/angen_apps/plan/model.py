@@ -137,6 +137,20 @@ class Sensor:
 
 
 @dataclass(frozen=True)
+class Planned:
+    """What a person does, one after the other, at a usual time of day: it begins from `low` to
+    `high`, s after midnight. Alone `wake` and `sleep` begin and end the day."""
+
+    do: tuple[str, ...]
+    low: float
+    high: float
+    days: str = 'all'
+    chance: float = 1.0
+    together: bool = False
+    lasts: tuple[float, float] | None = None  # s, of the first
+
+
+@dataclass(frozen=True)
 class Mover:
     """A person or a robot that stands somewhere."""
 
@@ -146,6 +160,7 @@ class Mover:
     y: float
     yaw: float = 0.0
     habits: str = ''  # profile by which a person lives there, when its drawing is simulated
+    day: tuple[Planned, ...] = ()  # its usual day, if it is not that of the profile
 
 
 @dataclass(frozen=True)

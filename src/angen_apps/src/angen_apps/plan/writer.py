@@ -121,15 +121,15 @@ def _add_own(world: etree._Element, plan: Plan) -> None:
                 include(world, ROBOT, name, (mover.x, mover.y, storey.elevation + ABOVE, 0, 0,
                                              mover.yaw))
             else:
-                _add_person(world, mover, name)
+                _add_person(world, mover, name, storey.elevation)
 
 
-def _add_person(world: etree._Element, mover: Mover, name: str) -> None:
+def _add_person(world: etree._Element, mover: Mover, name: str, floor: float) -> None:
     """A person who stands at a place until a command."""
     script = add(add(world, 'actor', name=name), 'script')
     waypoint = add(add(script, 'trajectory', id='0', type='walking'), 'waypoint')
     add(waypoint, 'time', 0)
-    add(waypoint, 'pose', numbers(mover.x, mover.y, 0, 0, 0, mover.yaw))
+    add(waypoint, 'pose', numbers(mover.x, mover.y, floor, 0, 0, mover.yaw))
 
 
 def _with_namespace(root: etree._Element) -> tuple[etree._Element, etree._Element]:

@@ -42,6 +42,7 @@ class Feed:
         self._master = 0  # its process
         self._listed = -1  # the scene of the last survey
         self._now = 0.0
+        self._fixed = -1, np.zeros(0, bool)  # revision of a scene, its links that do not move
         self.store.put('status', {'node': False, 'replay': False})
 
     def request(self, topics: set[str] | None) -> None:
@@ -180,10 +181,14 @@ class Feed:
 
     def _on_scene(self, message: Any) -> None:
         self.store.put_scene(scene.as_dict(message), message.revision)
+        self._fixed = message.revision, np.array([not link.moves for link in message.links], bool)
 
     def _on_changes(self, message: Any) -> None:
         self.store.put_changes(message.revision, message.links, message.poses, message.lights,
                                message.levels)
+        revision, fixed = self._fixed
+        if revision == message.revision and fixed[message.links].any():
+            self._listed = -1  # a static model was put elsewhere
 
     def _on_summary(self, message: Any) -> None:
         self.store.put_rows(map(row_of, message.entries), message.complete)

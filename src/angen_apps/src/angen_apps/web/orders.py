@@ -34,7 +34,7 @@ class Orders:
             'command': self._command, 'pause': self._pause, 'resume': self._resume,
             'step': self._step, 'reset': self._reset, 'rate': self._rate, 'spawn': self._spawn,
             'delete': self._delete, 'save': self._save, 'drive': self._drive, 'goal': self._goal,
-            'halt': self._halt}
+            'halt': self._halt, 'move': self._move}
 
     def known(self) -> list[str]:
         """The names of orders."""
@@ -90,6 +90,20 @@ class Orders:
         element = sensor.build(kind, name, [], False)
         Live().spawn(name, sdf.text(element), place)
         return {'text': f'spawned the {kind} {name}'}
+
+    def _move(self, order: dict[str, Any]) -> dict[str, Any]:
+        """A model to another place at its height, turned about the vertical."""
+        from gazebo_msgs.msg import ModelState
+        from gazebo_msgs.srv import SetModelState
+        from geometry_msgs.msg import Point, Pose, Quaternion
+        model = text(order, 'model')
+        x, y, turn = (number(order, 'x', -1e6, 1e6), number(order, 'y', -1e6, 1e6),
+                      number(order, 'turn', -math.tau, math.tau))
+        live = Live()
+        _, _, z, *turned = live.pose(model)
+        live.call('gazebo/set_model_state', SetModelState, LIMIT, model_state=ModelState(
+            model_name=model, pose=Pose(Point(x, y, z), Quaternion(*about_z(turn, *turned)))))
+        return {'text': f'{model} is at {x:.2f}, {y:.2f}'}
 
     def _delete(self, order: dict[str, Any]) -> dict[str, Any]:
         from angen_msgs.srv import Delete
@@ -178,6 +192,13 @@ class Orders:
                 self._publishers[topic] = rospy.Publisher(topic, kind, queue_size=1)
                 wait_for_subscriber(self._publishers[topic])
             return self._publishers[topic]
+
+
+def about_z(angle: float, x: float, y: float, z: float, w: float
+            ) -> tuple[float, float, float, float]:
+    """A quaternion turned about the vertical."""
+    c, s = math.cos(angle / 2), math.sin(angle / 2)
+    return c * x - s * y, c * y + s * x, c * z + s * w, c * w - s * z
 
 
 def wait_for_subscriber(publisher: Any, limit: float = 1.0) -> None:
