@@ -1,7 +1,8 @@
-"""Several people who are sent through one door at the same time, from both sides."""
+"""Several people who are sent through one door or corridor at the same time, from both sides."""
 from __future__ import annotations
 
 from math import hypot
+from random import Random
 from typing import Callable
 
 import pytest
@@ -59,17 +60,44 @@ def arrive(w: angen.World, goals: list[tuple[float, float]], limit: float) -> No
     assert not left()
 
 
-@pytest.mark.parametrize('width', [0.8, 0.95])
-def test_ten_people_from_both_sides_get_through_a_doorway(world: Callable[..., angen.World],
-                                                          width: float) -> None:
-    middle = width / 2 + 2.5
-    walls = ''.join(box(f'wall{side}', f'{side * middle} 0 1.3 0 0 0', '5 0.12 2.6', True)
-                    + box(f'far{side}', f'0 {5 * side} 1.3 0 0 0', '11 0.1 2.6', True)
-                    + box(f'end{side}', f'{5.4 * side} 0 1.3 0 0 0', '0.1 10 2.6', True)
+@pytest.mark.parametrize('width, deep, limit', [(0.8, 0.12, 60.0), (0.95, 0.12, 60.0),
+                                                (0.8, 6.0, 90.0), (1.0, 6.0, 90.0)])
+def test_ten_people_from_both_sides_get_through_what_is_too_narrow_for_two(
+        world: Callable[..., angen.World], width: float, deep: float, limit: float) -> None:
+    """A doorway, and a corridor between two rooms."""
+    middle, more = width / 2 + 2.5, deep / 2 - 0.06
+    walls = ''.join(box(f'wall{side}', f'{side * middle} 0 1.3 0 0 0', f'5 {deep} 2.6', True)
+                    + box(f'far{side}', f'0 {side * (5 + more)} 1.3 0 0 0', '11 0.1 2.6', True)
+                    + box(f'end{side}', f'{5.4 * side} 0 1.3 0 0 0', '0.1 16 2.6', True)
                     for side in (-1, 1))
     starts, goals = [], []
     for i in range(10):
         side, k = 1 - 2 * (i % 2), i // 2
-        starts.append((-2.0 + k + 0.05 * i, side * (1.6 + 0.4 * (k % 3))))
-        goals.append((-2.0 + k, -side * (2.0 + 0.5 * (k % 3))))
-    arrive(crowd(world, walls, starts, goals), goals, 60.0)
+        starts.append((-2.0 + k + 0.05 * i, side * (1.6 + more + 0.4 * (k % 3))))
+        goals.append((-2.0 + k, -side * (2.0 + more + 0.5 * (k % 3))))
+    arrive(crowd(world, walls, starts, goals), goals, limit)
+
+
+@pytest.mark.parametrize('width, each, bends', [(1.2, 5, False), (1.2, 5, True), (1.2, 8, False),
+                                                (1.5, 5, False)])
+@pytest.mark.parametrize('seed', [1, 2])
+def test_two_rows_of_people_pass_each_other_in_a_corridor(
+        world: Callable[..., angen.World], width: float, each: int, bends: bool, seed: int) -> None:
+    """They begin in the middle, one behind the other, and keep to the right."""
+    half, numbers = width / 2, Random(seed)
+
+    def place(on: float, aside: float) -> tuple[float, float]:
+        """`on` m along the corridor, from the middle of it, and to the left of that."""
+        return (-aside, on) if bends and on > 0 else (on, aside)
+    walls = ''.join(box(f'wall{side}', f'0 {side * (half + 0.1)} 1.3 0 0 0', '20 0.2 2.6', True)
+                    for side in (-1, 1))
+    if bends:
+        walls = (box('south', f'-4 {-half - 0.1} 1.3 0 0 0', '12 0.2 2.6', True)
+                 + box('east', f'{half + 0.1} 4 1.3 0 0 0', '0.2 12 2.6', True)
+                 + box('inner', f'{-half - 4} {half + 4} 1.3 0 0 0', '8 8 2.6', True))
+    starts, goals = [], []
+    for i in range(2 * each):
+        ahead, k = 1 - 2 * (i % 2), i // 2
+        starts.append(place(-ahead * (1.6 + 0.8 * k), numbers.uniform(-0.15, 0.15)))
+        goals.append(place(ahead * (1.6 + 0.8 * (each - 1 - k)), -ahead * (half - 0.27)))
+    arrive(crowd(world, walls, starts, goals), goals, 40.0)

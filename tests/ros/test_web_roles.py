@@ -15,10 +15,11 @@ from harness import Angen, Inbox
 
 CONTROLS = '''return [...document.querySelectorAll("[data-order]")].map(
     (e) => [e.dataset.order, e.disabled, e.title])'''
-BUILDING = {'spawn', 'delete', 'save', 'pause', 'step', 'reset', 'rate'}
+BUILDING = {'spawn', 'delete', 'move', 'save', 'pause', 'step', 'reset', 'rate'}
 CHANGES = [{'do': 'pause'}, {'do': 'reset'}, {'do': 'rate', 'rate': 3.0}, {'do': 'step'},
            {'do': 'spawn', 'kind': 'pir', 'name': 'spy', 'pose': {'x': 0.0}},
-           {'do': 'delete', 'name': 'eye'}, {'do': 'save'}]
+           {'do': 'delete', 'name': 'eye'}, {'do': 'save'},
+           {'do': 'move', 'model': 'table0', 'x': 1.0, 'y': 1.0, 'turn': 0.0}]
 SENDS = [{'do': 'command', 'target': 'door/bathroom0', 'text': 'Open'},
          {'do': 'drive', 'name': 'turtlebot', 'speed': 0.1}, {'do': 'halt', 'name': 'turtlebot'},
          {'do': 'goal', 'name': 'turtlebot', 'x': 1.0, 'y': 1.0}]

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "people/floor_map.h"
+#include "people/others.h"
 #include "plugin/outputs.h"
 #include "plugin/view.h"
 
@@ -82,11 +83,9 @@ void find_partner(const Home& home, const std::vector<DoorSeen>& doors, DoorSeen
 
 /// Whether another person than the one at `feet` stands there.
 bool is_taken(const View& view, const Vec3& feet, const Surroundings::Vec2& place) {
-  const std::vector<DeviceView> others = Surroundings::other_people(view, feet);
-  return std::any_of(others.begin(), others.end(), [&](const DeviceView& other) {
-    const Surroundings::Vec2 at(other.state.get<double>("x"), other.state.get<double>("y"));
-    return (at - place).norm() < kBothStand;
-  });
+  const std::vector<Other> others = others_near(view, feet);
+  return std::any_of(others.begin(), others.end(),
+                     [&](const Other& other) { return (other.at() - place).norm() < kBothStand; });
 }
 
 enum class Whose { kRobots, kAll };
@@ -105,11 +104,9 @@ bool is_swing_taken(const View& view, const Vec3& feet, const DoorSeen& door, Wh
     if (device.kind == "drive" && is_there(device.pose.position)) return true;
   }
   if (whose == Whose::kRobots) return false;
-  const std::vector<DeviceView> others = Surroundings::other_people(view, feet);
-  return std::any_of(others.begin(), others.end(), [&](const DeviceView& person) {
-    return is_there({person.state.get<double>("x"), person.state.get<double>("y"),
-                     person.state.get<double>("z")});
-  });
+  const std::vector<Other> others = others_near(view, feet);
+  return std::any_of(others.begin(), others.end(),
+                     [&](const Other& other) { return is_there(other.feet); });
 }
 
 /// The model that its leaf meets first as it opens; empty if none is there.

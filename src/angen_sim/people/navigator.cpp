@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "people/others.h"
 #include "plugin/view.h"
 
 namespace angen::people {
@@ -13,6 +14,7 @@ constexpr double kNearGoal = 0.06;  // m: a place that fits instead of the goal
 constexpr double kOpenToll = 3.0;   // m that a door which it can open counts
 constexpr double kWaitToll = 30.0;  // m that another shut door counts
 constexpr double kSeenCell = 0.02;  // m
+constexpr double kItsBody = 0.35;   // m about one who walks on, who is no obstacle for long
 
 std::vector<Navigator::Vec2> straight(const Navigator::Vec2& from, const Navigator::Vec2& to) {
   const int steps = static_cast<int>((to - from).norm() / FloorMap::kCell) + 1;
@@ -69,8 +71,12 @@ double Navigator::left(const Vec2& at, const Vec2& to) const {
 
 void Navigator::learn(const View& view, const Vec3& feet, const Surroundings& seen) {
   Surroundings::remove_gone(view, feet, seen_);
+  const std::vector<Other> others = others_near(view, feet);
   for (const Vec2& point : seen.points()) {
-    seen_.push_back(kSeenCell * (point / kSeenCell).array().round().matrix());
+    const bool walks_on = std::any_of(others.begin(), others.end(), [&](const Other& other) {
+      return other.on_way && (other.at() - point).norm() < kItsBody;
+    });
+    if (!walks_on) seen_.push_back(kSeenCell * (point / kSeenCell).array().round().matrix());
   }
   const auto before = [](const Vec2& a, const Vec2& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();

@@ -49,6 +49,7 @@ class Person : public Device {
   struct StandsAside {    // until others have come out of a narrow passage
     Vec2 place;           // m
     Nanoseconds since = 0;
+    Nanoseconds walks_until = 0;
   };
   using State = std::variant<Walks, WaitsAtDoor, StandsAside, Progress::Wait>;
 

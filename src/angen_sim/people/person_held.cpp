@@ -48,6 +48,7 @@ bool Person::uses_door(const Vec2& to, bool looks, const Step& step) {
 bool Person::stands_aside(Look look, const Step& step) {
   auto* aside = std::get_if<StandsAside>(&state_);
   if (errand_->pushes() || doors_.is_busy()) return false;
+  const Vec2 at = step.at();
   if (look != Look::kNone || (aside != nullptr && walker_.rests())) {
     const std::optional<Vec2> place =
         place_to_wait(step.view, step.feet(), navigator_.passages(),
@@ -57,12 +58,13 @@ bool Person::stands_aside(Look look, const Step& step) {
       if (aside != nullptr) state_ = Walks{};
       return false;
     }
-    if (aside == nullptr) aside = &state_.emplace<StandsAside>(StandsAside{*place, step.now()});
+    if (aside == nullptr) aside = &state_.emplace<StandsAside>(StandsAside{at, step.now(), 0});
+    if (aside->place != *place) *aside = {*place, aside->since, step.now() + kWalksAside};
   }
   if (aside == nullptr) return false;
-  progress_.come(step.at(), step.now());
-  const bool there = (aside->place - step.at()).norm() < kAtPlace;
-  if (there || step.now() - aside->since > kWalksAside) {
+  progress_.come(at, step.now());
+  const bool there = (aside->place - at).norm() < kAtPlace;
+  if (there || step.now() > aside->walks_until) {
     if (!walker_.rests()) stand(step.outputs);
     show(Mode::kBlocked, step);
     return true;

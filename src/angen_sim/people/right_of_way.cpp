@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "people/door_use.h"
-#include "people/modes.h"
+#include "people/others.h"
 #include "plugin/view.h"
 
 namespace angen::people {
@@ -27,55 +27,17 @@ constexpr double kFaces = 0.3;        // cosine, of who wants to go in
 constexpr double kPersonApart = 0.6;  // m between the middles of two who wait
 constexpr double kAlike = 0.5;        // m: distances that count as the same
 constexpr double kAtDoorway = 0.7;    // m from a passage to a door that is in it
+constexpr double kBack = 0.6;         // m: a part of the way back out of a passage
+const Vec2 kFirst(1.0, 0.618);        // who goes this way rather than back goes on
 constexpr std::array<double, 4> kBefore{0.6, 1.2, 1.8, 2.4};      // m before the passage …
 constexpr std::array<double, 4> kBeside{0.85, -0.85, 1.5, -1.5};  // … and beside its line: to wait
 
-struct Other {
-  Vec2 at;
-  Vec2 heading;
-  bool walks;
-  bool has_arrived;
-};
-
-std::vector<Other> others_near(const View& view, const Vec3& feet) {
-  std::vector<Other> others;
-  for (const DeviceView& person : Surroundings::other_people(view, feet)) {
-    const double yaw = person.state.get<double>("yaw");
-    const auto& mode = person.state.get<std::string>("mode");
-    others.push_back({{person.state.get<double>("x"), person.state.get<double>("y")},
-                      {std::cos(yaw), std::sin(yaw)},
-                      person.state.get<double>("speed") > kWalkSpeed,
-                      mode != kModes[1] && mode != kModes[2]});
-  }
-  return others;
-}
-
-/// A passage as one sees it who is about to go in.
-struct Line {
-  explicit Line(const Passage& passage)
-      : from(passage.enter),
-        length(std::max(0.0, passage.along.dot(passage.leave - passage.enter))),
-        along(passage.along),
-        side(-along.y(), along.x()) {}
-  double ahead(const Vec2& at) const { return along.dot(at - from); }
-  bool holds(const Vec2& at) const {
-    return ahead(at) > -kInsideEnds && ahead(at) < length + kInsideEnds &&
-           std::abs(side.dot(at - from)) < kInsideWide;
-  }
-
-  Vec2 middle() const { return from + 0.5 * length * along; }
-
-  Vec2 from;
-  double length;
-  Vec2 along;
-  Vec2 side;
-};
-
-/// m to the middle of the passage of one who wants to go in; none of another.
-std::optional<double> claim(const Line& line, const Other& other) {
-  const Vec2 way = line.middle() - other.at;
+/// m to the nearer end of the passage, of one who wants to go in; none of another.
+std::optional<double> claim(const Passage& passage, const Other& other) {
+  const bool before = passage.foot(other.at()).on < 0.5 * passage.length();
+  const Vec2 way = (before ? passage.begin() : passage.end()).at - other.at();
   const double away = way.norm();
-  if (other.has_arrived || away > kClaims || way.dot(other.heading) < kFaces * away)
+  if (!other.on_way || away > kClaims || way.dot(other.heading) < kFaces * away)
     return std::nullopt;
   return away;
 }
@@ -85,36 +47,59 @@ std::tuple<int, double, double> turn_of(double away, const Vec2& at) {
   return {static_cast<int>(away / kAlike), at.x(), at.y()};
 }
 
-bool may_go(const Line& line, const Vec2& at, const std::vector<Other>& others) {
-  const double own = (line.middle() - at).norm();
+bool may_go_in(const Passage& passage, const Vec2& at, const std::vector<Other>& others) {
+  bool follows = false;
   for (const Other& other : others) {
-    if (line.holds(other.at)) {
-      if (!other.walks || other.heading.dot(line.along) < 0.0) return false;
-      continue;
-    }
-    const std::optional<double> away = claim(line, other);
-    if (!away) continue;
-    if (turn_of(*away, other.at) < turn_of(own, at)) return false;
+    if (!passage.holds(other.at())) continue;
+    const bool comes = other.heading.dot(passage.foot(other.at()).along) < 0.0;
+    if (comes || other.speed < kWalkSpeed) return false;
+    follows = true;
   }
-  return true;
+  const double own = (passage.begin().at - at).norm();
+  return follows || std::none_of(others.begin(), others.end(), [&](const Other& other) {
+           if (passage.holds(other.at())) return false;
+           const std::optional<double> away = claim(passage, other);
+           return away && turn_of(*away, other.at()) < turn_of(own, at);
+         });
 }
 
-bool has_shut_door(const View& view, const Line& line, double z) {
+/// If people meet in a passage, the fewer leave it again, or if they are as many, one side does.
+bool must_leave(const Passage& passage, const Vec2& at, const std::vector<Other>& others) {
+  const double own = passage.foot(at).on;
+  int with = 1;
+  int against = 0;
+  for (const Other& other : others) {
+    if (!other.on_way || !passage.holds(other.at())) continue;
+    const Passage::Foot foot = passage.foot(other.at());
+    if (other.heading.dot(foot.along) > 0.0) {
+      ++with;
+    } else if (foot.on > own) {
+      ++against;
+    }
+  }
+  if (against == 0 || with != against) return with < against;
+  const Vec2 way = passage.end().at - passage.begin().at + passage.begin().along;
+  return way.dot(kFirst) < 0.0;
+}
+
+bool has_shut_door(const View& view, const Passage& passage, double z) {
   const std::vector<DoorSeen> doors = doors_seen(view, z);
   return std::any_of(doors.begin(), doors.end(), [&](const DoorSeen& door) {
     const Vec2 leaf = door.hinge + 0.5 * door.width * door.along;
-    return !door.is_passable() && (leaf - line.middle()).norm() < kAtDoorway + 0.5 * line.length;
+    return !door.is_passable() && passage.is_near(leaf, kAtDoorway);
   });
 }
 
 /// The nearest free place beside the way; where it is if there is none.
-Vec2 place_beside(const View& view, const Vec3& feet, const Line& line,
+Vec2 place_beside(const View& view, const Vec3& feet, const Passage& passage,
                   const std::vector<Other>& others) {
   const Vec2 at = feet.head<2>();
+  const Vec2& along = passage.begin().along;
+  const Vec2 side(-along.y(), along.x());
   std::vector<Vec2> places;
   for (const double before : kBefore) {
     for (const double beside : kBeside) {
-      places.push_back(line.from - before * line.along + beside * line.side);
+      places.push_back(passage.begin().at - before * along + beside * side);
     }
   }
   std::stable_sort(places.begin(), places.end(), [&](const Vec2& a, const Vec2& b) {
@@ -122,7 +107,7 @@ Vec2 place_beside(const View& view, const Vec3& feet, const Line& line,
   });
   for (const Vec2& place : places) {
     const bool taken = std::any_of(others.begin(), others.end(), [&](const Other& other) {
-      return (other.at - place).norm() < kPersonApart;
+      return (other.at() - place).norm() < kPersonApart;
     });
     if (taken) continue;
     const FloorMap map(view, feet, place, FloorMap::Extent::kStraight);
@@ -132,6 +117,39 @@ Vec2 place_beside(const View& view, const Vec3& feet, const Line& line,
 }
 
 }  // namespace
+
+void Passage::add(const Vec2& at, const Vec2& along) {
+  const double on = places_.empty() ? 0.0 : end().on + (at - end().at).norm();
+  places_.push_back({at, along, on});
+}
+
+Passage::Foot Passage::foot(const Vec2& at) const {
+  const auto nearer = [&](const Place& a, const Place& b) {
+    return (a.at - at).squaredNorm() < (b.at - at).squaredNorm();
+  };
+  const Place& place = *std::min_element(places_.begin(), places_.end(), nearer);
+  const Vec2 way = at - place.at;
+  return {place.on + place.along.dot(way), place.along.x() * way.y() - place.along.y() * way.x(),
+          place.along};
+}
+
+bool Passage::holds(const Vec2& at) const {
+  const Foot foot = this->foot(at);
+  return foot.on > -kInsideEnds && foot.on < length() + kInsideEnds &&
+         std::abs(foot.aside) < kInsideWide;
+}
+
+Passage::Vec2 Passage::place_at(double on) const {
+  if (on < 0.0) return begin().at + on * begin().along;
+  return std::find_if(places_.begin(), places_.end() - 1,
+                      [&](const Place& place) { return place.on >= on; })
+      ->at;
+}
+
+bool Passage::is_near(const Vec2& point, double reach) const {
+  return std::any_of(places_.begin(), places_.end(),
+                     [&](const Place& place) { return (place.at - point).norm() < reach; });
+}
 
 std::vector<Passage> passages_of(const FloorMap& map, const std::vector<Vec2>& way) {
   const auto free_beside = [&](const Vec2& at, const Vec2& side) {
@@ -150,11 +168,10 @@ std::vector<Passage> passages_of(const FloorMap& map, const std::vector<Vec2>& w
     const double right = free_beside(way[i], -side);
     if (left + right >= kTwoAbreast) continue;
     const Vec2 middle = way[i] + 0.5 * (left - right) * side;
-    if (!passages.empty() && (middle - passages.back().leave).norm() < kOneStretch) {
-      passages.back().leave = middle;
-    } else {
-      passages.push_back({middle, middle, ahead.normalized()});
+    if (passages.empty() || (middle - passages.back().end().at).norm() >= kOneStretch) {
+      passages.emplace_back();
     }
+    passages.back().add(middle, ahead.normalized());
   }
   return passages;
 }
@@ -162,7 +179,7 @@ std::vector<Passage> passages_of(const FloorMap& map, const std::vector<Vec2>& w
 bool have_others_to_go(const View& view, const Vec3& feet) {
   const std::vector<Other> others = others_near(view, feet);
   return std::any_of(others.begin(), others.end(), [&](const Other& other) {
-    return !other.has_arrived && (other.at - feet.head<2>()).norm() < Surroundings::kSight;
+    return other.on_way && (other.at() - feet.head<2>()).norm() < Surroundings::kSight;
   });
 }
 
@@ -172,16 +189,17 @@ std::optional<Vec2> place_to_wait(const View& view, const Vec3& feet,
   const std::vector<Other> others = others_near(view, feet);
   if (others.empty()) return std::nullopt;
   const Vec2 at = feet.head<2>();
-  const bool is_inside = std::any_of(passages.begin(), passages.end(), [&](const Passage& passage) {
-    return Line(passage).holds(at);
-  });
-  if (is_inside) return std::nullopt;
+  const auto inside = std::find_if(passages.begin(), passages.end(),
+                                   [&](const Passage& passage) { return passage.holds(at); });
+  if (inside != passages.end()) {
+    if (!must_leave(*inside, at, others)) return std::nullopt;
+    return inside->place_at(std::max(inside->foot(at).on - kBack, -kBefore.front()));
+  }
   for (const Passage& passage : passages) {
-    const Line line(passage);
-    if (line.ahead(at) > 0.5 * line.length) continue;  // it is past it
-    if ((line.from - at).norm() > (beside ? kClaims + 1.0 : kYieldsAt)) continue;
-    if (has_shut_door(view, line, feet.z()) || may_go(line, at, others)) continue;
-    return beside ? *beside : place_beside(view, feet, line, others);
+    if (passage.foot(at).on > 0.5 * passage.length()) continue;  // it is past it
+    if ((passage.begin().at - at).norm() > (beside ? kClaims + 1.0 : kYieldsAt)) continue;
+    if (has_shut_door(view, passage, feet.z()) || may_go_in(passage, at, others)) continue;
+    return beside ? *beside : place_beside(view, feet, passage, others);
   }
   return std::nullopt;
 }

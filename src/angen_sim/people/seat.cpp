@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/text.h"
+#include "people/others.h"
 #include "people/places.h"
 #include "plugin/view.h"
 
@@ -32,9 +33,8 @@ bool is_own(const View& view, std::uint32_t shape) {
 
 // The name of who is there.
 std::string occupant(const View& view, const Vec3& feet, const Vec2& place, double within) {
-  for (const DeviceView& other : Surroundings::other_people(view, feet)) {
-    const Vec2 at(other.state.get<double>("x"), other.state.get<double>("y"));
-    if ((at - place).norm() < within) return std::string(other.name);
+  for (const Other& other : others_near(view, feet)) {
+    if ((other.at() - place).norm() < within) return std::string(other.name);
   }
   return "";
 }

@@ -27,7 +27,6 @@ constexpr double kBeyond = 0.1;          // m
 constexpr double kGraze = 1e-3;          // m
 constexpr double kOwn = 0.255;           // m, up to the person's own surface
 constexpr double kHolds = 4.2;           // m to what holds one who saw it and has stepped back
-constexpr double kSameStorey = 1.0;      // m, between the feet of two people
 
 // m around: where it looks for the end of the floor, by turns; who runs needs the way to stop.
 constexpr double kEdgesAt[] = {0.6, 1.3};
@@ -36,11 +35,11 @@ constexpr double kAbove = 0.2;      // m above its feet, where that look begins
 constexpr double kDrop = 0.4;       // m: it steps down less than this
 constexpr int kEdgeHalvings = 6;    // an edge is found to 1 or 2 cm
 
-constexpr float kSlope = 0.94F;      // cosine of 20 degrees: a less steep surface is walked up
-constexpr double kSlopeStep = 0.1;   // m, in which a slope is looked at …
-constexpr double kRise = 0.05;       // m … and rises or falls at most
-constexpr double kStepAhead = 0.35;  // m, of a step aside
-constexpr double kStepAside = 0.6;   // m, at most
+constexpr float kSlope = 0.94F;     // cosine of 20 degrees: a less steep surface is walked up
+constexpr double kSlopeStep = 0.1;  // m, in which a slope is looked at …
+constexpr double kRise = 0.05;      // m … and rises or falls at most
+constexpr double kStepsAhead[] = {0.35, 0.15, 0.0};  // m, of a step aside
+constexpr double kStepAside = 0.6;                   // m, at most
 
 // The way round is looked for on a grid around the person.
 constexpr double kCell = 0.1;  // m
@@ -213,17 +212,6 @@ void Surroundings::find_edges(const View& view, const Vec3& feet, std::vector<Ve
   }
 }
 
-std::vector<DeviceView> Surroundings::other_people(const View& view, const Vec3& feet) {
-  std::vector<DeviceView> others;
-  const Vec3 own = view.pose().position;
-  for (const DeviceView& person : view.devices("unreachable")) {
-    if (person.pose.position == own) continue;
-    const double up = person.state.get<double>("z") - feet.z();
-    if (std::abs(up) <= kSameStorey) others.push_back(person);
-  }
-  return others;
-}
-
 std::string Surroundings::model_ahead(const View& view, const Vec3& feet, const Vec2& direction) {
   const Vec3 ahead(direction.x(), direction.y(), 0.0);
   std::vector<rays::Ray> ways;
@@ -306,14 +294,16 @@ bool Surroundings::reaches(const Vec2& from, const Vec2& to) const {
   return (grid.place(grid.best(to)) - to).norm() < 2.0 * kCell;
 }
 
-Surroundings::Vec2 Surroundings::way_aside(const Vec2& from, const Vec2& to) const {
+std::optional<Vec2> Surroundings::way_aside(const Vec2& from, const Vec2& to) const {
   const Vec2 ahead = (to - from).normalized();
   const Vec2 right(ahead.y(), -ahead.x());
   for (double aside = kStepAside; aside > -1e-9; aside -= 0.5 * kCell) {
-    const Vec2 place = from + kStepAhead * ahead + aside * right;
-    if (is_free(from, place)) return place;
+    for (const double on : kStepsAhead) {
+      const Vec2 place = from + on * ahead + aside * right;
+      if (on + aside > 0.5 * kCell - 1e-9 && is_free(from, place)) return place;
+    }
   }
-  return from;
+  return std::nullopt;
 }
 
 bool Surroundings::is_walkable(const View& view, const Vec3& feet, const Vec2& to) {

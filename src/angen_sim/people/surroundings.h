@@ -7,12 +7,6 @@
 
 #include "plugin/plugin.h"
 
-namespace angen {
-
-struct DeviceView;
-
-}  // namespace angen
-
 namespace angen::people {
 
 /// A person's surroundings: surfaces between shin and chest height, up to kSight away, and where
@@ -43,16 +37,13 @@ class Surroundings {
   /// Prefers to pass on the right.
   std::optional<Vec2> way_round(const Vec2& from, const Vec2& to) const;
 
-  /// For two who approach each other: as far to the right as it is free, and ahead; `from` where
-  /// that is not.
-  Vec2 way_aside(const Vec2& from, const Vec2& to) const;
+  /// For two who approach each other: as far to the right as it is free, and ahead; none if
+  /// nothing is.
+  std::optional<Vec2> way_aside(const Vec2& from, const Vec2& to) const;
 
   /// Whether a person at `feet` can walk straight to `to` on the static shapes below, up and down
   /// slopes, past all others.
   static bool is_walkable(const View& view, const Vec3& feet, const Vec2& to);
-
-  /// Where the other people are who walk at about that height, with their states.
-  static std::vector<DeviceView> other_people(const View& view, const Vec3& feet);
 
   /// The model that can move and is nearest before a person at `feet` who looks along a unit
   /// direction; empty if it sees none.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "people/modes.h"
+#include "people/others.h"
 #include "plugin/outputs.h"
 #include "plugin/view.h"
 
@@ -15,8 +16,8 @@ constexpr double kUsualStep = 1e-3;  // s
 constexpr double kTurnGain = 6.0;    // 1/s, from the wrong heading to a yaw rate
 constexpr double kMaxTurn = 3.0;     // rad/s
 constexpr double kStill = 0.05;      // m/s: slower than this it keeps its heading
-constexpr double kPushSpeed = 0.3;   // m/s, against a thing that it shall push
 constexpr double kComes = 0.1;       // m/s: who is slower stands
+constexpr double kPushSpeed = 0.3;   // m/s, against a thing that it shall push
 constexpr double kBarely = 0.05;     // m/s: slower than this it is stuck
 constexpr double kAlong = 0.2;       // share of a direction that leads along an obstacle
 constexpr double kTowards = 0.7;     // cosine, of a person who walks towards it
@@ -60,23 +61,26 @@ bool Walker::aim_past(const View& view, const Vec3& feet, const Vec2& to) {
   return aim_.has_value();
 }
 
-// Around an obstacle. It passes an approaching person on the right, who does the same.
+// Around an obstacle. Who walks towards it is passed on the right, and does the same; so is one who
+// waits to come, if there is no other way.
 std::optional<Walker::Vec2> Walker::way_past(const View& view, const Vec3& feet,
                                              const Vec2& to) const {
   const Vec2 at = feet.head<2>();
   const Vec2 ahead = (to - at).normalized();
-  for (const DeviceView& other : Surroundings::other_people(view, feet)) {
-    if (other.state.get<double>("speed") < kComes) continue;
-    const Vec2 there(other.state.get<double>("x"), other.state.get<double>("y"));
-    const double distance = (there - at).norm();
-    if (distance > Surroundings::kSight) continue;
-    const double yaw = other.state.get<double>("yaw");
-    const bool comes = ahead.dot(Vec2(std::cos(yaw), std::sin(yaw))) < -kTowards;
-    if (comes && ahead.dot(there - at) > kTowards * distance) {
-      return surroundings_.way_aside(at, to);
-    }
+  bool aside = false;
+  bool round = true;
+  for (const Other& other : others_near(view, feet)) {
+    const Vec2 way = other.at() - at;
+    if (!other.on_way || way.norm() > Surroundings::kSight) continue;
+    const bool comes = ahead.dot(other.heading) < -kTowards;
+    if (!comes || ahead.dot(way) < kTowards * way.norm()) continue;
+    aside = true;
+    round = round && other.speed < kComes;
   }
-  return surroundings_.way_round(at, to);
+  const auto right = [&] { return aside ? surroundings_.way_aside(at, to) : std::nullopt; };
+  std::optional<Vec2> way = round ? surroundings_.way_round(at, to) : right();
+  if (!way) way = round ? right() : surroundings_.way_round(at, to);
+  return way;
 }
 
 void Walker::walk(const LinkView& body, const Vec2& to, double fastest, Outputs& outputs,
