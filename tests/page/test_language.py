@@ -18,10 +18,14 @@ PAGE = Path(__file__).resolve().parents[2] / 'src/angen_apps/page'
 LANGUAGES = sorted((PAGE / 'lang').glob('*.json'))
 CALL = re.compile(r"(?<![\w.])t\('((?:[^'\\]|\\.)*)'")
 ANY_CALL = re.compile(r'(?<![\w.])t\((?:[`"]|\w+ \?)')  # of a text that this test does not find
+PLAIN = re.compile(r"(?:\}, |(?:title|alt|placeholder|'aria-label'): |textContent = |notice\()"
+                   r"(?:'[A-Za-z]+ ?[a-z]{2}[^']*'|`[A-Za-z]+ [a-z]{2}[^`]*`)")
+IMPORT = re.compile(r"(?:from|import\() ?'\./(\w+\.js)'")
 HOLE = re.compile(r'\{\w+\}')
 NAMES = {'Angen', '?', '↶', '↷'}
 ROOMS = ('hall', 'entrance', 'livingroom', 'bedroom', 'workroom', 'stairs')  # of homes made here
 COSTS = ('process', 'physics', 'devices', 'sensors', 'commands', 'snapshots', 'publishing')
+NONE = 'none'  # an empty list
 MARKS = ('robot', 'sensor')  # of a plan
 
 
@@ -55,7 +59,7 @@ def catalog() -> set[str]:
     """Names and descriptions that the page has of the simulator."""
     found = {words(name) for name in (*ROOMS, *COSTS, *MARKS, 'other', *(use for use, _ in USES))}
     found |= {f'{reason[0].upper()}{reason[1:]}.' for reason in REASONS.values()}
-    found |= {name.replace('_', ' ') for name in activities()} | {'Ground floor'}
+    found |= {name.replace('_', ' ') for name in activities()} | {'Ground floor', NONE}
     for name, kind in described_kinds().items():
         found |= {words(name), kind['doc']}
         for verb in kind['verbs']:
@@ -84,9 +88,21 @@ def test_the_page_names_its_languages() -> None:
     assert page.languages == ['en', *(path.stem for path in LANGUAGES)] and LANGUAGES
 
 
-def test_texts_of_the_code_are_found() -> None:
-    for path in (PAGE / 'js').glob('*.js'):
-        assert not ANY_CALL.findall(path.read_text()), path.name
+def modules(name: str) -> set[str]:
+    """A module of the page, and those that it imports."""
+    found: set[str] = set()
+    due = [name]
+    while due:
+        if (name := due.pop()) not in found:
+            found.add(name)
+            due += IMPORT.findall((PAGE / 'js' / name).read_text())
+    return found
+
+
+def test_the_code_says_nothing_else() -> None:
+    for name in sorted(modules('main.js')):
+        text = (PAGE / 'js' / name).read_text()
+        assert not ANY_CALL.findall(text) and not PLAIN.findall(text), name
 
 
 @pytest.mark.parametrize('path', LANGUAGES, ids=lambda path: str(path.stem))

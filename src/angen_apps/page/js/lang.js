@@ -6,6 +6,7 @@ const language = wishes.find((wish) => wish && given.includes(wish)) ?? 'en';
 /** @type {Record<string, string>} */
 const table = language === 'en' ? {} : await fetch(`/page/lang/${language}.json`).then((answer) => (answer.ok ? answer.json() : {}));
 const POINT = new Intl.NumberFormat(language).formatToParts(0.5).find((part) => part.type === 'decimal')?.value ?? '.';
+const NONE = 'none'; // as an empty list is written
 const ATTRIBUTES = ['title', 'aria-label', 'alt'];
 
 /** @type {Map<string, RegExp>} of the words of states */
@@ -29,11 +30,11 @@ export function t(text, values = {}) {
  */
 export function state(text, kind) {
   if (language === 'en' || !text) return text;
-  const words = (kind?.fields ?? []).flatMap((/** @type {any} */ field) => field.words ?? []).filter(Boolean);
+  const words = (kind?.fields ?? []).flatMap((/** @type {any} */ field) => field.words ?? []).filter(Boolean).concat(NONE);
   let pattern = patterns.get(kind?.kind);
   if (!pattern) {
     const parts = words.sort((/** @type {string} */ a, /** @type {string} */ b) => b.length - a.length).map((/** @type {string} */ word) => word.replace(/[()]/g, '\\$&'));
-    patterns.set(kind?.kind, pattern = new RegExp(`(?<!\\w)(?:${parts.join('|') || '(?!)'})(?!\\w)`, 'gi'));
+    patterns.set(kind?.kind, pattern = new RegExp(`(?<!\\w)(?:${parts.join('|')})(?!\\w)`, 'gi'));
   }
   return numbers(text.replace(pattern, (word) => {
     const found = t(word.toLowerCase());

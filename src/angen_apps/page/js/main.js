@@ -312,7 +312,7 @@ class Page {
     this.card.close();
     this.setView('3d');
     this.view.eyes.begin(entity, () => { by('hint').hidden = true; });
-    by('hint').replaceChildren(`${t('As {name} sees it', { name: entity.name })} `, el('button', { type: 'button', id: 'leave', title: 'Esc', onclick: () => this.view?.eyes.end() }, t('Leave')));
+    by('hint').replaceChildren(`${t('As {name} sees it', { name: entity.name })} `, el('button', { type: 'button', id: 'leave', title: t('Esc'), onclick: () => this.view?.eyes.end() }, t('Leave')));
     by('hint').hidden = false;
   }
 
@@ -362,7 +362,7 @@ class Page {
       [t('Space'), t('pauses')], ['.', t('one second on, while paused')], ['N', t('the next event, in a recording')], ['0 – 9, *', t('a floor, all floors')], ['H, P', t('the whole home, from above')], ['V', t('3D or plan')], ['F', t('sensor fields')],
       ['T', t('light or dark')], ['W A S D', t('drive the robot, in its tab')], [t('Drag the robot'), t('its goal')], ['M', t('moves things: drag them; by keys . and , choose one, arrows move it, R turns it, Enter puts it there')], [t('Esc'), t('closes')]];
     by('dialog').replaceChildren(el('h2', {}, t('Keys')), el('dl', {}, ...rows.flatMap(([key, text]) => [el('dt', {}, el('kbd', {}, key)), el('dd', {}, text)])), languageMenu(),
-      el('form', { method: 'dialog' }, el('button', { class: 'main' }, t('Close'))));
+      el('form', { method: 'dialog' }, el('button', { class: 'main', autofocus: true }, t('Close'))));
     by('dialog').showModal();
   }
 }
