@@ -53,12 +53,13 @@ class Server:
 class Page:
     """A page that is open."""
 
-    def __init__(self, folder: Path, width: int, height: int) -> None:
+    def __init__(self, folder: Path, width: int, height: int, language: str = 'en') -> None:
         options = Options()
         for option in (*OPTIONS, f'--window-size={width},{height}',
                        f'--user-data-dir={folder / "chromium"}'):
             options.add_argument(option)
         options.set_capability('goog:loggingPrefs', {'browser': 'ALL'})
+        options.add_experimental_option('prefs', {'intl.accept_languages': language})
         self.driver = Chrome(options=options, service=Service('/usr/bin/chromedriver'))
         self.driver.set_script_timeout(LIMIT)
 

@@ -2,7 +2,8 @@
 import { denied } from './access.js';
 import { by, el, glyph, words } from './dom.js';
 import { middleOf } from './home.js';
-import { roomText } from './labels.js';
+import { floorText, roomText } from './labels.js';
+import { numbers, t } from './lang.js';
 
 export class Card {
   /** @param {import('./home.js').Home} home @param {any} page choosePoint, plot, robot, isTold, say */
@@ -40,7 +41,7 @@ export class Card {
     this.element.hidden = false;
     this.element.setAttribute('aria-label', title);
     this.element.replaceChildren(el('header', {}, el('div', {}, el('h2', {}, title), el('div', { class: 'soft' }, ...under.flatMap((text, i) => [i ? ' · ' : '', el('span', {}, text)]))),
-      el('button', { class: 'icon', type: 'button', 'aria-label': 'Close', onclick: () => this.close() }, '✕')), ...content);
+      el('button', { class: 'icon', type: 'button', 'aria-label': t('Close'), onclick: () => this.close() }, '✕')), ...content);
     if (byKey && !this.element.contains(active)) this.element.focus(); // the next Tab is in the card
   }
 
@@ -53,15 +54,15 @@ export class Card {
     this.state = el('p', { class: 'state', role: 'status' });
     const parts = [this.state, ...this.verbs(entity, kind)];
     if (home.isRobot(entity)) parts.push(...trip(home, this.page, entity));
-    parts.push(el('div', { class: 'verbs' }, home.isRobot(entity) && el('button', { type: 'button', order: 'drive', onclick: () => this.page.robot(entity) }, 'Drive'),
-      this.page.sees(entity) && el('button', { type: 'button', onclick: () => this.page.look(entity) }, entity.kind === 'person' ? 'Through the eyes' : 'Its view'),
-      home.fields(entity.kind).length > 0 && el('button', { type: 'button', onclick: () => this.page.plot(entity) }, 'Plot')));
+    parts.push(el('div', { class: 'verbs' }, home.isRobot(entity) && el('button', { type: 'button', order: 'drive', onclick: () => this.page.robot(entity) }, t('Drive')),
+      this.page.sees(entity) && el('button', { type: 'button', onclick: () => this.page.look(entity) }, entity.kind === 'person' ? t('Through the eyes') : t('Its view')),
+      home.fields(entity.kind).length > 0 && el('button', { type: 'button', onclick: () => this.page.plot(entity) }, t('Plot'))));
     if (kind?.role === 'sensor' && !home.status.replay) {
-      parts.push(el('div', { class: 'verbs' }, el('button', { type: 'button', order: 'delete', onclick: () => this.remove(entity) }, 'Delete')));
+      parts.push(el('div', { class: 'verbs' }, el('button', { type: 'button', order: 'delete', onclick: () => this.remove(entity) }, t('Delete'))));
     }
     const beside = home.ofModel(entity.model).filter((e) => e !== entity).slice(0, 12);
-    if (beside.length) parts.push(el('h3', {}, 'Of the same model'), ...beside.map((e) => thingRow(home, e, () => this.show(e))));
-    this.open(entity.name, [words(entity.kind), rooms, kind?.doc].filter(Boolean), parts);
+    if (beside.length) parts.push(el('h3', {}, t('Of the same model')), ...beside.map((e) => thingRow(home, e, () => this.show(e))));
+    this.open(entity.name, [words(entity.kind), rooms, t(kind?.doc ?? '')].filter(Boolean), parts);
     this.refresh();
   }
 
@@ -71,11 +72,11 @@ export class Card {
     const plain = [], rows = [];
     for (const verb of kind?.verbs ?? []) {
       const send = (/** @type {string | number} */ value) => this.home.command(entity, value === '' ? verb.name : `${verb.name} ${value}`);
-      if (!verb.argument) plain.push(el('button', { type: 'button', title: verb.doc, 'data-verb': verb.name, order: 'command', onclick: () => send('') }, spaced(verb.name)));
+      if (!verb.argument) plain.push(el('button', { type: 'button', title: t(verb.doc), 'data-verb': verb.name, order: 'command', onclick: () => send('') }, spaced(verb.name)));
       else if (verb.type === 'integer' && verb.argument === 'floor') plain.push(...this.floors(send));
       else if (verb.count === 2 && verb.argument === 'x y') {
-        plain.push(el('button', { type: 'button', title: verb.doc, 'data-verb': verb.name, order: 'command',
-          onclick: () => this.page.choosePoint(`${spaced(verb.name)}: a place for ${entity.name}`, Array.from(this.home.place(entity)), (/** @type {number[]} */ p) => send(`${p[0].toFixed(2)} ${p[1].toFixed(2)}${verb.place && this.home.storeys.length > 1 ? ` ${this.home.storeyAt(p[2])}` : ''}`)) }, `${spaced(verb.name)} …`));
+        plain.push(el('button', { type: 'button', title: t(verb.doc), 'data-verb': verb.name, order: 'command',
+          onclick: () => this.page.choosePoint(t('{verb}: a place for {name}', { verb: spaced(verb.name), name: entity.name }), Array.from(this.home.place(entity)), (/** @type {number[]} */ p) => send(`${p[0].toFixed(2)} ${p[1].toFixed(2)}${verb.place && this.home.storeys.length > 1 ? ` ${this.home.storeyAt(p[2])}` : ''}`)) }, `${spaced(verb.name)} …`));
       } else if (verb.count === 1) rows.push(this.slider(entity, verb, send));
     }
     return [el('div', { class: 'verbs' }, ...plain), ...(rows.length ? [el('div', { class: 'verbs' }, ...rows)] : [])];
@@ -83,7 +84,7 @@ export class Card {
 
   /** @param {(value: number) => void} send */
   floors(send) {
-    return [...this.home.storeys].reverse().map((storey) => el('button', { type: 'button', title: storey.name, order: 'command', onclick: () => send(storey.number) }, `Floor ${storey.number}`));
+    return [...this.home.storeys].reverse().map((storey) => el('button', { type: 'button', title: floorText(storey), order: 'command', onclick: () => send(storey.number) }, t('Floor {number}', { number: storey.number })));
   }
 
   /** @param {any} entity @param {any} verb @param {(value: string | number) => void} send */
@@ -92,11 +93,11 @@ export class Card {
     if (verb.min === null || verb.max === null || verb.max - verb.min > 1000) {
       const input = el('input', { type: 'number', step: 'any', min: verb.min, max: verb.max, value: value ?? '', order: 'command' });
       return el('label', {}, el('span', {}, spaced(verb.name)), input, el('span', { class: 'soft' }, verb.unit),
-        el('button', { type: 'button', order: 'command', onclick: () => input.value !== '' && send(Number(input.value)) }, 'Send'));
+        el('button', { type: 'button', order: 'command', onclick: () => input.value !== '' && send(Number(input.value)) }, t('Send')));
     }
     const fine = verb.max - verb.min <= 5, output = el('output', { class: 'number' });
     const input = el('input', { type: 'range', min: verb.min, max: verb.max, step: fine ? 0.01 : 1, 'data-verb': verb.name, value: value ?? verb.min, order: 'command' });
-    const say = () => { output.textContent = `${Number(input.value)} ${verb.unit}`; };
+    const say = () => { output.textContent = `${numbers(Number(input.value))} ${verb.unit}`; };
     input.addEventListener('input', say);
     input.addEventListener('change', () => send(Number(input.value)));
     say();
@@ -106,7 +107,7 @@ export class Card {
       input.value = String(now);
       say();
     });
-    return el('label', { title: verb.doc }, el('span', {}, spaced(verb.name)), input, output);
+    return el('label', { title: t(verb.doc) }, el('span', {}, spaced(verb.name)), input, output);
   }
 
   /**
@@ -134,10 +135,10 @@ export class Card {
     const things = home.entities.filter((e) => e.kind !== 'model' && home.roomsOf(e).includes(room));
     const devices = things.filter((e) => home.kinds[e.kind]?.role === 'device'), sensors = things.filter((e) => home.kinds[e.kind]?.role === 'sensor');
     const parts = [...devices.map((e) => thingRow(home, e, () => this.show(e)))];
-    if (sensors.length) parts.push(el('h3', {}, 'Sensors'), ...sensors.map((e) => thingRow(home, e, () => this.show(e))));
+    if (sensors.length) parts.push(el('h3', {}, t('Sensors')), ...sensors.map((e) => thingRow(home, e, () => this.show(e))));
     const middle = middleOf(room.polygon), [x, y] = point ?? middle;
-    if (!home.status.replay && !denied('spawn')) parts.push(el('h3', {}, 'Add a sensor'), this.adder(room.name, [x, y, room.floor], middle));
-    this.open(roomText(room), [`${words(room.use)}, floor ${room.storey}, ${room.area.toFixed(1)} m²`], parts);
+    if (!home.status.replay && !denied('spawn')) parts.push(el('h3', {}, t('Add a sensor')), this.adder(room.name, [x, y, room.floor], middle));
+    this.open(roomText(room), [`${words(room.use)}, ${t('floor {number}', { number: room.storey })}, ${numbers(room.area.toFixed(1))} m²`], parts);
   }
 
   /**
@@ -147,7 +148,7 @@ export class Card {
   showPlace(point) {
     this.shown = { point };
     this.state = null;
-    this.open('Outside of all rooms', [], [el('h3', {}, 'Add a sensor'), this.adder('', point, point)]);
+    this.open(t('Outside of all rooms'), [], [el('h3', {}, t('Add a sensor')), this.adder('', point, point)]);
   }
 
   /**
@@ -158,12 +159,12 @@ export class Card {
   adder(room, point, faced) {
     const { home } = this, [dx, dy] = [faced[0] - point[0], faced[1] - point[1]];
     const input = (/** @type {string} */ label, /** @type {number} */ value, more = {}) => el('input', { type: 'number', value, step: 0.1, 'aria-label': label, ...more });
-    const x = input('x in m', Number(point[0].toFixed(2))), y = input('y in m', Number(point[1].toFixed(2)));
-    const turn = input('Heading in degrees', Math.hypot(dx, dy) > 0.5 ? Math.round((Math.atan2(dy, dx) * 36) / Math.PI) * 5 : 0, { step: 5 });
+    const x = input(t('x in m'), Number(point[0].toFixed(2))), y = input(t('y in m'), Number(point[1].toFixed(2)));
+    const turn = input(t('Heading in degrees'), Math.hypot(dx, dy) > 0.5 ? Math.round((Math.atan2(dy, dx) * 36) / Math.PI) * 5 : 0, { step: 5 });
     const kinds = Object.values(home.kinds).filter((kind) => kind.role === 'sensor' && kind.models.length).map((kind) => kind.kind).sort();
-    const kind = el('select', { 'aria-label': 'Kind' }, ...kinds.map((name) => el('option', { value: name, selected: name === 'pir' }, words(name))));
-    const height = input('Height in m', 1.2, { min: 0, max: 10 });
-    const name = el('input', { type: 'text', 'aria-label': 'Name' });
+    const kind = el('select', { 'aria-label': t('Kind') }, ...kinds.map((name) => el('option', { value: name, selected: name === 'pir' }, words(name))));
+    const height = input(t('Height in m'), 1.2, { min: 0, max: 10 });
+    const name = el('input', { type: 'text', 'aria-label': t('Name') });
     const propose = () => {
       let n = 1;
       const stem = `${room.replaceAll(/[:/]/g, '_')}${room ? '_' : ''}${kind.value}`; // no topic may have these
@@ -178,14 +179,14 @@ export class Card {
       if (answer.ok) this.page.say(answer.text);
     };
     const field = (/** @type {string} */ text, /** @type {any} */ value, /** @type {string} */ unit) => el('label', {}, el('span', {}, text), value, el('span', { class: 'soft' }, unit));
-    return el('div', { class: 'adder' }, kind, name, field('x', x, 'm'), field('y', y, 'm'), field('height', height, 'm'), field('faces', turn, '°'),
-      el('button', { class: 'main', type: 'button', id: 'add', order: 'spawn', onclick: add }, 'Add'));
+    return el('div', { class: 'adder' }, kind, name, field('x', x, 'm'), field('y', y, 'm'), field(t('height'), height, 'm'), field(t('faces'), turn, '°'),
+      el('button', { class: 'main', type: 'button', id: 'add', order: 'spawn', onclick: add }, t('Add')));
   }
 
   refresh() {
     if (this.state && this.shown?.entity) {
-      const row = this.home.row(this.shown.entity), isSensor = this.home.kinds[this.shown.entity.kind]?.role === 'sensor';
-      const text = (row?.text && this.home.isRobot(this.shown.entity) ? placeText(this.home.place(this.shown.entity), row.text) : row?.text) || (!this.page.isTold(this.shown.entity) ? 'The recording does not have it.' : isSensor ? 'no reading yet' : '–');
+      const row = this.home.row(this.shown.entity), told = this.home.told(this.shown.entity), isSensor = this.home.kinds[this.shown.entity.kind]?.role === 'sensor';
+      const text = (told && this.home.isRobot(this.shown.entity) ? placeText(this.home.place(this.shown.entity), told) : told) || (!this.page.isTold(this.shown.entity) ? t('The recording does not have it.') : isSensor ? t('no reading yet') : '–');
       if (this.state.textContent !== text) this.state.textContent = text;
       this.state.classList.toggle('alarm', Boolean(row?.alarm));
       for (const follow of this.follow) follow();
@@ -208,7 +209,7 @@ const shortState = (text, on) => `${text.split(' ')[0].toLowerCase()}${on ? / \d
 
 /** @param {import('./home.js').Home} home @param {any} e */
 function title(home, e) {
-  const kind = home.isRobot(e) ? 'Robot' : words(e.kind);
+  const kind = home.isRobot(e) ? t('Robot') : words(e.kind);
   return e.name === e.kind ? kind : `${kind} ${e.name}`;
 }
 
@@ -216,7 +217,7 @@ function title(home, e) {
  * The place of a robot in the world, as people have it, before that by its wheels.
  * @param {ArrayLike<number>} pose @param {string} text
  */
-const placeText = (pose, text) => `${pose[0].toFixed(2)} m  ${pose[1].toFixed(2)} m in the world, by its wheels ${text}`;
+const placeText = (pose, text) => t('{x} m  {y} m in the world, by its wheels {text}', { x: numbers(pose[0].toFixed(2)), y: numbers(pose[1].toFixed(2)), text });
 
 /**
  * The activity of a person, the speed of a robot: their places are visible.
@@ -225,7 +226,7 @@ const placeText = (pose, text) => `${pose[0].toFixed(2)} m  ${pose[1].toFixed(2)
 function motion(home, e, text) {
   if (!home.isRobot(e)) return text.split('  ')[0].toLowerCase();
   const speed = home.row(e)?.values[home.fields(e.kind).findIndex((field) => field.unit === 'm/s')];
-  return typeof speed === 'number' ? `${Math.abs(speed).toFixed(2)} m/s` : text;
+  return typeof speed === 'number' ? `${numbers(Math.abs(speed).toFixed(2))} m/s` : text;
 }
 
 /**
@@ -243,14 +244,14 @@ export function thingRow(home, e, open) {
   const row = el('div', { class: 'thing' }, el('span', { class: 'glyph', 'aria-hidden': 'true' }, glyph(e.kind)),
     el('button', { class: 'name', type: 'button', title: e.name, onclick: open }, title(home, e)), state, toggle);
   row.refresh = () => {
-    const now = home.row(e), text = now?.text ?? '', on = Boolean(pair) && home.isOn(now);
+    const now = home.row(e), text = home.told(e), on = Boolean(pair) && home.isOn(now);
     const shown = pair ? shortState(text, on) : home.isMover(e) ? motion(home, e, text) : text;
     if (state.textContent !== shown) { state.textContent = shown; state.title = text; }
     row.classList.toggle('on', on);
     row.classList.toggle('alarm', Boolean(now?.alarm));
-    if (toggle && pair) toggle.textContent = on ? pair[1] : pair[0];
+    if (toggle && pair) { toggle.dataset.verb = on ? pair[1] : pair[0]; toggle.textContent = t(toggle.dataset.verb ?? ''); }
   };
-  toggle?.addEventListener('click', () => home.command(e, toggle.textContent));
+  toggle?.addEventListener('click', () => home.command(e, toggle.dataset.verb));
   row.refresh();
   return row;
 }
@@ -267,14 +268,14 @@ export function trip(home, page, robot) {
     else page.goal.begin(robot);
     goals.selectedIndex = 0;
   };
-  const goals = el('select', { class: 'goals', 'aria-label': `Send ${robot.name} to`, order: 'goal', onchange: send }, el('option', { hidden: true }, 'Go to …'), el('option', { value: '' }, 'a place …'),
-    ...[...home.storeys].reverse().map((storey) => el('optgroup', { label: storey.name || `Floor ${storey.number}` },
+  const goals = el('select', { class: 'goals', 'aria-label': t('Send {name} to', { name: robot.name }), order: 'goal', onchange: send }, el('option', { hidden: true }, t('Go to …')), el('option', { value: '' }, t('a place …')),
+    ...[...home.storeys].reverse().map((storey) => el('optgroup', { label: floorText(storey) },
       ...home.rooms.filter((room) => room.storey === storey.number).map((room) => el('option', { value: room.name }, roomText(room))))));
   const text = el('span', { role: 'status' }), done = el('i'), bar = el('div', { class: 'bar' }, done);
-  const stop = el('button', { type: 'button', order: 'halt', onclick: () => home.order({ do: 'halt', name: robot.name }) }, 'Stop');
+  const stop = el('button', { type: 'button', order: 'halt', onclick: () => home.order({ do: 'halt', name: robot.name }) }, t('Stop'));
   const row = el('div', { class: 'thing trip' }, el('div', {}, text, bar), stop);
   row.refresh = () => {
-    const now = home.trips[robot.name], shown = now ? `To ${now.goal}: ${now.text}` : '';
+    const now = home.trips[robot.name], shown = now ? t('To {goal}: {text}', { goal: now.goal, text: numbers(now.text) }) : '';
     row.hidden = !now;
     stop.hidden = !now?.drives;
     bar.hidden = !now?.drives || now.share === null;

@@ -2,6 +2,7 @@
 import { denied } from './access.js';
 import { by, el, isForOthers, limit, svg } from './dom.js';
 import { yawOf } from './fields.js';
+import { t } from './lang.js';
 
 const REACH = 22, CLICK = 6; // px around a press, of a press that is none
 const FIXED = new Set(['door', 'window', 'elevator', 'person']); // kinds whose models stay
@@ -18,7 +19,7 @@ export class Carry {
     /** @type {{model: string, id: number | null, at: number[], from: number[], pose: number[], dx: number, dy: number, turn: number, moved: boolean} | null} what is carried, and how far */
     this.held = null;
     this.ended = false;
-    this.button = el('button', { type: 'button', id: 'carry', class: 'both', 'aria-pressed': 'false', title: 'Drag sensors and furniture to other places (M)', onclick: () => this.toggle() }, 'Move things');
+    this.button = el('button', { type: 'button', id: 'carry', class: 'both', 'aria-pressed': 'false', title: t('Drag sensors and furniture to other places (M)'), onclick: () => this.toggle() }, t('Move things'));
     by('layers').append(this.button);
     for (const topic of ['status', 'access']) home.on(topic, () => { this.button.hidden = home.status.replay; limit(this.button, 'move'); });
     addEventListener('keydown', (e) => this.key(e), true);
@@ -32,7 +33,7 @@ export class Carry {
     this.on = !this.on;
     this.end();
     this.button.setAttribute('aria-pressed', String(this.on));
-    by('hint').textContent = 'Drag a sensor or a piece of furniture';
+    by('hint').textContent = t('Drag a sensor or a piece of furniture');
     by('hint').hidden = !this.on;
   }
 

@@ -1,4 +1,5 @@
 /** The WebSocket: it comes back by itself; each order gets an answer. */
+import { t } from './lang.js';
 
 /** @typedef {{ok: boolean, text?: string, xml?: string}} Answer */
 
@@ -48,7 +49,7 @@ export class Connection {
       this.onParts(parts);
     };
     socket.onclose = () => {
-      for (const answer of this.waiting.values()) answer({ ok: false, text: 'The connection to the server was lost.' });
+      for (const answer of this.waiting.values()) answer({ ok: false, text: t('The connection to the server was lost.') });
       this.waiting.clear();
       this.onState(false);
       setTimeout(() => this.open(), LATER);
@@ -75,7 +76,7 @@ export class Connection {
   ask(order) {
     return new Promise((resolve) => {
       if (this.socket?.readyState !== WebSocket.OPEN) {
-        resolve({ ok: false, text: 'There is no connection to the server.' });
+        resolve({ ok: false, text: t('There is no connection to the server.') });
         return;
       }
       const id = ++this.last;

@@ -1,6 +1,7 @@
 /** Elements, icons and short notices. Text of others becomes text nodes only, never HTML. */
 
 import { denied } from './access.js';
+import { t } from './lang.js';
 
 /**
  * @param {string} tag
@@ -68,8 +69,8 @@ export function download(name, text, type) {
   URL.revokeObjectURL(link.href);
 }
 
-/** @param {string} name */
-export const words = (name) => (name ? name[0].toUpperCase() + name.slice(1).replaceAll('_', ' ') : '');
+/** @param {string} name of the catalog */
+export const words = (name) => (name ? t(name[0].toUpperCase() + name.slice(1).replaceAll('_', ' ')) : '');
 
 /**
  * A symbol for a kind, of signs that every font has.

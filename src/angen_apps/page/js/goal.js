@@ -3,6 +3,7 @@ import * as THREE from '../vendor/three/three.module.min.js';
 import { denied } from './access.js';
 import { by, isForOthers, isNarrow } from './dom.js';
 import { yawOf } from './fields.js';
+import { t } from './lang.js';
 
 export const TURNS = 0.3; // m: a longer drag gives the heading too
 const STEP = 0.25, TURN = Math.PI / 12; // m, rad, of a key
@@ -111,8 +112,8 @@ export class Goal {
     this.robot = robot;
     const pose = this.home.place(robot), [x, y, z] = Array.from(pose);
     this.put([x, y, this.floorAt([x, y, z + 0.1]), yawOf(pose)]);
-    const keys = isNarrow() ? '' : '. Keys: arrows move it, with Shift they turn it, Enter sends it, Esc ends';
-    by('hint').textContent = `Goal of ${robot.name}: press on the floor and drag${keys}`;
+    const keys = isNarrow() ? '' : `. ${t('Keys: arrows move it, with Shift they turn it, Enter sends it, Esc ends')}`;
+    by('hint').textContent = `${t('Goal of {name}: press on the floor and drag', { name: robot.name })}${keys}`;
     by('hint').hidden = false;
   }
 

@@ -2,6 +2,7 @@
 import { setAccess } from './access.js';
 import { Connection } from './connection.js';
 import { clockText, notice } from './dom.js';
+import { state, t } from './lang.js';
 
 /** @typedef {{kind: string, name: string, model: string, topic: string, type: string, room: string, pose: number[]}} Entity */
 /** @typedef {{kind: string, name: string, text: string, alarm: boolean, stamp: number, values: (number | null)[]}} Row */
@@ -217,6 +218,11 @@ export class Home {
     return this.rows.get(`${e.kind}/${e.name}`);
   }
 
+  /** @param {{kind: string, name: string}} e @returns {string} its state in the user's language */
+  told({ kind, name }) {
+    return state(this.rows.get(`${kind}/${name}`)?.text ?? '', this.kinds[kind]);
+  }
+
   /** @param {string} model @returns {Entity[]} */
   ofModel(model) {
     return this.entities.filter((e) => e.model === model && e.kind !== 'model');
@@ -313,7 +319,7 @@ export class Home {
   async order(order) {
     await this.connection.opened(PATIENCE);
     const answer = await this.connection.ask(order);
-    if (!answer.ok) notice(answer.text ?? 'The simulator rejected it.', true);
+    if (!answer.ok) notice(answer.text ?? t('The simulator rejected it.'), true);
     return answer;
   }
 

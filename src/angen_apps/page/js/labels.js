@@ -1,7 +1,8 @@
 /** Names of rooms and people over the 3D view. */
 import * as THREE from '../vendor/three/three.module.min.js';
-import { by, el } from './dom.js';
+import { by, el, words } from './dom.js';
 import { inside, middleOf } from './home.js';
+import { t } from './lang.js';
 import { Taken } from './places.js';
 
 const MOST = 26; // rooms with a label
@@ -23,7 +24,7 @@ export class Labels {
     const { home } = view, floors = view.storey === null ? home.rooms : []; // these may hide a label
     for (const [model, { figure, text: doing }] of view.people.all) {
       const p = figure.group.position;
-      if (figure.group.visible) due.set(`person ${model}`, { at: [p.x, p.y, p.z + 2], text: model, person: true, small: doing, behind: isBehind(view, floors, [p.x, p.y, p.z + 0.9]) });
+      if (figure.group.visible) due.set(`person ${model}`, { at: [p.x, p.y, p.z + 2], text: model, person: true, small: t(doing.replaceAll('_', ' ')), behind: isBehind(view, floors, [p.x, p.y, p.z + 0.9]) });
     }
     const rooms = home.rooms.filter((room) => view.showsStorey(room.storey)).sort((a, b) => b.floor - a.floor); // the upper ones first
     if (rooms.length <= MOST) {
@@ -81,6 +82,9 @@ function isBehind(view, rooms, at) {
  * @returns {string}
  */
 export function roomText(room) {
-  const name = room.name.replace(/\d+$/, '').replaceAll('_', ' ');
-  return name ? name[0].toUpperCase() + name.slice(1) : room.name;
+  const name = room.name.replace(/\d+$/, '');
+  return name ? words(name) : room.name;
 }
+
+/** @param {{number: number, name: string}} storey */
+export const floorText = ({ number, name }) => (!name || name === `Floor ${number}` ? t('Floor {number}', { number }) : t(name));

@@ -6,17 +6,19 @@ import { Carry } from './carry.js';
 import { sunAt } from './daylight.js';
 import { Goal } from './goal.js';
 import { Home } from './home.js';
+import { floorText } from './labels.js';
+import { choose, languages, numbers, t } from './lang.js';
 import { Panels } from './panels.js';
 import { Plan } from './plan.js';
 import { Player } from './player.js';
 import { share } from './share.js';
 import { View3d } from './view3d.js';
 
-const NO_3D = 'This browser has no WebGL, which the 3D view needs: the plan has everything.';
-const EMPTY = 'This world has no rooms and no devices.';
+const NO_3D = t('This browser has no WebGL, which the 3D view needs: the plan has everything.');
+const EMPTY = t('This world has no rooms and no devices.');
 const DUSK = 0.1; // sine of the sun's height, below which lamps are wanted
 /** @type {Record<string, string>} */
-const LIMITS = { look: ', to look only', switch: ', to switch only' };
+const LIVE = { look: t('Live, to look only'), switch: t('Live, to switch only') };
 const RATES = [0.1, 0.5, 1, 2, 5, 10, 100, 0];
 
 class Page {
@@ -62,15 +64,15 @@ class Page {
   buildBar() {
     const { home } = this;
     const ask = (/** @type {string} */ what, more = {}) => () => home.order({ do: what, ...more });
-    this.time = el('time', { class: 'number', role: 'timer', 'aria-label': 'Simulated time' });
+    this.time = el('time', { class: 'number', role: 'timer', 'aria-label': t('Simulated time') });
     this.play = el('button', { type: 'button', id: 'play', class: 'icon', order: 'pause', onclick: () => home.order({ do: home.stats.paused ? 'resume' : 'pause' }) });
-    this.rate = el('select', { id: 'rate', 'aria-label': 'Speed', order: 'rate', onchange: () => home.order({ do: 'rate', rate: Number(this.rate.value) }) },
-      ...RATES.map((rate) => el('option', { value: rate, selected: rate === 1 }, rate ? `${rate}×` : 'max')));
+    this.rate = el('select', { id: 'rate', 'aria-label': t('Speed'), order: 'rate', onchange: () => home.order({ do: 'rate', rate: Number(this.rate.value) }) },
+      ...RATES.map((rate) => el('option', { value: rate, selected: rate === 1 }, rate ? `${numbers(rate)}×` : t('max'))));
     this.factor = el('span', { class: 'soft number wide' });
     by('clock').append(this.time, this.play,
-      el('button', { type: 'button', class: 'wide', title: 'One second on, while paused (.)', order: 'step', onclick: ask('step', { seconds: 1 }) }, '+1 s'), this.rate,
-      el('button', { type: 'button', class: 'wide', title: 'To the start', order: 'reset', onclick: ask('reset') }, 'Reset'), this.factor);
-    for (const [id, text] of [['3d', '3D'], ['plan', 'Plan']]) {
+      el('button', { type: 'button', class: 'wide', title: t('One second on, while paused (.)'), order: 'step', onclick: ask('step', { seconds: 1 }) }, '+1 s'), this.rate,
+      el('button', { type: 'button', class: 'wide', title: t('To the start'), order: 'reset', onclick: ask('reset') }, t('Reset')), this.factor);
+    for (const [id, text] of [['3d', '3D'], ['plan', t('Plan')]]) {
       by('views').append(el('button', { type: 'button', id: `view-${id}`, disabled: id === '3d' && !this.view, title: id === '3d' && !this.view && NO_3D, onclick: () => this.setView(id) }, text));
     }
     by('theme').addEventListener('click', () => this.setTheme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark'));
@@ -82,7 +84,7 @@ class Page {
 
   showStatus() {
     const { home } = this;
-    const text = !home.connected ? 'No connection to the server' : home.status.replay ? 'Recording' : home.status.node ? `Live${LIMITS[accessed().role] ?? ''}` : 'Waiting for the simulator';
+    const text = !home.connected ? t('No connection to the server') : home.status.replay ? t('Recording') : home.status.node ? (LIVE[accessed().role] ?? t('Live')) : t('Waiting for the simulator');
     by('status').textContent = text;
     by('status').title = denied('spawn');
     by('status').classList.toggle('off', !home.connected || !(home.status.node || home.status.replay));
@@ -97,9 +99,9 @@ class Page {
   /** Why there is no home to see. */
   showNothing() {
     const { connected, status, scene, described, rooms, entities } = this.home, known = scene && described;
-    const text = known ? (rooms.length || entities.some((e) => e.kind !== 'model') ? '' : status.replay ? EMPTY : `${EMPTY} Click the ground to add a sensor.`)
-      : !connected ? 'Connecting to the server …' : status.replay ? 'Reading the recording …'
-        : status.node ? 'Loading the home …' : 'Waiting for a simulator: ./angen run starts one';
+    const text = known ? (rooms.length || entities.some((e) => e.kind !== 'model') ? '' : status.replay ? EMPTY : `${EMPTY} ${t('Click the ground to add a sensor.')}`)
+      : !connected ? t('Connecting to the server …') : status.replay ? t('Reading the recording …')
+        : status.node ? t('Loading the home …') : t('Waiting for a simulator: ./angen run starts one');
     by('nothing').textContent = text;
     by('nothing').hidden = !text;
   }
@@ -111,14 +113,14 @@ class Page {
     const now = stats.time + (stats.paused || !status.node ? 0 : since * stats.factor);
     const text = this.home.clock(now);
     if (this.time.textContent !== text) this.time.textContent = text;
-    this.time.title = `${now.toFixed(1)} s simulated`;
+    this.time.title = t('{time} s simulated', { time: numbers(now.toFixed(1)) });
     const play = stats.paused ? '▶' : '❚❚';
     if (this.play.textContent !== play) {
       this.play.textContent = play;
-      this.play.title = denied('pause') || (stats.paused ? 'Go on (space)' : 'Pause (space)');
-      this.play.setAttribute('aria-label', stats.paused ? 'Go on' : 'Pause');
+      this.play.title = denied('pause') || (stats.paused ? t('Go on (space)') : t('Pause (space)'));
+      this.play.setAttribute('aria-label', stats.paused ? t('Go on') : t('Pause'));
     }
-    this.factor.textContent = status.node ? `${stats.paused ? 'paused' : `${stats.factor.toFixed(stats.factor < 10 ? 2 : 0)}× real time`}${status.seed === undefined ? '' : `, seed ${status.seed}`}` : '';
+    this.factor.textContent = status.node ? `${stats.paused ? t('paused') : t('{factor}× real time', { factor: numbers(stats.factor.toFixed(stats.factor < 10 ? 2 : 0)) })}${status.seed === undefined ? '' : `, ${t('seed {seed}', { seed: String(status.seed) })}`}` : '';
   }
 
   /** @param {string} theme */
@@ -166,7 +168,7 @@ class Page {
     const plan = this.plan.hidden === false;
     const shown = plan && this.storey === null ? storeys[0]?.number : this.storey;
     const button = (/** @type {number | null} */ number, /** @type {string} */ text) => el('button', { type: 'button', 'aria-pressed': String(shown === number), onclick: () => this.setStorey(number) }, text);
-    by('floors').replaceChildren(...(many ? [...(plan ? [] : [button(null, 'All floors')]), ...[...storeys].reverse().map((s) => button(s.number, s.name || `Floor ${s.number}`))] : []));
+    by('floors').replaceChildren(...(many ? [...(plan ? [] : [button(null, t('All floors'))]), ...[...storeys].reverse().map((s) => button(s.number, floorText(s)))] : []));
   }
 
   /** @param {number | null} number */
@@ -179,9 +181,9 @@ class Page {
   }
 
   buildLayers() {
-    this.walls = el('select', { 'aria-label': 'Walls', onchange: () => this.view?.setWalls(this.walls.value) },
-      el('option', { value: 'cut' }, 'Low walls'), el('option', { value: 'clear' }, 'See-through walls'), el('option', { value: 'full' }, 'Whole walls'));
-    const fields = el('button', { type: 'button', 'aria-pressed': 'false', title: 'Fields of view of sensors, and scans of lidars (F)' }, 'Sensor fields');
+    this.walls = el('select', { 'aria-label': t('Walls'), onchange: () => this.view?.setWalls(this.walls.value) },
+      el('option', { value: 'cut' }, t('Low walls')), el('option', { value: 'clear' }, t('See-through walls')), el('option', { value: 'full' }, t('Whole walls')));
+    const fields = el('button', { type: 'button', 'aria-pressed': 'false', title: t('Fields of view of sensors, and scans of lidars (F)') }, t('Sensor fields'));
     fields.addEventListener('click', () => {
       const on = fields.getAttribute('aria-pressed') !== 'true';
       fields.setAttribute('aria-pressed', String(on));
@@ -193,12 +195,12 @@ class Page {
     });
     this.fieldsButton = fields;
     fields.classList.add('both');
-    this.record = el('button', { type: 'button', id: 'record', class: 'both', 'aria-pressed': 'false', title: 'Records a video of the home, until it is pressed again', onclick: async () => {
+    this.record = el('button', { type: 'button', id: 'record', class: 'both', 'aria-pressed': 'false', title: t('Records a video of the home, until it is pressed again'), onclick: async () => {
       this.record.setAttribute('aria-pressed', String((await this.recorder()).toggle()));
-    } }, 'Record');
-    by('layers').append(this.walls, fields, el('button', { type: 'button', title: 'From above (P)', onclick: () => this.view?.look(true) }, 'From above'),
-      el('button', { type: 'button', title: 'The whole home (H)', onclick: () => this.whole() }, 'Whole home'),
-      el('button', { type: 'button', id: 'picture', class: 'both', title: 'Saves a picture of the home', onclick: async () => (await this.recorder()).picture() }, 'Picture'), this.record);
+    } }, t('Record'));
+    by('layers').append(this.walls, fields, el('button', { type: 'button', title: t('From above (P)'), onclick: () => this.view?.look(true) }, t('From above')),
+      el('button', { type: 'button', title: t('The whole home (H)'), onclick: () => this.whole() }, t('Whole home')),
+      el('button', { type: 'button', id: 'picture', class: 'both', title: t('Saves a picture of the home'), onclick: async () => (await this.recorder()).picture() }, t('Picture')), this.record);
   }
 
   /** @returns {Promise<import('./record.js').Recorder>} what is loaded when it is used */
@@ -215,9 +217,10 @@ class Page {
 
   /** What to try, until something is tried. */
   welcome() {
-    const { home } = this, tap = isNarrow() ? 'Tap' : 'Click', robot = home.movers.some((e) => home.isRobot(e)) && !home.status.replay && !denied('goal');
+    const { home } = this, robot = home.movers.some((e) => home.isRobot(e)) && !home.status.replay && !denied('goal');
     const dark = (sunAt(home.described, home.stats.time)?.[2] ?? 1) < DUSK && home.entities.some((e) => e.kind === 'lamp');
-    by('welcome').textContent = home.status.replay ? `${tap} a person or a room, or the line below` : `${tap} ${dark && !denied('command') ? 'a lamp and switch it on: it is dark' : 'a door, lamp, person or room'}${robot ? ' · drag the robot to another room' : ''}`;
+    const what = home.status.replay ? t('a person or a room, or the line below') : dark && !denied('command') ? t('a lamp and switch it on: it is dark') : t('a door, lamp, person or room');
+    by('welcome').textContent = `${isNarrow() ? t('Tap {what}', { what }) : t('Click {what}', { what })}${robot ? ` · ${t('drag the robot to another room')}` : ''}`;
     by('welcome').hidden = localStorage.getItem('welcome') === 'seen';
     const seen = () => { by('welcome').hidden = true; localStorage.setItem('welcome', 'seen'); };
     by('stage').addEventListener('pointerdown', seen, { once: true, capture: true }); // also one that sets a goal
@@ -262,7 +265,7 @@ class Page {
   choosePoint(text, from, then) {
     this.choosing = then;
     this.goal.mark(from, (point) => { this.stopChoosing(); then(point); });
-    by('hint').textContent = `${text}. ${isNarrow() ? '' : 'Keys: arrows move the mark, Enter takes it, Esc ends'}`;
+    by('hint').textContent = `${text}. ${isNarrow() ? '' : t('Keys: arrows move the mark, Enter takes it, Esc ends')}`;
     by('hint').hidden = false;
   }
 
@@ -274,7 +277,7 @@ class Page {
 
   addSensor() {
     this.card.close();
-    this.choosePoint('A place for the sensor: press on the floor', this.middle(), (point) => {
+    this.choosePoint(t('A place for the sensor: press on the floor'), this.middle(), (point) => {
       this.card.close();
       this.place(point);
       by('add').focus();
@@ -309,7 +312,7 @@ class Page {
     this.card.close();
     this.setView('3d');
     this.view.eyes.begin(entity, () => { by('hint').hidden = true; });
-    by('hint').replaceChildren(`As ${entity.name} sees it `, el('button', { type: 'button', id: 'leave', title: 'Esc', onclick: () => this.view?.eyes.end() }, 'Leave'));
+    by('hint').replaceChildren(`${t('As {name} sees it', { name: entity.name })} `, el('button', { type: 'button', id: 'leave', title: t('Esc'), onclick: () => this.view?.eyes.end() }, t('Leave')));
     by('hint').hidden = false;
   }
 
@@ -355,13 +358,18 @@ class Page {
   }
 
   help() {
-    const rows = [['Click', 'a door, lamp, person, sensor or floor: what it is and does'], ['Drag', 'turns the view; with the right button or two fingers it moves'], ['Wheel', 'zooms'],
-      ['Space', 'pauses'], ['.', 'one second on, while paused'], ['N', 'the next event, in a recording'], ['0 – 9, *', 'a floor, all floors'], ['H, P', 'the whole home, from above'], ['V', '3D or plan'], ['F', 'sensor fields'],
-      ['T', 'light or dark'], ['W A S D', 'drive the robot, in its tab'], ['Drag the robot', 'its goal'], ['M', 'moves things: drag them; by keys . and , choose one, arrows move it, R turns it, Enter puts it there'], ['Esc', 'closes']];
-    by('dialog').replaceChildren(el('h2', {}, 'Keys'), el('dl', {}, ...rows.flatMap(([key, text]) => [el('dt', {}, el('kbd', {}, key)), el('dd', {}, text)])),
-      el('form', { method: 'dialog' }, el('button', { class: 'main' }, 'Close')));
+    const rows = [[t('Click'), t('a door, lamp, person, sensor or floor: what it is and does')], [t('Drag'), t('turns the view; with the right button or two fingers it moves')], [t('Wheel'), t('zooms')],
+      [t('Space'), t('pauses')], ['.', t('one second on, while paused')], ['N', t('the next event, in a recording')], ['0 – 9, *', t('a floor, all floors')], ['H, P', t('the whole home, from above')], ['V', t('3D or plan')], ['F', t('sensor fields')],
+      ['T', t('light or dark')], ['W A S D', t('drive the robot, in its tab')], [t('Drag the robot'), t('its goal')], ['M', t('moves things: drag them; by keys . and , choose one, arrows move it, R turns it, Enter puts it there')], [t('Esc'), t('closes')]];
+    by('dialog').replaceChildren(el('h2', {}, t('Keys')), el('dl', {}, ...rows.flatMap(([key, text]) => [el('dt', {}, el('kbd', {}, key)), el('dd', {}, text)])), languageMenu(),
+      el('form', { method: 'dialog' }, el('button', { class: 'main', autofocus: true }, t('Close'))));
     by('dialog').showModal();
   }
 }
+
+const languageMenu = () => {
+  const menu = el('select', { id: 'language', onchange: () => choose(menu.value) }, ...languages().map(({ code, name, chosen }) => el('option', { value: code, selected: chosen, lang: code }, name)));
+  return el('label', { class: 'language' }, t('Language'), ' ', menu);
+};
 
 /** @type {any} */ (window).angen = new Page(); // for tests and the console

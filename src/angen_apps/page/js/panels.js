@@ -2,9 +2,10 @@
 import { denied } from './access.js';
 import { by, el, isNarrow, words } from './dom.js';
 import { thingRow } from './card.js';
+import { numbers, t } from './lang.js';
 import { Plots } from './plots.js';
 import { RobotPanel } from './robot.js';
-import { roomText } from './labels.js';
+import { floorText, roomText } from './labels.js';
 
 const PERIOD = 200; // ms
 const SMALL = new Set(['changed', 'changes', 'steady']); // events of light and surfaces, which come often
@@ -34,11 +35,11 @@ export class Panels {
     this.robot = new RobotPanel(home, page);
     /** @type {Panel[]} */
     this.all = [
-      { id: 'rooms', text: 'Rooms', build: () => this.rooms(), update: () => this.refreshRooms(), topics: ['rows'] },
-      { id: 'sensors', text: 'Sensors', build: () => this.sensors(), update: () => this.refreshSensors(), topics: ['rows'] },
-      { id: 'events', text: 'Events', build: () => this.events(), update: () => this.refreshEvents(), topics: ['events'] },
-      { id: 'robot', text: 'Robot', build: () => this.robot.build(), update: () => this.robot.update(), topics: ['rows'] },
-      { id: 'costs', text: 'Costs', build: () => this.costs(), update: () => this.refreshCosts(), topics: ['cost', 'stats'] },
+      { id: 'rooms', text: t('Rooms'), build: () => this.rooms(), update: () => this.refreshRooms(), topics: ['rows'] },
+      { id: 'sensors', text: t('Sensors'), build: () => this.sensors(), update: () => this.refreshSensors(), topics: ['rows'] },
+      { id: 'events', text: t('Events'), build: () => this.events(), update: () => this.refreshEvents(), topics: ['events'] },
+      { id: 'robot', text: t('Robot'), build: () => this.robot.build(), update: () => this.robot.update(), topics: ['rows'] },
+      { id: 'costs', text: t('Costs'), build: () => this.costs(), update: () => this.refreshCosts(), topics: ['cost', 'stats'] },
     ];
     this.current = this.all[0];
     by('tabs').append(...this.all.map((panel) => el('button', { type: 'button', role: 'tab', id: `tab-${panel.id}`, 'aria-controls': 'panel',
@@ -102,9 +103,9 @@ export class Panels {
     const parts = shown.length > MANY ? this.floors(shown, box) : shown.map(box);
     const rest = (things.get('') ?? []).filter((e) => home.kinds[e.kind].verbs.length || home.isMover(e));
     if (rest.length && (this.page.storey === null || !shown.length)) {
-      parts.push(el('section', { class: 'room' }, el('header', {}, el('b', {}, shown.length ? 'Elsewhere' : 'Devices')), ...rest.map((e) => thingRow(home, e, () => this.page.show(e)))));
+      parts.push(el('section', { class: 'room' }, el('header', {}, el('b', {}, shown.length ? t('Elsewhere') : t('Devices'))), ...rest.map((e) => thingRow(home, e, () => this.page.show(e)))));
     }
-    if (!parts.length) parts.push(el('p', { class: 'soft' }, home.status.node || home.status.replay ? 'This world has no devices.' : 'Waiting for the simulator.'));
+    if (!parts.length) parts.push(el('p', { class: 'soft' }, home.status.node || home.status.replay ? t('This world has no devices.') : t('Waiting for the simulator.')));
     return [...this.tools(), ...parts];
   }
 
@@ -112,7 +113,7 @@ export class Panels {
   floors(rooms, box) {
     return [...this.home.storeys].reverse().map((storey) => {
       const own = rooms.filter((room) => room.storey === storey.number), key = storey.number;
-      const part = el('details', { class: 'floor', open: this.opened.has(key) }, el('summary', {}, el('b', {}, storey.name || `Floor ${key}`), el('span', { class: 'soft' }, ` ${own.length} rooms`)));
+      const part = el('details', { class: 'floor', open: this.opened.has(key) }, el('summary', {}, el('b', {}, floorText(storey)), el('span', { class: 'soft' }, ` ${t('{count} rooms', { count: own.length })}`)));
       const fill = () => {
         if (part.open) this.opened.add(key);
         else this.opened.delete(key);
@@ -129,8 +130,8 @@ export class Panels {
     if (home.status.replay || !home.status.node) return [];
     const all = (/** @type {string} */ kind, /** @type {string} */ verb) => () => home.order({ do: 'command', target: `${kind}/all`, text: verb });
     const pair = (/** @type {string} */ kind, /** @type {string} */ text, /** @type {string[]} */ ...verbs) => (home.entities.some((e) => e.kind === kind)
-      ? el('span', { class: 'pair', role: 'group', 'aria-label': text }, el('span', { class: 'soft' }, text), ...verbs.map((verb) => el('button', { type: 'button', order: 'command', onclick: all(kind, verb) }, verb))) : null);
-    return [denied('spawn') && el('p', { class: 'soft', id: 'limits' }, denied('spawn')), el('div', { class: 'tools' }, pair('lamp', 'Lamps', 'On', 'Off'), pair('door', 'Doors', 'Open', 'Close'))];
+      ? el('span', { class: 'pair', role: 'group', 'aria-label': text }, el('span', { class: 'soft' }, text), ...verbs.map((verb) => el('button', { type: 'button', order: 'command', onclick: all(kind, verb) }, t(verb)))) : null);
+    return [denied('spawn') && el('p', { class: 'soft', id: 'limits' }, denied('spawn')), el('div', { class: 'tools' }, pair('lamp', t('Lamps'), 'On', 'Off'), pair('door', t('Doors'), 'Open', 'Close'))];
   }
 
   /** @param {any} room @param {any[]} things */
@@ -138,14 +139,14 @@ export class Panels {
     const { home } = this, box = el('section', { class: 'room' });
     const info = el('span', { class: 'soft number' });
     box.append(el('header', {}, el('button', { type: 'button', onclick: () => this.page.showRoom(room) }, roomText(room)),
-      el('span', { class: 'soft' }, home.storeys.length > 1 ? `floor ${room.storey}` : ''), el('span', { class: 'grow' }), info));
+      el('span', { class: 'soft' }, home.storeys.length > 1 ? t('floor {number}', { number: room.storey }) : ''), el('span', { class: 'grow' }), info));
     box.append(...things.filter((e) => !home.isMover(e)).sort((a, b) => rank(a) - rank(b)).map((e) => thingRow(home, e, () => this.page.show(e))));
     const movers = el('div', {});
     box.append(movers);
     const measured = home.entities.filter((e) => ['luminosity', 'temperature'].includes(e.kind) && home.roomsOf(e)[0] === room).slice(0, 2);
     const lamps = things.filter((e) => e.kind === 'lamp');
     box.refresh = () => {
-      const text = measured.map((e) => home.row(e)?.text).filter(Boolean).join(' · ');
+      const text = measured.map((e) => home.told(e)).filter(Boolean).join(' · ');
       if (info.textContent !== text) info.textContent = text;
       box.classList.toggle('lit', lamps.some((e) => /^on/i.test(home.row(e)?.text ?? '')));
       const here = home.movers.filter((e) => home.roomsOf(e)[0] === room);
@@ -166,14 +167,14 @@ export class Panels {
 
   sensors() {
     const { home } = this;
-    this.filter ??= el('input', { type: 'search', placeholder: 'Name or kind', 'aria-label': 'Filter', oninput: () => this.rebuildRows() });
+    this.filter ??= el('input', { type: 'search', placeholder: t('Name or kind'), 'aria-label': t('Filter'), oninput: () => this.rebuildRows() });
     this.table = el('tbody');
     this.rebuildRows();
     return [this.plots.element, el('div', { class: 'tools' }, this.filter,
-      ...(home.status.replay ? [] : [el('button', { type: 'button', order: 'spawn', onclick: () => this.page.addSensor() }, 'Add a sensor …'),
-        el('button', { type: 'button', order: 'save', onclick: () => this.page.save() }, 'Save world')])),
+      ...(home.status.replay ? [] : [el('button', { type: 'button', order: 'spawn', onclick: () => this.page.addSensor() }, t('Add a sensor …')),
+        el('button', { type: 'button', order: 'save', onclick: () => this.page.save() }, t('Save world'))])),
     el('table', {}, el('colgroup', {}, el('col', { style: 'width: 44px' }), el('col'), el('col', { style: 'width: 45%' })),
-      el('thead', {}, el('tr', {}, el('th', {}, el('span', { class: 'soft' }, 'Plot')), el('th', {}, 'Name'), el('th', {}, 'Reading'))), this.table)];
+      el('thead', {}, el('tr', {}, el('th', {}, el('span', { class: 'soft' }, t('Plot'))), el('th', {}, t('Name')), el('th', {}, t('Reading')))), this.table)];
   }
 
   rebuildRows() {
@@ -183,10 +184,10 @@ export class Panels {
       .sort((a, b) => a.kind.localeCompare(b.kind) || a.name.localeCompare(b.name, undefined, { numeric: true })).slice(0, 400);
     this.table.replaceChildren(...rows.map((row) => {
       const e = home.entities.find((one) => one.kind === row.kind && one.name === row.name);
-      const text = el('td', { class: 'number', title: row.text }, row.text || '–');
+      const now = home.told(row), text = el('td', { class: 'number', title: now }, now || '–');
       const fields = home.fields(row.kind).length > 0;
-      const line = el('tr', {}, el('td', {}, fields && el('button', { type: 'button', 'aria-label': `Plot ${row.kind} ${row.name}`, onclick: () => this.plots.add(row.kind, row.name) }, '+')),
-        el('td', { title: `${row.kind} ${row.name}` }, e ? el('button', { type: 'button', style: 'border: 0; background: none; padding: 0', onclick: () => this.page.show(e) }, row.name) : row.name, ' ', el('span', { class: 'soft' }, row.kind)), text);
+      const line = el('tr', {}, el('td', {}, fields && el('button', { type: 'button', 'aria-label': t('Plot {kind} {name}', { kind: words(row.kind), name: row.name }), onclick: () => this.plots.add(row.kind, row.name) }, '+')),
+        el('td', { title: `${words(row.kind)} ${row.name}` }, e ? el('button', { type: 'button', style: 'border: 0; background: none; padding: 0', onclick: () => this.page.show(e) }, row.name) : row.name, ' ', el('span', { class: 'soft' }, words(row.kind))), text);
       this.lines.set(`${row.kind}/${row.name}`, { line, text });
       return line;
     }));
@@ -197,9 +198,10 @@ export class Panels {
   refreshSensors() {
     if (this.home.rows.size !== this.count) { this.rebuildRows(); return; }
     for (const [key, { line, text }] of this.lines) {
-      const row = this.home.rows.get(key);
+      const { home } = this, row = home.rows.get(key);
       if (!row) continue;
-      if (text.textContent !== row.text) { text.textContent = row.text || '–'; text.title = row.text; }
+      const now = home.told(row);
+      if (text.textContent !== now) { text.textContent = now || '–'; text.title = now; }
       line.classList.toggle('alarm', row.alarm);
     }
   }
@@ -207,10 +209,10 @@ export class Panels {
   // --- events
 
   events() {
-    this.eventFilter ??= el('input', { type: 'search', placeholder: 'Filter', 'aria-label': 'Filter', oninput: () => this.refreshEvents() });
+    this.eventFilter ??= el('input', { type: 'search', placeholder: t('Filter'), 'aria-label': t('Filter'), oninput: () => this.refreshEvents() });
     this.small ??= el('input', { type: 'checkbox', onchange: () => this.refreshEvents() });
     this.list = el('ol', { class: 'events', reversed: true });
-    return [el('div', { class: 'tools' }, this.eventFilter, el('label', { title: 'Light that changes, surfaces that warm' }, this.small, ' Small changes')), this.list];
+    return [el('div', { class: 'tools' }, this.eventFilter, el('label', { title: t('Light that changes, surfaces that warm') }, this.small, ` ${t('Small changes')}`)), this.list];
   }
 
   refreshEvents() {
@@ -218,28 +220,28 @@ export class Panels {
     const shown = this.home.events.filter(([, ...texts]) => (this.small.checked || !SMALL.has(texts[2])) && (!word || texts.join(' ').toLowerCase().includes(word))).slice(-200).reverse();
     this.list.replaceChildren(...shown.map(([time, kind, source, event, detail]) => el('li', {}, el('time', { class: 'soft number' }, this.home.clock(time)),
       el('span', { class: event }, el('b', {}, source), ` ${kind} ${event}`, detail ? el('span', { class: 'soft' }, ` ${detail}`) : ''))));
-    if (!shown.length) this.list.append(el('li', {}, '', el('span', { class: 'soft' }, 'No events.')));
+    if (!shown.length) this.list.append(el('li', {}, '', el('span', { class: 'soft' }, t('No events.'))));
   }
 
   // --- costs
 
   costs() {
     this.costBox = el('div');
-    return [el('p', { class: 'soft' }, 'CPU time per simulated second, as angen top shows it.'), this.costBox];
+    return [el('p', { class: 'soft' }, t('CPU time per simulated second, as angen top shows it.')), this.costBox];
   }
 
   refreshCosts() {
     const { cost, stats } = this.home;
     if (!cost) {
-      this.costBox.textContent = this.home.status.replay ? 'A recording has no costs.' : 'Measuring …';
+      this.costBox.textContent = this.home.status.replay ? t('A recording has no costs.') : t('Measuring …');
       return;
     }
-    const ms = (/** @type {number} */ us) => (us >= 1000 ? `${(us / 1000).toFixed(1)} ms` : `${us.toFixed(0)} µs`);
+    const ms = (/** @type {number} */ us) => (us >= 1000 ? `${numbers((us / 1000).toFixed(1))} ms` : `${us.toFixed(0)} µs`);
     const most = Math.max(1, ...cost.instances.map((/** @type {any} */ one) => one[2]));
     this.costBox.replaceChildren(
       el('table', {}, ...Object.entries(cost.parts).map(([part, us]) => el('tr', {}, el('td', {}, words(part)), el('td', { class: 'number' }, ms(/** @type {number} */ (us)))))),
-      el('p', { class: 'soft' }, `${stats.models} models, ${stats.devices} devices, ${stats.sensors} sensors, ${stats.awake} awake bodies`),
-      el('h3', {}, 'Devices and sensors'),
+      el('p', { class: 'soft' }, t('{models} models, {devices} devices, {sensors} sensors, {awake} awake bodies', stats)),
+      el('h3', {}, t('Devices and sensors')),
       el('table', {}, ...cost.instances.slice(0, 40).map((/** @type {any} */ [kind, name, us]) => el('tr', {}, el('td', {}, `${name} `, el('span', { class: 'soft' }, kind)),
         el('td', {}, el('div', { class: 'bar' }, el('i', { style: `width: ${(100 * us) / most}%` }))), el('td', { class: 'number', style: 'width: 80px' }, ms(us))))));
   }

@@ -2,6 +2,7 @@
 import { by, el, isNarrow, svg, words } from './dom.js';
 import { fieldShape, yawOf } from './fields.js';
 import { roomText } from './labels.js';
+import { state, t } from './lang.js';
 import { MOVES, scanPoints } from './overlays.js';
 import { Taken, around, nameOf } from './places.js';
 import { bytes } from './shapes.js';
@@ -86,7 +87,7 @@ export class Plan {
     const width = Math.max(...xs) + margin - left, height = -Math.min(...ys) + margin - top;
     this.scale = Math.min(this.element.clientWidth / width, this.element.clientHeight / height) || 1;
     this.text = Math.max(Math.min(0.42, width / 30), LEAST / this.scale);
-    this.root = svg('svg', { viewBox: `${left} ${top} ${width} ${height}`, role: 'group', 'aria-label': `Plan of floor ${number}` });
+    this.root = svg('svg', { viewBox: `${left} ${top} ${width} ${height}`, role: 'group', 'aria-label': t('Plan of floor {number}', { number }) });
     this.root.addEventListener('click', (/** @type {MouseEvent} */ e) => this.onPick(this.hit(e.clientX, e.clientY)));
     const path = (/** @type {number[][]} */ p) => `M${p.map(([x, y]) => `${x.toFixed(3)} ${(-y).toFixed(3)}`).join('L')}Z`;
     for (const room of rooms) {
@@ -252,7 +253,7 @@ export class Plan {
       return el('span', {}, svg('svg', { viewBox: '-11 -9 22 18', width: 22, height: 18, 'aria-hidden': true }, sign), words(name));
     });
     /** @type {any} */
-    const legend = el('details', { class: 'legend', open: this.legendOpen ?? !isNarrow() }, el('summary', { onclick: () => { this.legendOpen = !legend.open; } }, 'Legend'), el('div', {}, ...rows));
+    const legend = el('details', { class: 'legend', open: this.legendOpen ?? !isNarrow() }, el('summary', { onclick: () => { this.legendOpen = !legend.open; } }, t('Legend')), el('div', {}, ...rows));
     return legend;
   }
 
@@ -308,7 +309,7 @@ export class Plan {
       }
       item.classList.toggle('on', home.isOn(row));
       item.classList.toggle('alarm', Boolean(row?.alarm));
-      item.setAttribute('aria-label', `${e.kind} ${e.name}: ${row?.text ?? ''}`);
+      item.setAttribute('aria-label', `${words(e.kind)} ${e.name}: ${state(row?.text ?? '', home.kinds[e.kind])}`);
     }
     const lit = new Set(home.entities.filter((e) => e.kind === 'lamp' && home.isOn(home.row(e))).map((e) => home.roomsOf(e)[0]?.name));
     for (const room of home.rooms) this.items.get(`room/${room.name}`)?.classList.toggle('lit', lit.has(room.name));

@@ -2,6 +2,7 @@
 import { accessed } from './access.js';
 import { by, clockText, el, notice } from './dom.js';
 import { inside } from './home.js';
+import { t } from './lang.js';
 
 const SPEEDS = [0.5, 1, 2, 5, 20, 100, 1000];
 const LINE = 14; // px of a person's line
@@ -110,24 +111,24 @@ export class Player {
   }
 
   build() {
-    this.play = el('button', { type: 'button', class: 'icon main', id: 'replay', 'aria-label': 'Play or pause', onclick: () => this.toggle() });
-    this.rate = el('select', { 'aria-label': 'Speed', onchange: () => { this.speed = Number(this.rate.value); } }, ...SPEEDS.map((s) => el('option', { value: s, selected: s === 1 }, `${s}×`)));
-    this.slider = el('input', { type: 'range', id: 'moment', min: 0, step: 'any', value: 0, 'aria-label': 'Time', oninput: () => this.seek(Number(this.slider.value)) });
+    this.play = el('button', { type: 'button', class: 'icon main', id: 'replay', 'aria-label': t('Play or pause'), onclick: () => this.toggle() });
+    this.rate = el('select', { 'aria-label': t('Speed'), onchange: () => { this.speed = Number(this.rate.value); } }, ...SPEEDS.map((s) => el('option', { value: s, selected: s === 1 }, `${s}×`)));
+    this.slider = el('input', { type: 'range', id: 'moment', min: 0, step: 'any', value: 0, 'aria-label': t('Time'), oninput: () => this.seek(Number(this.slider.value)) });
     this.label = el('span', { class: 'number' });
-    this.ribbon = el('canvas', { role: 'img', 'aria-label': 'What each person did, or the room that each was in' });
+    this.ribbon = el('canvas', { role: 'img', 'aria-label': t('What each person did, or the room that each was in') });
     this.ribbon.addEventListener('pointermove', (/** @type {PointerEvent} */ e) => { this.ribbon.title = this.textAt(e); });
     this.ribbon.addEventListener('click', (/** @type {PointerEvent} */ e) => this.seek(this.timeAt(e)));
-    const share = el('button', { type: 'button', title: 'The address of this moment', onclick: () => {
+    const share = el('button', { type: 'button', title: t('The address of this moment'), onclick: () => {
       const url = new URL(location.href);
       url.searchParams.set('t', this.time.toFixed(1));
       const { role, tokens } = accessed();
       if (tokens[role]) url.searchParams.set('token', tokens[role]);
       history.replaceState(null, '', url);
-      const copied = () => notice('The address of this moment is copied.'), shown = () => notice('The address above opens at this moment.');
+      const copied = () => notice(t('The address of this moment is copied.')), shown = () => notice(t('The address above opens at this moment.'));
       (navigator.clipboard?.writeText(url.href) ?? Promise.reject()).then(copied, shown);
-    } }, 'Link');
-    this.bar = el('section', { id: 'player', 'aria-label': 'Recording' }, el('div', { class: 'line' }, this.ribbon, this.slider),
-      el('div', { class: 'tools' }, this.play, el('button', { type: 'button', title: 'To the next event (N)', onclick: () => this.next() }, 'Next event'), this.rate, this.label, el('span', { class: 'grow' }), share));
+    } }, t('Link'));
+    this.bar = el('section', { id: 'player', 'aria-label': t('Recording') }, el('div', { class: 'line' }, this.ribbon, this.slider),
+      el('div', { class: 'tools' }, this.play, el('button', { type: 'button', title: t('To the next event (N)'), onclick: () => this.next() }, t('Next event')), this.rate, this.label, el('span', { class: 'grow' }), share));
     by('side').before(this.bar);
     new ResizeObserver(() => { this.ribbonStale = true; }).observe(this.bar);
     const frame = () => { requestAnimationFrame(frame); this.frame(); };
@@ -142,7 +143,7 @@ export class Player {
     if (playing && next > this.time) this.seek(next, true); // it waits for the rows
     this.play.textContent = playing ? '❚❚' : '▶';
     this.slider.value = String(this.time);
-    const text = `${clockText(this.time)} / ${clockText(this.end)}${this.end ? '' : ', one moment: it has no duration'}${this.loaded < this.end ? `, read ${Math.round((100 * this.loaded) / this.end)} %` : ''}`;
+    const text = `${clockText(this.time)} / ${clockText(this.end)}${this.end ? '' : `, ${t('one moment: it has no duration')}`}${this.loaded < this.end ? `, ${t('read {share} %', { share: Math.round((100 * this.loaded) / this.end) })}` : ''}`;
     if (this.label.textContent !== text) this.label.textContent = text;
     if (this.ribbonStale && now - (this.ribbonAt ?? 0) > 1000) {
       this.ribbonStale = false;
@@ -241,9 +242,10 @@ export class Player {
         const x = NAMES + (start / this.end) * (width - NAMES), wide = ((end - start) / this.end) * (width - NAMES);
         context.fillStyle = this.color(text);
         context.fillRect(x, line * LINE, Math.max(0.5, wide), LINE - 2);
-        if (wide > 7 * text.length + 6) {
+        const said = spanText(text);
+        if (wide > 7 * said.length + 6) {
           context.fillStyle = '#fff';
-          context.fillText(text.replaceAll('_', ' '), x + 4, line * LINE + LINE / 2 - 0.5);
+          context.fillText(said, x + 4, line * LINE + LINE / 2 - 0.5);
         }
       }
       context.fillStyle = style.getPropertyValue('--ink');
@@ -268,9 +270,12 @@ export class Player {
   textAt(e) {
     const person = this.drawn?.[Math.floor(e.offsetY / LINE)], time = this.timeAt(e);
     const span = person?.spans.find(([start, end]) => time >= start && time < end);
-    return span ? `${person?.name}: ${span[2].replaceAll('_', ' ')}, ${this.home.clock(time)}` : '';
+    return span ? `${person?.name}: ${spanText(span[2])}, ${this.home.clock(time)}` : '';
   }
 }
+
+/** @param {string} name of an activity or a room */
+const spanText = (name) => t(name.replaceAll('_', ' '));
 
 /** @param {Track} track @param {number} time @returns {Float32Array} */
 function between(track, time) {

@@ -2,6 +2,7 @@
 import uPlot from '../vendor/uplot/uPlot.esm.js';
 import { el, notice } from './dom.js';
 import { HISTORY } from './home.js';
+import { numbers, t } from './lang.js';
 
 const MOST = 6;
 const PERIOD = 250, AGAIN = 10000; // ms; after the latter the whole run is asked for again
@@ -15,12 +16,12 @@ export class Plots {
     /** @type {{key: string, kind: string, name: string, field: any, box: any, plot: any, zoomed: boolean, whole: {t: number[], v: number[]}, asked: number}[]} */
     this.shown = [];
     this.holder = el('div');
-    this.pause = el('button', { type: 'button', 'aria-pressed': 'false', onclick: () => this.setPaused(!this.paused) }, 'Pause plots');
-    this.whole = el('button', { type: 'button', 'aria-pressed': 'false', title: 'Since the server was started', onclick: () => {
+    this.pause = el('button', { type: 'button', 'aria-pressed': 'false', onclick: () => this.setPaused(!this.paused) }, t('Pause plots'));
+    this.whole = el('button', { type: 'button', 'aria-pressed': 'false', title: t('Since the server was started'), onclick: () => {
       this.whole.setAttribute('aria-pressed', String(!this.isWhole()));
       this.update();
-    } }, 'Whole run');
-    this.tools = el('div', { class: 'tools', hidden: true }, this.pause, this.whole, el('button', { type: 'button', title: 'All readings since the server was started', onclick: () => el('a', { href: '/readings.csv', download: '' }).click() }, 'CSV'), el('span', { class: 'soft' }, 'Drag to zoom, double click to reset'));
+    } }, t('Whole run'));
+    this.tools = el('div', { class: 'tools', hidden: true }, this.pause, this.whole, el('button', { type: 'button', title: t('All readings since the server was started'), onclick: () => el('a', { href: '/readings.csv', download: '' }).click() }, 'CSV'), el('span', { class: 'soft' }, t('Drag to zoom, double click to reset')));
     this.element = el('div', {}, this.tools, this.holder);
     setInterval(() => this.update(), PERIOD);
   }
@@ -40,17 +41,17 @@ export class Plots {
   add(kind, name, chosen) {
     const fields = this.home.fields(kind).filter((field, i, all) => all.findIndex((other) => other.name === field.name) === i
       && this.home.series.has(`${kind}/${name}/${field.name}`));
-    if (!fields.length) { notice(`${name} has no numbers yet.`); return; }
+    if (!fields.length) { notice(t('{name} has no numbers yet.', { name })); return; }
     const field = fields.find((one) => one.name === chosen) ?? fields.find((one) => one.shown && one.type !== 'flag') ?? fields[0];
     const key = `${kind}/${name}/${field.name}`;
     this.open();
     if (this.shown.some((one) => one.key === key)) return;
     if (this.shown.length >= MOST) this.remove(this.shown[0]);
-    const choice = el('select', { 'aria-label': `Field of ${name}` }, ...fields.map((one) => el('option', { value: one.name, selected: one === field }, one.name.replaceAll('_', ' '))));
+    const choice = el('select', { 'aria-label': t('Field of {name}', { name }) }, ...fields.map((one) => el('option', { value: one.name, selected: one === field }, t(one.name.replaceAll('_', ' ')))));
     const box = el('div', { class: 'plot' }, el('header', {}, el('span', { title: `${kind} ${name}` }, name), choice));
     const entry = { key, kind, name, field, box, plot: /** @type {any} */ (null), zoomed: false, whole: { t: /** @type {number[]} */ ([]), v: /** @type {number[]} */ ([]) }, asked: -Infinity };
     choice.addEventListener('change', () => { this.remove(entry); this.add(kind, name, choice.value); });
-    box.firstChild.append(el('button', { class: 'icon', type: 'button', 'aria-label': `Close the plot of ${name}`, onclick: () => this.remove(entry) }, '✕'));
+    box.firstChild.append(el('button', { class: 'icon', type: 'button', 'aria-label': t('Close the plot of {name}', { name }), onclick: () => this.remove(entry) }, '✕'));
     this.holder.append(box);
     this.shown.push(entry);
     this.tools.hidden = false;
@@ -74,7 +75,7 @@ export class Plots {
         u.over.addEventListener('dblclick', () => { entry.zoomed = false; });
       }] },
       axes: [{ ...axis, values: (/** @type {any} */ _, /** @type {number[]} */ times) => times.map((t) => `${Math.round(t - this.now())} s`), size: 28 },
-        { ...axis, values: (/** @type {any} */ _, /** @type {number[]} */ v) => v.map((one) => `${Number(one.toPrecision(4))}${unit}`), size: 66 }],
+        { ...axis, values: (/** @type {any} */ _, /** @type {number[]} */ v) => v.map((one) => `${numbers(Number(one.toPrecision(4)))}${unit}`), size: 66 }],
       series: [{}, { stroke: style.getPropertyValue('--accent'), width: 2, fill: undefined, points: { show: false },
         paths: entry.field.type === 'flag' ? uPlot.paths.stepped?.({ align: 1 }) : undefined }],
     }, [[], []], entry.box);

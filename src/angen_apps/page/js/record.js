@@ -1,5 +1,6 @@
 /** Pictures and videos of the home, as the browser shows it: its view, the names in it and the clock. */
 import { by, el, notice } from './dom.js';
+import { t } from './lang.js';
 
 const FRAMES = 25, PLAN = 200; // per second; ms between pictures of the plan
 const TYPES = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm', 'video/mp4'];
@@ -34,7 +35,7 @@ export class Recorder {
   toggle() {
     if (this.recorder) { this.recorder.stop(); return false; }
     const type = TYPES.find((one) => window.MediaRecorder?.isTypeSupported(one));
-    if (!type) { notice('This browser records no videos: angen web --video does.', true); return false; }
+    if (!type) { notice(t('This browser records no videos: angen web --video does.'), true); return false; }
     const { view } = this.page, parts = /** @type {Blob[]} */ ([]), recorder = new MediaRecorder(this.canvas.captureStream(FRAMES), { mimeType: type, videoBitsPerSecond: 6e6 });
     if (view) view.after = () => this.compose(false);
     const again = async () => {
@@ -48,7 +49,7 @@ export class Recorder {
     recorder.onstop = () => {
       if (view) view.after = () => {};
       this.recorder = null;
-      if (!this.bytes) notice('The browser had no time to record: angen web --video takes its time.', true);
+      if (!this.bytes) notice(t('The browser had no time to record: angen web --video takes its time.'), true);
       else save(new Blob(parts, { type }), nameOf(this.page, type.includes('mp4') ? 'mp4' : 'webm'));
     };
     recorder.start(1000);

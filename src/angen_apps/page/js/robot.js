@@ -2,6 +2,7 @@
 import { denied } from './access.js';
 import { el, isForOthers } from './dom.js';
 import { thingRow, trip } from './card.js';
+import { t } from './lang.js';
 import { RobotMap } from './robotmap.js';
 
 const SPEED = 0.35, TURN = 1.4; // m/s, rad/s, at the end of the stick
@@ -40,24 +41,24 @@ export class RobotPanel {
   build() {
     const { home } = this, robot = this.robot();
     this.active = true;
-    if (!robot) return [el('p', { class: 'soft' }, 'This world has no robot.')];
+    if (!robot) return [el('p', { class: 'soft' }, t('This world has no robot.'))];
     this.name = robot.name;
-    const choose = el('select', { 'aria-label': 'Robot', onchange: () => { this.name = choose.value; this.page.rebuild(); } },
+    const choose = el('select', { 'aria-label': t('Robot'), onchange: () => { this.name = choose.value; this.page.rebuild(); } },
       ...this.robots().map((e) => el('option', { value: e.name, selected: e === robot }, e.name)));
     const sensors = home.entities.filter((e) => e.model === robot.model && e.topic);
     this.cameras = sensors.filter((e) => e.type === 'sensor_msgs/Image');
     this.lidar = sensors.find((e) => e.type === 'sensor_msgs/LaserScan');
-    this.picture = el('img', { class: 'picture', alt: `Picture of the camera of ${robot.name}`, hidden: !this.camera });
-    const shown = el('button', { type: 'button', 'aria-pressed': String(this.camera), onclick: () => { this.camera = !this.camera; this.page.rebuild(); } }, 'Camera');
-    this.stick = el('div', { class: 'stick', role: 'group', 'aria-label': 'Stick: drag to drive; or the keys W A S D' }, el('i'));
+    this.picture = el('img', { class: 'picture', alt: t('Picture of the camera of {name}', { name: robot.name }), hidden: !this.camera });
+    const shown = el('button', { type: 'button', 'aria-pressed': String(this.camera), onclick: () => { this.camera = !this.camera; this.page.rebuild(); } }, t('Camera'));
+    this.stick = el('div', { class: 'stick', role: 'group', 'aria-label': t('Stick: drag to drive; or the keys W A S D') }, el('i'));
     this.stick.addEventListener('pointerdown', (/** @type {PointerEvent} */ e) => { this.stick.setPointerCapture(e.pointerId); this.drag(e); });
     this.stick.addEventListener('pointermove', (/** @type {PointerEvent} */ e) => { if (this.stick.hasPointerCapture(e.pointerId)) this.drag(e); });
     for (const end of ['pointerup', 'pointercancel']) this.stick.addEventListener(end, () => this.steer(0, 0));
     this.subscribe();
     return [el('div', { class: 'tools' }, choose, this.cameras.length && !home.status.replay ? shown : null), ...trip(home, this.page, robot),
     thingRow(home, robot, () => this.page.show(robot)), this.picture, this.map.show(robot, this.lidar ? `scan:${this.lidar.name}` : ''),
-    ...(home.status.replay ? [] : denied('drive') ? [el('p', { class: 'soft' }, denied('drive'))] : [el('p', { class: 'soft', style: 'text-align: center' }, 'Drag on the map: a goal and its heading. Or drag the robot itself in the home.'),
-      this.stick, el('p', { class: 'soft', style: 'text-align: center' }, 'Drag the stick, or hold W A S D.')])];
+    ...(home.status.replay ? [] : denied('drive') ? [el('p', { class: 'soft' }, denied('drive'))] : [el('p', { class: 'soft', style: 'text-align: center' }, t('Drag on the map: a goal and its heading. Or drag the robot itself in the home.')),
+      this.stick, el('p', { class: 'soft', style: 'text-align: center' }, t('Drag the stick, or hold W A S D.'))])];
   }
 
   subscribe() {

@@ -3,6 +3,7 @@ import { denied } from './access.js';
 import { el } from './dom.js';
 import { yawOf } from './fields.js';
 import { TURNS } from './goal.js';
+import { t } from './lang.js';
 import { scanPoints } from './overlays.js';
 
 const SPAN = 9; // m that the map shows across
@@ -19,7 +20,7 @@ export class RobotMap {
     this.scan = [];
     /** @type {any} */
     this.waiting = undefined;
-    this.canvas = el('canvas', { class: 'map', role: 'img', 'aria-label': 'Map around the robot, with its scan. Drag to set a goal: place and direction.' });
+    this.canvas = el('canvas', { class: 'map', role: 'img', 'aria-label': t('Map around the robot, with its scan. Drag to set a goal: place and direction.') });
     home.on('poses', () => this.later());
     goal.listeners.push(() => this.later());
     home.on('scan', ({ name, content }) => {

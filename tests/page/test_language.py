@@ -1,0 +1,119 @@
+"""The page in other languages: every text of it has one there, and nothing else has."""
+from __future__ import annotations
+
+import json
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from angen_apps.plan.names import USES
+from angen_apps.residents.activities import activities
+from angen_apps.web.command import described_kinds
+from angen_apps.web.guard import REASONS
+
+PAGE = Path(__file__).resolve().parents[2] / 'src/angen_apps/page'
+LANGUAGES = sorted((PAGE / 'lang').glob('*.json'))
+CALL = re.compile(r"(?<![\w.])t\('((?:[^'\\]|\\.)*)'")
+ANY_CALL = re.compile(r'(?<![\w.])t\((?:[`"]|\w+ \?)')  # of a text that this test does not find
+PLAIN = re.compile(r"(?:\}, |(?:title|alt|placeholder|'aria-label'): |textContent = |notice\()"
+                   r"(?:'[A-Za-z]+ ?[a-z]{2}[^']*'|`[A-Za-z]+ [a-z]{2}[^`]*`)")
+IMPORT = re.compile(r"(?:from|import\() ?'\./(\w+\.js)'")
+HOLE = re.compile(r'\{\w+\}')
+NAMES = {'Angen', '?', '↶', '↷'}
+ROOMS = ('hall', 'entrance', 'livingroom', 'bedroom', 'workroom', 'stairs')  # of homes made here
+COSTS = ('process', 'physics', 'devices', 'sensors', 'commands', 'snapshots', 'publishing')
+NONE = 'none'  # an empty list
+MARKS = ('robot', 'sensor')  # of a plan
+
+
+class Texts(HTMLParser):
+    """Those of a page that a user reads."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.found: set[str] = set()
+        self.languages: list[str] = []
+        self._tag = ''
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self._tag = tag
+        self.found.update(value for name, value in attrs
+                          if name in ('title', 'aria-label', 'alt') and value)
+        given = dict(attrs)
+        if given.get('name') == 'languages':
+            self.languages = (given['content'] or '').split()
+
+    def handle_data(self, data: str) -> None:
+        if self._tag not in ('title', 'noscript') and data.strip():
+            self.found.add(data.strip())
+
+
+def words(name: str) -> str:
+    return name[:1].upper() + name[1:].replace('_', ' ')
+
+
+def catalog() -> set[str]:
+    """Names and descriptions that the page has of the simulator."""
+    found = {words(name) for name in (*ROOMS, *COSTS, *MARKS, 'other', *(use for use, _ in USES))}
+    found |= {f'{reason[0].upper()}{reason[1:]}.' for reason in REASONS.values()}
+    found |= {name.replace('_', ' ') for name in activities()} | {'Ground floor', NONE}
+    for name, kind in described_kinds().items():
+        found |= {words(name), kind['doc']}
+        for verb in kind['verbs']:
+            found |= {words(re.sub(r'(?<=[a-z])(?=[A-Z])', ' ', verb['name']).lower()),
+                      verb['doc']}
+        for field in kind['fields']:
+            if field['type'] in ('flag', 'integer', 'number'):
+                found.add(field['name'].replace('_', ' '))
+            found |= {word.lower() for word in field['words']}
+    return found - {''}
+
+
+@pytest.fixture(scope='module')
+def texts() -> set[str]:
+    page = Texts()
+    page.feed((PAGE / 'index.html').read_text())
+    found = (page.found - NAMES) | catalog()
+    for path in (PAGE / 'js').glob('*.js'):
+        found.update(CALL.findall(path.read_text()))
+    return found
+
+
+def test_the_page_names_its_languages() -> None:
+    page = Texts()
+    page.feed((PAGE / 'index.html').read_text())
+    assert page.languages == ['en', *(path.stem for path in LANGUAGES)] and LANGUAGES
+
+
+def modules(name: str) -> set[str]:
+    """A module of the page, and those that it imports."""
+    found: set[str] = set()
+    due = [name]
+    while due:
+        if (name := due.pop()) not in found:
+            found.add(name)
+            due += IMPORT.findall((PAGE / 'js' / name).read_text())
+    return found
+
+
+def test_the_code_says_nothing_else() -> None:
+    for name in sorted(modules('main.js')):
+        text = (PAGE / 'js' / name).read_text()
+        assert not ANY_CALL.findall(text) and not PLAIN.findall(text), name
+
+
+@pytest.mark.parametrize('path', LANGUAGES, ids=lambda path: str(path.stem))
+def test_each_text_is_in_each_language(path: Path, texts: set[str]) -> None:
+    def once(pairs: list[tuple[str, str]]) -> dict[str, str]:
+        assert len(dict(pairs)) == len(pairs)
+        return dict(pairs)
+    table: dict[str, Any] = json.loads(path.read_text(), object_pairs_hook=once)
+    assert sorted(texts - set(table)) == []
+    assert sorted(set(table) - texts) == []  # what nothing uses
+    assert all(table.values())
+    holes = {text for text, other in table.items()
+             if sorted(HOLE.findall(text)) != sorted(HOLE.findall(other))}
+    assert not holes
