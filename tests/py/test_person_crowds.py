@@ -60,22 +60,34 @@ def arrive(w: angen.World, goals: list[tuple[float, float]], limit: float) -> No
     assert not left()
 
 
+def between_rooms(width: float, deep: float) -> str:
+    """The walls of two rooms, and of what is between them."""
+    middle, far = width / 2 + 2.5, 5 + deep / 2 - 0.06
+    return ''.join(box(f'wall{side}', f'{side * middle} 0 1.3 0 0 0', f'5 {deep} 2.6', True)
+                   + box(f'far{side}', f'0 {side * far} 1.3 0 0 0', '11 0.1 2.6', True)
+                   + box(f'end{side}', f'{5.4 * side} 0 1.3 0 0 0', '0.1 16 2.6', True)
+                   for side in (-1, 1))
+
+
 @pytest.mark.parametrize('width, deep, limit', [(0.8, 0.12, 60.0), (0.95, 0.12, 60.0),
                                                 (0.8, 6.0, 90.0), (1.0, 6.0, 90.0)])
 def test_ten_people_from_both_sides_get_through_what_is_too_narrow_for_two(
         world: Callable[..., angen.World], width: float, deep: float, limit: float) -> None:
     """A doorway, and a corridor between two rooms."""
-    middle, more = width / 2 + 2.5, deep / 2 - 0.06
-    walls = ''.join(box(f'wall{side}', f'{side * middle} 0 1.3 0 0 0', f'5 {deep} 2.6', True)
-                    + box(f'far{side}', f'0 {side * (5 + more)} 1.3 0 0 0', '11 0.1 2.6', True)
-                    + box(f'end{side}', f'{5.4 * side} 0 1.3 0 0 0', '0.1 16 2.6', True)
-                    for side in (-1, 1))
-    starts, goals = [], []
+    more, starts, goals = deep / 2 - 0.06, [], []
     for i in range(10):
         side, k = 1 - 2 * (i % 2), i // 2
         starts.append((-2.0 + k + 0.05 * i, side * (1.6 + more + 0.4 * (k % 3))))
         goals.append((-2.0 + k, -side * (2.0 + more + 0.5 * (k % 3))))
-    arrive(crowd(world, walls, starts, goals), goals, limit)
+    arrive(crowd(world, between_rooms(width, deep), starts, goals), goals, limit)
+
+
+@pytest.mark.parametrize('ahead', [1.0, -1.0])
+def test_one_of_two_who_meet_where_only_one_fits_walks_back(world: Callable[..., angen.World],
+                                                            ahead: float) -> None:
+    goals = [(0.0, 4.5 * ahead), (0.0, -4.5 * ahead)]
+    w = crowd(world, between_rooms(1.0, 6.0), [(0.0, -1.5 * ahead), (0.0, 1.0 * ahead)], goals)
+    arrive(w, goals, 40.0)
 
 
 @pytest.mark.parametrize('width, each, bends', [(1.2, 5, False), (1.2, 5, True), (1.2, 8, False),

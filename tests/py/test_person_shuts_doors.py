@@ -63,6 +63,18 @@ def test_a_leaf_that_closes_off_a_corridor_is_always_shut(world: Make, goal: flo
     assert walk(w, goal, -0.1 - width / 2, 25.0)['mode'] == mode
 
 
+@pytest.mark.parametrize('ahead', [1, -1])
+def test_an_open_leaf_in_its_way_is_shut_at_once(world: Make, ahead: int) -> None:
+    """She comes along the corridor, across which the leaf of a door to a room stands open."""
+    w = world(WALL + door() + corridor(1.3) + person('ann', 0.45 - 4.5 * ahead, -0.75), DOORS)
+    w.run(0.3)
+    w.command('door', 'hall0', 'Open')
+    w.run(6.0)
+    w.events()
+    assert walk(w, 0.45 + 4.5 * ahead, -0.75, 20.0)['mode'] == 'CLOSED'  # 9 m at 1 m/s
+    assert [e for _, source, _, e, _ in w.events() if source == 'ann'].count('blocked') <= 1
+
+
 def test_it_says_that_it_goes_and_has_arrived(world: Make) -> None:
     w = world(person('ann', 0.0, 0.0))
     w.run(0.3)

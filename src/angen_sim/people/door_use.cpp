@@ -153,6 +153,14 @@ bool place(const Reading& state, const HomeDoor* home, DoorSeen& door) {
 
 bool DoorSeen::is_passable() const { return gap >= std::min(kNeeded, 0.9 * width); }
 
+std::optional<double> DoorSeen::way_to_leaf(const Vec2& at, const Vec2& to) const {
+  if (!is_open()) return std::nullopt;
+  const Vec2 tip = hinge + (width + Surroundings::kBody) * open;
+  const std::optional<double> share = meeting(at, to, hinge, tip);
+  if (!share || *share * (to - at).norm() > Surroundings::kSight) return std::nullopt;
+  return *share * (to - at).norm();
+}
+
 bool DoorSeen::hides(const Vec2& point, const Vec2& from) const {
   if (is_passable()) return false;
   const Vec2 offset = point - hinge;
@@ -205,16 +213,20 @@ void DoorUse::enter(Phase phase, Nanoseconds now) {
   closes_off_.reset();
 }
 
-void DoorUse::look(const View& view, const Vec3& feet, const Vec2& to) {
+// Close to a door, before a corner of its opening, no straight way leads through.
+void DoorUse::look(const View& view, const Vec3& feet, const std::vector<Vec2>& places) {
   const Vec2 at = feet.head<2>();
   const std::vector<DoorSeen> doors = doors_seen(view, feet.z());
-  std::optional<DoorSeen> next = door_on_way(doors, at, to);
+  std::optional<DoorSeen> next;
+  for (const Vec2& place : places) {
+    if (!next) next = door_on_way(doors, at, place);
+  }
   const auto is_near = [&] {
     return next && std::abs(next->into.dot(at - next->hinge)) < kSeesDoor;
   };
   Phase then = Phase::kApproach;
   if (!is_near() && closes_ && phase_ == Phase::kNone) {  // behind it, it may be shut
-    next = door_on_way(doors, at, to, Passable::kYes);
+    next = door_on_way(doors, at, places.front(), Passable::kYes);
     then = Phase::kPassing;
   }
   if (!is_near()) return;
@@ -280,9 +292,10 @@ std::vector<DoorUse::Vec2> DoorUse::spots() const {
   return places;
 }
 
-DoorUse::Advice DoorUse::update(const View& view, const Vec3& feet, const Vec2& to, bool looks,
+DoorUse::Advice DoorUse::update(const View& view, const Vec3& feet, const std::vector<Vec2>& places,
                                 Outputs& outputs) {
-  if (looks && (phase_ == Phase::kNone || phase_ == Phase::kPassing)) look(view, feet, to);
+  if (!places.empty() && (phase_ == Phase::kNone || phase_ == Phase::kPassing))
+    look(view, feet, places);
   if (phase_ == Phase::kNone) return {};
   if (view.time() - refreshed_ >= kRefresh) {
     refreshed_ = view.time();
@@ -291,7 +304,8 @@ DoorUse::Advice DoorUse::update(const View& view, const Vec3& feet, const Vec2& 
   const Vec2 at = feet.head<2>();
   switch (phase_) {
     case Phase::kApproach:
-      if (looks && is_in_swing(at) && is_taken(view, feet, spot_)) spot_ = free_spot(view, feet);
+      if (!places.empty() && is_in_swing(at) && is_taken(view, feet, spot_))
+        spot_ = free_spot(view, feet);
       return approach(view, feet, outputs);
     case Phase::kOpening:
       return wait_until_open(view, feet);
@@ -416,12 +430,13 @@ DoorUse::Advice DoorUse::pass(const View& view, const Vec3& feet, Outputs& outpu
   return {Advice::Step::kStand, handle()};
 }
 
-bool DoorUse::shut_nearby(const View& view, const Vec3& feet, Outputs& outputs) const {
+bool DoorUse::shut_nearby(const View& view, const Vec3& feet, Outputs& outputs,
+                          const std::string& model) const {
   bool any = false;
   for (const DoorSeen& door : doors_seen(view, feet.z())) {
     const double away = (feet.head<2>() - door.hinge).norm();
-    if (!opens_ || door.slides || door.mode != "OPEN" || away > kNearby ||
-        away < door.width + kOutOfSwing - kAtSpot ||
+    if (!model.empty() && door.model != model) continue;
+    if (!opens_ || !door.is_open() || away > kNearby || away < door.width + kOutOfSwing - kAtSpot ||
         is_swing_taken(view, feet, door, Whose::kAll)) {
       continue;
     }

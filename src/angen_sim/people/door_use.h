@@ -27,6 +27,10 @@ struct DoorSeen {
   std::string partner_mode;
 
   Vec2 edge() const { return hinge + width * along; }
+  /// Whether its leaf stands open, and turned.
+  bool is_open() const { return !slides && mode == "OPEN"; }
+  /// m to its open leaf, if that is in sight and leaves a person no straight way.
+  std::optional<double> way_to_leaf(const Vec2& at, const Vec2& to) const;
   /// Whether a person fits through.
   bool is_passable() const;
   /// Whether a point is on the shut leaf, or behind it as seen from a place.
@@ -59,13 +63,15 @@ class DoorUse {
   DoorUse() = default;
   DoorUse(bool opens, bool closes) : opens_(opens), closes_(closes) {}
 
-  /// The next step of a person at `feet` (world, m) whose way leads to `to`. Looks for doors where
-  /// `looks`. Commands doors.
-  Advice update(const View& view, const Vec3& feet, const Vec2& to, bool looks, Outputs& outputs);
+  /// The next step of a person at `feet` (world, m) who makes for the first of some places,
+  /// or around a corner for the others. Looks for doors if there are any. Commands doors.
+  Advice update(const View& view, const Vec3& feet, const std::vector<Vec2>& places,
+                Outputs& outputs);
   void reset() { phase_ = Phase::kNone; }
-  /// Shuts open doors nearby that nobody is at: their leaves may close off its way. Returns whether
-  /// there are any.
-  bool shut_nearby(const View& view, const Vec3& feet, Outputs& outputs) const;
+  /// Shuts open doors nearby that nobody is at, of a model or of all: their leaves may close off
+  /// its way. Returns whether there are any.
+  bool shut_nearby(const View& view, const Vec3& feet, Outputs& outputs,
+                   const std::string& model = "") const;
   /// Whether it shuts the doors that it walks through.
   void close(bool closes) { closes_ = closes; }
   bool closes() const { return closes_; }
@@ -79,7 +85,7 @@ class DoorUse {
  private:
   enum class Phase { kNone, kApproach, kOpening, kWaiting, kPassing, kClosing };
 
-  void look(const View& view, const Vec3& feet, const Vec2& to);
+  void look(const View& view, const Vec3& feet, const std::vector<Vec2>& places);
   Advice approach(const View& view, const Vec3& feet, Outputs& outputs);
   Advice open(const View& view, const Vec3& feet, Outputs& outputs);
   Advice wait_until_open(const View& view, const Vec3& feet);

@@ -16,6 +16,9 @@ constexpr double kWaitToll = 30.0;  // m that another shut door counts
 constexpr double kSeenCell = 0.02;  // m
 constexpr double kItsBody = 0.35;   // m about one who walks on, who is no obstacle for long
 
+// Places behind a person that a passage may have, at most: 10 m.
+constexpr std::size_t kPlacesBack = 200;
+
 std::vector<Navigator::Vec2> straight(const Navigator::Vec2& from, const Navigator::Vec2& to) {
   const int steps = static_cast<int>((to - from).norm() / FloorMap::kCell) + 1;
   std::vector<Navigator::Vec2> places;
@@ -37,12 +40,13 @@ void Navigator::forget() {
 
 bool Navigator::plan(const View& view, const Vec3& feet, const Vec2& to, bool with_seen) {
   const Vec2 at = feet.head<2>();
-  route_.reset();
   const std::vector<DoorSeen> doors = doors_seen(view, feet.z());
   if (!with_seen && !door_on_way(doors, at, to)) {
     FloorMap strip(view, feet, to, FloorMap::Extent::kStraight);
     if (strip.is_clear(at, to) && strip.has_floor(view, at, to)) {
+      route_.reset();
       passages_ = passages_of(strip, straight(at, to));
+      if (is_in_passage(at)) add_passage_behind(*maps_->find(view, feet, to), straight(at, to));
       return true;
     }
   }
@@ -54,15 +58,26 @@ bool Navigator::plan(const View& view, const Vec3& feet, const Vec2& to, bool wi
     map.add_toll(door.hinge, door.edge(), opens_doors_ ? kOpenToll : kWaitToll);
   }
   std::optional<std::vector<Vec2>> way = map.way(view, at, to, kNearGoal);
+  if (!way && with_seen) return false;  // the former way is kept
   passages_.clear();
-  if (!way) return !with_seen && Surroundings::is_walkable(view, feet, to);
+  route_.reset();
+  if (!way) return Surroundings::is_walkable(view, feet, to);
   passages_ = passages_of(*storey, *way);
+  if (is_in_passage(at)) add_passage_behind(*storey, *way);
   route_.emplace(std::move(map), std::move(*way));
   return true;
 }
 
 const Navigator::Vec2& Navigator::advance(const Vec2& at, const Vec2& to) {
   return target_.emplace(route_ ? route_->follow(at) : to);
+}
+
+std::vector<Navigator::Vec2> Navigator::ahead() const {
+  std::vector<Vec2> places{*target_};
+  if (!route_) return places;
+  const std::vector<Vec2> next = route_->next();
+  places.insert(places.end(), next.begin(), next.end());
+  return places;
 }
 
 double Navigator::left(const Vec2& at, const Vec2& to) const {
@@ -83,8 +98,11 @@ void Navigator::learn(const View& view, const Vec3& feet, const Surroundings& se
   };
   std::sort(seen_.begin(), seen_.end(), before);
   seen_.erase(std::unique(seen_.begin(), seen_.end()), seen_.end());
-  // A shut door is no obstacle, and what was behind it may be gone.
+  // A shut door is no obstacle, and what was behind it may be gone; of an open leaf it knows all.
   for (const DoorSeen& door : doors_seen(view, feet.z())) {
+    if (door.is_open() && (door.hinge - feet.head<2>()).norm() < Surroundings::kSight) {
+      add_line(door.hinge, door.open, door.width);
+    }
     if (std::count(failed_.begin(), failed_.end(), door.name) > 0) continue;
     const auto is_hidden = [&](const Vec2& at) { return door.hides(at, feet.head<2>()); };
     seen_.erase(std::remove_if(seen_.begin(), seen_.end(), is_hidden), seen_.end());
@@ -114,10 +132,29 @@ std::string Navigator::why_not(const View& view, const Vec3& feet, const Vec2& t
   return "no way leads there";
 }
 
-void Navigator::note_failed(const DoorSeen& door, std::string why) {
-  for (double at = 0.0; at < door.width; at += kSeenCell) {
-    seen_.push_back(door.hinge + at * door.along);
+bool Navigator::is_in_passage(const Vec2& at) const {
+  return !passages_.empty() && passages_.front().holds(at);
+}
+
+// The part behind it counts, too: it may have to walk back.
+void Navigator::add_passage_behind(const FloorMap& map, std::vector<Vec2> way) {
+  const Vec2 ahead = way[std::min<std::size_t>(4, way.size() - 1)] - way.front();
+  std::vector<Vec2> back;
+  for (Vec2 place = way.front(); ahead.norm() > 0.0 && back.size() < kPlacesBack;) {
+    place -= FloorMap::kCell * ahead.normalized();
+    if (!map.is_free(place)) break;
+    back.push_back(place);
   }
+  way.insert(way.begin(), back.rbegin(), back.rend());
+  passages_ = passages_of(map, way);
+}
+
+void Navigator::add_line(const Vec2& from, const Vec2& along, double length) {
+  for (double at = 0.0; at < length; at += kSeenCell) seen_.push_back(from + at * along);
+}
+
+void Navigator::note_failed(const DoorSeen& door, std::string why) {
+  add_line(door.hinge, door.along, door.width);
   failed_.push_back(door.name);
   why_failed_ = std::move(why);
 }

@@ -36,6 +36,8 @@ class Navigator {
   /// The place to make for on the way, kept until the next call.
   const Vec2& advance(const Vec2& at, const Vec2& to);
   const std::optional<Vec2>& target() const { return target_; }
+  /// The place to make for, and after it those that are next on the way.
+  std::vector<Vec2> ahead() const;
   void drop_target() { target_.reset(); }
   /// m of the way to the goal.
   double left(const Vec2& at, const Vec2& to) const;
@@ -52,6 +54,10 @@ class Navigator {
   bool knows_obstacles() const { return !seen_.empty(); }
 
  private:
+  bool is_in_passage(const Vec2& at) const;
+  void add_passage_behind(const FloorMap& map, std::vector<Vec2> way);
+  void add_line(const Vec2& from, const Vec2& along, double length);
+
   std::shared_ptr<StoreyMaps> maps_;
   bool opens_doors_ = true;
   std::optional<Route> route_;  // none: straight

@@ -101,15 +101,17 @@ class Person : public Device {
   std::string why_no_way(const Step& step) const;
   std::string what_holds(const Step& step) const;
   bool is_going() const;
-  void explore(const Step& step);
+  std::optional<double> way_to_leaf(const Step& step) const;
+  bool explore(const Step& step);
   void take_other_way(const Step& step);
 
   // Where something holds it.
-  bool uses_door(const Vec2& to, bool looks, const Step& step);
+  bool uses_door(const std::vector<Vec2>& places, const Step& step);
   bool gives_way(const Step& step);
   bool stands_aside(Look look, const Step& step);
   void make_room(const Step& step);
   void wait(const Step& step);
+  bool shuts_leaf(const Step& step);
   bool is_freed(const Progress::Wait& wait, const Step& step);
   void hold(const Vec2& at);
   void note(const Progress::Step& progress, const Step& step);

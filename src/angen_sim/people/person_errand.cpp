@@ -1,8 +1,10 @@
 // A person's way to where it was sent.
 #include <algorithm>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "people/person.h"
 #include "people/places.h"
@@ -14,7 +16,8 @@ namespace angen::people {
 
 namespace {
 
-constexpr double kUnseen = 0.3;  // m to an obstacle that it does not see
+constexpr double kShutsFrom = 1.6;  // m from a leaf that is in its way
+constexpr double kUnseen = 0.3;     // m to an obstacle that it does not see
 
 std::string place_text(const Surroundings::Vec2& place) {
   std::ostringstream text;
@@ -84,9 +87,17 @@ void Person::run_errand(const Step& step) {
   const Look look = is<WaitsAtDoor>() ? Look::kNone : walker_.look(step.view, step.feet());
   if (look != Look::kNone || !navigator_.target()) navigator_.advance(at, errand.to());
   if (stands_aside(look, step)) return;
-  if (uses_door(*navigator_.target(), look != Look::kNone, step)) return;
-  if (look == Look::kPlans && navigator_.knows_obstacles()) explore(step);
-  if (look == Look::kPlans) walker_.aim_for(step.view, step.feet(), *navigator_.target());
+  const bool looks = look != Look::kNone;
+  if (uses_door(looks ? navigator_.ahead() : std::vector<Vec2>{}, step)) return;
+  if (look == Look::kPlans) {
+    const bool knows = navigator_.knows_obstacles();
+    std::optional<double> leaf;
+    if (knows || walker_.goes_round()) leaf = way_to_leaf(step);
+    const bool found = (!knows && !leaf) || explore(step);
+    if (!found && (!leaf || *leaf < kShutsFrom)) return wait(step);  // it walks up to a leaf
+    walker_.aim_straight();
+    if (found) walker_.aim_for(step.view, step.feet(), *navigator_.target());
+  }
   const double left = navigator_.left(at, errand.to());
   const bool nearer = errand.come(left);
   if (errand.is_free(left)) progress_.free();
@@ -132,12 +143,24 @@ std::string Person::what_holds(const Step& step) const {
 
 bool Person::is_going() const { return ride_ || floor_ || (errand_ && !errand_->is_over()); }
 
-// Once an obstacle has held it on its way, it plans again with all that it sees.
-void Person::explore(const Step& step) {
+// m to an open leaf across its way.
+std::optional<double> Person::way_to_leaf(const Step& step) const {
+  std::optional<double> least;
+  for (const DoorSeen& door : doors_seen(step.view, step.feet().z())) {
+    const std::optional<double> way = door.way_to_leaf(step.at(), *navigator_.target());
+    if (way && (!least || *way < *least)) least = way;
+  }
+  return least;
+}
+
+// Once an obstacle has held it on its way, or at an open leaf, it plans again with all that it
+// sees.
+bool Person::explore(const Step& step) {
   navigator_.learn(step.view, step.feet(), walker_.surroundings());
-  if (!plan(step, true)) return wait(step);
+  if (!plan(step, true)) return false;
   errand_->set_left(navigator_.left(step.at(), errand_->to()));
   navigator_.advance(step.at(), errand_->to());
+  return true;
 }
 
 // Instead of the way through a door that does not open.

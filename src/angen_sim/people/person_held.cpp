@@ -1,4 +1,7 @@
 // A person at doors, and its behavior when something holds it.
+#include <string>
+#include <vector>
+
 #include "people/person.h"
 #include "people/right_of_way.h"
 #include "plugin/outputs.h"
@@ -17,10 +20,10 @@ constexpr Nanoseconds kGivesUpInCrowd = 60 * kSecond;
 
 }  // namespace
 
-bool Person::uses_door(const Vec2& to, bool looks, const Step& step) {
+bool Person::uses_door(const std::vector<Vec2>& places, const Step& step) {
   if (!walker_.manner().looks || !walker_.manner().rounds) return false;
   using Advice = DoorUse::Advice::Step;
-  const DoorUse::Advice advice = doors_.update(step.view, step.feet(), to, looks, step.outputs);
+  const DoorUse::Advice advice = doors_.update(step.view, step.feet(), places, step.outputs);
   const bool waits = advice.step == Advice::kWait || advice.step == Advice::kFailed;
   state_ = waits ? State(WaitsAtDoor{}) : State(Walks{});
   if (advice.step == Advice::kWalk) return false;
@@ -36,7 +39,7 @@ bool Person::uses_door(const Vec2& to, bool looks, const Step& step) {
   if (advice.step == Advice::kStand) {
     walker_.face(step.body, advice.to - at, step.outputs);
   } else {
-    if (looks) walker_.aim_for(step.view, step.feet(), advice.to);
+    if (!places.empty()) walker_.aim_for(step.view, step.feet(), advice.to);
     walker_.walk(step.body, advice.to, errand_ ? speed_ : kReturnSpeed, step.outputs);
   }
   show(progress_.is_held() ? Mode::kBlocked : Mode::kWalking, step);
@@ -81,15 +84,21 @@ bool Person::gives_way(const Step& step) {
   if (progress_.must_make_room()) make_room(step);
   auto* const wait = std::get_if<Progress::Wait>(&state_);
   if (wait == nullptr) return false;
-  if (step.now() < wait->away_until) {
-    walker_.look(step.view, step.feet());
+  const bool backs = step.now() < wait->away_until;
+  const bool looks = backs ? walker_.look(step.view, step.feet()) == Look::kPlans
+                           : step.now() / kSecond != wait->checked_at;
+  if (looks && shuts_leaf(step)) {
+    wait->away_until = wait->since = step.now();
+    wait->retry_at = step.now() + kSecond;
+  }
+  if (backs) {
     walker_.aim_straight();
     walker_.walk(step.body, wait->back_to, kReturnSpeed, step.outputs, 0.0);
     progress_.count_from(step.at());
     show(Mode::kBlocked, step);
     return true;
   }
-  if (step.now() / kSecond != wait->checked_at) {
+  if (looks) {
     wait->checked_at = step.now() / kSecond;
     if (is_freed(*wait, step)) {
       state_ = Walks{};
@@ -110,6 +119,14 @@ bool Person::gives_way(const Step& step) {
   if (!walker_.rests()) stand(step.outputs);
   show(Mode::kBlocked, step);
   return true;
+}
+
+// Shuts an open leaf that is in its way, once it is out of the swing of that.
+bool Person::shuts_leaf(const Step& step) {
+  if (!errand_ || !walker_.manner().rounds) return false;
+  const Vec2 way = navigator_.target().value_or(errand_->to()) - step.at();
+  const std::string leaf = Surroundings::model_ahead(step.view, step.feet(), way.normalized());
+  return !leaf.empty() && doors_.shut_nearby(step.view, step.feet(), step.outputs, leaf);
 }
 
 bool Person::is_freed(const Progress::Wait& wait, const Step& step) {

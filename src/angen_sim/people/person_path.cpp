@@ -1,6 +1,7 @@
 // A person's walk along its path, and round what is on it.
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "people/person.h"
 #include "plugin/outputs.h"
@@ -34,7 +35,9 @@ void Person::stroll(const Path::Place& place, const Step& step) {
     }
     if (look != Look::kNone) find_rejoin(step);
   }
-  if (!near && uses_door(stroll_.place_in(kPathAhead), look != Look::kNone, step)) return;
+  std::vector<Vec2> ahead;
+  if (look != Look::kNone) ahead.push_back(stroll_.place_in(kPathAhead));
+  if (!near && uses_door(ahead, step)) return;
   if (stroll_.rejoin()) {
     go_round(step);
   } else {

@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::size_t kSearch = 60;  // places ahead: 3 to 4 m
 constexpr std::size_t kLook = 45;    // places that it may make for
+constexpr std::size_t kNext = 16;    // places: 0.8 to 1.1 m
 
 }  // namespace
 
@@ -29,6 +30,11 @@ Route::Vec2 Route::follow(const Vec2& at) {
     if (map_.is_clear(at, way_[i])) return way_[i];
   }
   return way_[std::min(way_.size() - 1, next_ + 2)];
+}
+
+std::vector<Route::Vec2> Route::next() const {
+  const auto from = way_.begin() + static_cast<std::ptrdiff_t>(next_);
+  return {from, from + static_cast<std::ptrdiff_t>(std::min(kNext, way_.size() - next_))};
 }
 
 double Route::left(const Vec2& at) const { return left_[next_] + (way_[next_] - at).norm(); }

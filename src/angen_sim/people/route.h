@@ -18,6 +18,8 @@ class Route {
   /// Notes where the person is. Returns the place to make for: straight ahead on the way, or where
   /// the way bends.
   Vec2 follow(const Vec2& at);
+  /// The places of the way from the person on, for 0.8 m or more.
+  std::vector<Vec2> next() const;
   /// m of the way from `at`.
   double left(const Vec2& at) const;
 

@@ -215,12 +215,15 @@ void Surroundings::find_edges(const View& view, const Vec3& feet, std::vector<Ve
 std::string Surroundings::model_ahead(const View& view, const Vec3& feet, const Vec2& direction) {
   const Vec3 ahead(direction.x(), direction.y(), 0.0);
   std::vector<rays::Ray> ways;
-  for (const double aside : {0.0, -0.15, 0.15, -0.3, 0.3}) {  // rad
+  const Vec3 left(-direction.y(), direction.x(), 0.0);
+  const auto look = [&](double aside, double turn) {  // m, rad
     for (const double height : kHeights) {
-      ways.push_back(
-          {feet + height * Vec3::UnitZ(), from_rpy(0.0, 0.0, aside) * ahead, kOwn, kHolds});
+      ways.push_back({feet + aside * left + height * Vec3::UnitZ(),
+                      from_rpy(0.0, 0.0, turn) * ahead, aside == 0.0 ? kOwn : 0.0, kHolds});
     }
-  }
+  };
+  for (const double turn : {0.0, -0.15, 0.15, -0.3, 0.3}) look(0.0, turn);
+  for (const double aside : {-kBody, kBody}) look(aside, 0.0);
   std::vector<rays::Hit> hits;
   view.cast(ways, hits, rays::kAll & ~rays::only(rays::Mobility::kStatic));
   const auto nearest =
