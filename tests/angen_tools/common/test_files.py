@@ -196,6 +196,7 @@ def test_nothing_else_writes_files() -> None:
              if path.parts[-2:] != ('common', 'files.py') for line in writes(path)]
     allowed = (f'{SOURCES[0]}/angen_tools/live/sandbox.py',  # logs of its processes
                f'{SOURCES[1]}/angen_apps/automation/program.py',
+               f'{SOURCES[1]}/angen_apps/web/chromium.py',
                'bench/angen_bench/gazebo.py',
                'bench/angen_bench/contest.py')  # a model in a temporary folder
     assert [line for line in found if not line.startswith(allowed)] == []

@@ -27,7 +27,7 @@ ENCODERS = {  # options of ffmpeg, by the ending of the file
              '-deadline', 'realtime', '-cpu-used', '5'],
     'gif': ['-filter_complex',
             'split[a][b];[a]palettegen=max_colors=96[p];[b][p]paletteuse=dither=none']}
-RATE = {'gif': 10}  # frames per second, where they are others than USUAL
+RATE = {'gif': 10}  # frames per second, if they are others than USUAL
 USUAL = 25
 SHOWS = '''!!window.angen?.home.scene && angen.home.entities.length > 0
     && Object.keys(angen.home.kinds).length > 0 && !!angen.player.bar
@@ -57,7 +57,7 @@ class Film:
         return self.path.suffix[1:].lower()
 
     def check(self) -> None:
-        """Failure where it cannot be made here."""
+        """Failure if it cannot be made here."""
         if self.kind not in ENCODERS:
             raise Failure(f'--video {self.path}: its name must end with '
                           + ', '.join(f'.{kind}' for kind in ENCODERS))
