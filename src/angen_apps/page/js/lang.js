@@ -33,7 +33,7 @@ export function state(text, kind) {
   const words = (kind?.fields ?? []).flatMap((/** @type {any} */ field) => field.words ?? []).filter(Boolean).concat(NONE);
   let pattern = patterns.get(kind?.kind);
   if (!pattern) {
-    const parts = words.sort((/** @type {string} */ a, /** @type {string} */ b) => b.length - a.length).map((/** @type {string} */ word) => word.replace(/[()]/g, '\\$&'));
+    const parts = words.sort((/** @type {string} */ a, /** @type {string} */ b) => b.length - a.length).map((/** @type {string} */ word) => word.replace(/[.*+?^${}()|[\]\\]/g, '\\$&'));
     patterns.set(kind?.kind, pattern = new RegExp(`(?<!\\w)(?:${parts.join('|')})(?!\\w)`, 'gi'));
   }
   return numbers(text.replace(pattern, (word) => {
