@@ -88,12 +88,14 @@ def test_a_switch_of_a_list_sends_the_verb(german: Page) -> None:
 
 def test_nothing_overflows_on_a_phone(german: Page) -> None:
     german.driver.set_window_size(390, 844)
+    german.until('return innerWidth < 600')
     german.run('document.querySelector("#card").hidden = true')
     for tab in ('sensors', 'events', 'costs', 'robot', 'rooms'):
         german.press(f'#tab-{tab}')
         width, window, *wide = german.run(WIDTH)
         assert width <= window and not wide, tab
     german.driver.set_window_size(1100, 800)
+    german.until('return innerWidth > 1000')
 
 
 def test_a_language_is_chosen_and_remembered(german: Page) -> None:

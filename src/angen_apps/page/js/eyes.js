@@ -53,6 +53,7 @@ export class Eyes {
     view.fields.group.visible = true;
     camera.position.copy(before.at);
     controls.target.copy(before.target);
+    camera.lookAt(before.target); // a picture may be taken before the next frame
     controls.enabled = true;
     document.body.classList.remove('eyes');
     view.storey = before.storey;
