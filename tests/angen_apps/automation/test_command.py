@@ -48,6 +48,13 @@ expect: [{never: nobody in kitchen0}]
     assert outdoors == {-7.5}
 
 
+@pytest.mark.parametrize('name', ['forgotten_stove', 'night_light', 'nobody_home', 'reading_light',
+                                  'wake_up'])
+def test_a_good_one_passes(name: str) -> None:
+    _, verdicts = run(name, 'good')
+    assert {each.outcome for each in verdicts} == {PASSED}
+
+
 def test_a_forgotten_stove(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """By the command: exit code, JUnit XML, picture, tables."""
     scenario = [FOLDER / 'forgotten_stove.yaml']
