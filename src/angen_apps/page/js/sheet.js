@@ -13,7 +13,7 @@ export const SIGN = 0.17, SPOT = 0.12, BODY = 0.22; // m of marks: half of a lam
 const LEAST_MARK = 7; // px
 const LETTER = 0.66; // of a text's height: the width of a letter
 const FARTHEST = 8, LEAST = 4, MOST = 400; // m of the ground that an empty lot shows; px of a meter
-const MARGIN = 44, ABOVE = 76; // px around all, and above
+const MARGIN = 44, ABOVE = 76, BELOW = 72; // px around all, above, and below
 const { PI, cos, sin, min, max, abs, atan2 } = Math;
 
 export class Sheet {
@@ -66,8 +66,8 @@ export class Sheet {
     const { storey } = this.editor, places = keysOf(storey).flatMap((key) => placesOf(itemOf(storey, key)));
     if (places.length < 2) places.push([0, 0], [FARTHEST, FARTHEST * 0.75]);
     const xs = places.map(([x]) => x), ys = places.map(([, y]) => y), { width, height } = this.box();
-    this.scale = min(MOST / 2, max(LEAST, min((width - 2 * MARGIN) / (max(...xs) - min(...xs) || 1), (height - MARGIN - ABOVE) / (max(...ys) - min(...ys) || 1))));
-    this.middle = [(min(...xs) + max(...xs)) / 2, (min(...ys) + max(...ys) + (ABOVE - MARGIN) / this.scale) / 2];
+    this.scale = min(MOST / 2, max(LEAST, min((width - 2 * MARGIN) / (max(...xs) - min(...xs) || 1), (height - BELOW - ABOVE) / (max(...ys) - min(...ys) || 1))));
+    this.middle = [(min(...xs) + max(...xs)) / 2, (min(...ys) + max(...ys) + (ABOVE - BELOW) / this.scale) / 2];
     this.draw();
   }
 
