@@ -13,9 +13,9 @@
 namespace angen::bench {
 namespace {
 
-constexpr double kShare = 0.02, kLeast = 0.05;        // of the reading, lx: what counts as off
+constexpr double kShare = 0.02, kLeast = 0.05;        // share of a reading, lx: off beyond both
 constexpr double kBefore = 0.002;                     // m, from a place to its surface
-constexpr int kBatch = 10'000, kMostPaths = 200'000;  // of the tracer
+constexpr int kBatch = 10'000, kMostPaths = 200'000;  // paths of the tracer
 
 /// Where a walk of one to four steps from a random lamp ends, facing away from that surface.
 Pose place(const rays::Scene& scene, const std::vector<light::Lit>& lit, Rng& rng) {
