@@ -117,6 +117,11 @@ def test_what_is_missing_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
         film(tmp_path / 'a.avi').check()
     with pytest.raises(Failure, match='its folder cannot be written'):
         film(tmp_path / 'no' / 'a.mp4').check()
+    with pytest.raises(Failure, match='/proc: cannot be written'):
+        film(Path('/proc/a.mp4')).check()
+    (tmp_path / 'b.mp4').mkdir()
+    with pytest.raises(Failure, match='is a folder'):
+        film(tmp_path / 'b.mp4').check()
     monkeypatch.setenv('PATH', str(tmp_path))
     with pytest.raises(Failure) as failure:
         film(tmp_path / 'a.mp4').check()

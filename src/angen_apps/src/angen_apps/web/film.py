@@ -3,13 +3,13 @@ from __future__ import annotations
 
 import asyncio
 import json
-import os
 import shutil
 import subprocess
 import threading
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Callable, Iterator
 
 from angen_apps.web.chromium import Chromium, program
 from angen_apps.web.guard import Guard
@@ -17,6 +17,7 @@ from angen_apps.web.played import Lined
 from angen_apps.web.server import Server, listen
 from angen_tools.common.clock import time_of_day
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import check_output, writing
 from angen_tools.common.port import free_port
 from angen_tools.common.progress import Progress
 from angen_tools.common.wait import wait
@@ -61,8 +62,9 @@ class Film:
         if self.kind not in ENCODERS:
             raise Failure(f'--video {self.path}: its name must end with '
                           + ', '.join(f'.{kind}' for kind in ENCODERS))
-        if not os.access(self.path.absolute().parent, os.W_OK):
-            raise Failure(f'--video {self.path}: its folder cannot be written')
+        if not self.path.absolute().parent.is_dir():
+            raise Failure(f'--video {self.path}: its folder cannot be written: it is missing')
+        check_output(self.path)
         missing = [name for name, found in (('chromium', program()),
                                             ('ffmpeg', shutil.which('ffmpeg'))) if not found]
         if missing:
@@ -80,44 +82,37 @@ def begin_of(film: Film, line: dict[str, Any], home: dict[str, Any]) -> float:
     return (time_of_day(film.start) - (time_of_day(clock) if clock else 0.0)) % 86400.0
 
 
-class Encoder:
-    """ffmpeg, which gets pictures. A context: its end without an error makes the file."""
-
-    def __init__(self, film: Film) -> None:
-        self._path = film.path
-        self._part = film.path.with_name(f'.{film.path.name}.part')
-        self._process = subprocess.Popen(
+@contextmanager
+def encoder(film: Film) -> Iterator[Callable[[bytes], None]]:
+    """Takes PNG pictures for ffmpeg, which makes the file if no error ends this context."""
+    with writing(film.path, binary=True) as file:
+        process = subprocess.Popen(
             ['ffmpeg', '-loglevel', 'error', '-nostdin', '-y', '-f', 'image2pipe', '-c:v', 'png',
              '-framerate', str(film.rate), '-i', '-', *ENCODERS[film.kind], '-f', film.kind,
-             str(self._part)], stdin=subprocess.PIPE, stderr=subprocess.PIPE)
+             f'/dev/fd/{file.fileno()}'], stdin=subprocess.PIPE, stderr=subprocess.PIPE,
+            pass_fds=(file.fileno(),))
+        assert process.stdin is not None
 
-    def put(self, picture: bytes) -> None:
-        assert self._process.stdin is not None
+        def end() -> Failure:
+            _, errors = process.communicate()
+            lines = errors.decode(errors='replace').splitlines()
+            return Failure(f'ffmpeg: {lines[-1] if lines else "it ended without a message"}')
+
+        def put(picture: bytes) -> None:
+            try:
+                process.stdin.write(picture)  # type: ignore[union-attr]
+            except BrokenPipeError:
+                raise end() from None
+
         try:
-            self._process.stdin.write(picture)
-        except BrokenPipeError:
-            raise self._failure() from None
-
-    def _failure(self) -> Failure:
-        _, errors = self._process.communicate()
-        lines = errors.decode(errors='replace').splitlines()
-        return Failure(f'ffmpeg: {lines[-1] if lines else "it ended without a message"}')
-
-    def __enter__(self) -> Encoder:
-        return self
-
-    def __exit__(self, kind: object, *_: object) -> None:
-        try:
-            if kind is not None:
-                self._process.kill()
-                self._process.communicate()
-            else:
-                failure = self._failure()  # it has no more pictures to wait for
-                if self._process.returncode:
-                    raise failure
-                self._part.replace(self._path)
+            yield put
+            failure = end()  # it has no more pictures to wait for
+            if process.returncode:
+                raise failure
         finally:
-            self._part.unlink(missing_ok=True)
+            if process.poll() is None:
+                process.kill()
+                process.communicate()
 
 
 def serve(source: Lined, page: Path, kinds: dict[str, Any]) -> int:
@@ -151,14 +146,14 @@ def shoot(source: Lined, film: Film, page: Path, kinds: dict[str, Any]) -> None:
         speed = film.speed or float(line.get('speed', 1.0))
         length = min(film.seconds, (line['end'] - begin) / speed)
         count = max(1, round(length * film.rate))
-        with Chromium(*film.size) as chromium, Encoder(film) as encoder:
+        with Chromium(*film.size) as chromium, encoder(film) as put:
             chromium.open(f'http://127.0.0.1:{serve(source, page, kinds)}/?quality=high')
             wait(lambda: bool(chromium.run(SHOWS)), 'the page does not show the home', LIMIT)
             words = f'angen, "{film.view}", {begin}, {json.dumps(source.is_past)}'
             chromium.run(f'import("/page/js/film.js").then((m) => m.begin({words}))')
             for k in range(count):
                 chromium.run(f'angen.film({begin + k * speed / film.rate}, {1 / film.rate})')
-                encoder.put(chromium.picture())
+                put(chromium.picture())
                 progress.update((k + 1) / count, f'frame {k + 1} of {count}')
     print(f'{film.path}: {length:.1f} s from {begin:.1f} s on, {speed:g} times as fast, '
           f'{film.size[0]} x {film.size[1]}, {film.path.stat().st_size / 1e6:.2f} MB', flush=True)
