@@ -50,6 +50,15 @@ def test_memory_is_bounded_for_many_sensors(monkeypatch: pytest.MonkeyPatch) -> 
     assert size < 200 * LEAST * 16 * 2
 
 
+def test_memory_is_bounded_while_sensors_come_and_go(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, 'SERIES', 10)
+    history = History()
+    for name in range(1000):
+        history.put('lux', str(name), 1.0, [1.0, 2.0])
+    assert len(history._series) == 10
+    assert history.of('lux', '999', 1) == ([1.0], [2.0])
+
+
 def test_the_table_names_fields_and_units() -> None:
     history = History()
     history.put('lux', 'old, "one"', 1.5, [20.25, 1.0])

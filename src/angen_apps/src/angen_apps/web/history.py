@@ -7,6 +7,7 @@ from typing import Any, Iterator
 
 TOTAL = 3_000_000  # values of all series, of 16 bytes each
 MOST, LEAST = 3000, 64  # values of a series
+SERIES = 50_000  # the oldest is dropped for one more
 BLOCK = 4  # older values, whose least and greatest stay
 NUMBERS = ('flag', 'integer', 'number')  # types of fields that summaries have
 Key = tuple[str, str, int]  # kind, name, index of the field
@@ -63,6 +64,8 @@ class History:
                     key = kind, name, index
                     series = self._series.get(key)
                     if series is None:
+                        if len(self._series) >= SERIES:  # things came and went
+                            del self._series[next(iter(self._series))]
                         series = self._series[key] = Series()
                     series.put(time, value, most)
 
