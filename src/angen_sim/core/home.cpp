@@ -1,6 +1,7 @@
 #include "core/home.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace angen {
 
@@ -36,6 +37,24 @@ double Room::distance(const Point2& point) const {
 }
 
 bool Room::at_height(double z) const { return z >= floor - kInWall && z <= ceiling + kInWall; }
+
+void Home::list_doors() {
+  doors_by_name.resize(doors.size());
+  std::iota(doors_by_name.begin(), doors_by_name.end(), std::size_t{0});
+  std::stable_sort(doors_by_name.begin(), doors_by_name.end(),
+                   [&](std::size_t a, std::size_t b) { return doors[a].name < doors[b].name; });
+}
+
+const HomeDoor* Home::door(HomeDoor::Kind kind, std::string_view name) const {
+  const auto first = std::lower_bound(doors_by_name.begin(), doors_by_name.end(), name,
+                                      [&](std::size_t number, std::string_view wanted) {
+                                        return std::string_view(doors[number].name) < wanted;
+                                      });
+  for (auto at = first; at != doors_by_name.end() && doors[*at].name == name; ++at) {
+    if (doors[*at].kind == kind) return &doors[*at];
+  }
+  return nullptr;
+}
 
 const Room* Home::room_at(const Vec3& point) const {
   const Point2 flat = point.head<2>();

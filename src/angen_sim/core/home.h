@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/polygon.h"
@@ -99,7 +101,13 @@ struct Home {
   std::vector<Thing> things;
   std::vector<HomeDoor> doors;
   std::vector<HomeElevator> elevators;
+  std::vector<std::size_t> doors_by_name;  // numbers in `doors`, sorted: see list_doors()
 
+  /// To be called after a change of `doors`.
+  void list_doors();
+  /// The door, window or opening of that kind and name; null if there is none. Of several, the
+  /// first in `doors`.
+  const HomeDoor* door(HomeDoor::Kind kind, std::string_view name) const;
   /// The room that a place is in, or in whose wall, floor or ceiling; null outside.
   const Room* room_at(const Vec3& point) const;
   /// Its name, "" outside.

@@ -120,6 +120,7 @@ Home derive_home(const HomeSurvey& survey) {
   add_rooms_and_storeys(survey, home);
   for (const HomeSurvey::Standing& standing : survey.models) add_thing(standing, home);
   add_passages(survey, home);
+  home.list_doors();
   home.entrance = survey.site.entrance.empty() ? likely_entrance(home) : survey.site.entrance;
   return home;
 }

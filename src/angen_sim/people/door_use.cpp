@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
-#include <unordered_map>
 
 #include "people/floor_map.h"
 #include "people/others.h"
@@ -56,25 +55,17 @@ std::optional<double> meeting(const Surroundings::Vec2& a, const Surroundings::V
   return first;
 }
 
-using HomeDoors = std::unordered_map<std::string_view, const HomeDoor*>;
-
-HomeDoors by_name(const Home& home) {
-  HomeDoors doors;
-  for (const HomeDoor& door : home.doors) {
-    if (door.kind == HomeDoor::Kind::kDoor) doors.emplace(door.name, &door);
-  }
-  return doors;
+const HomeDoor* door_of(const Home& home, std::string_view name) {
+  return home.door(HomeDoor::Kind::kDoor, name);
 }
 
 /// The other leaf of a double door, where one alone is narrow and both open to the same side.
 void find_partner(const Home& home, const std::vector<DoorSeen>& doors, DoorSeen& door) {
   if (door.width >= kAlone) return;
-  std::string partner;
-  for (const HomeDoor& each : home.doors) {
-    if (each.name == door.name && each.kind == HomeDoor::Kind::kDoor) partner = each.partner;
-  }
+  const HomeDoor* known = door_of(home, door.name);
+  if (known == nullptr) return;
   for (const DoorSeen& other : doors) {
-    if (other.name != partner || other.slides != door.slides) continue;
+    if (other.name != known->partner || other.slides != door.slides) continue;
     if (!door.slides && door.into.dot(other.into) < 0.9) continue;
     door.partner = other.name;
     door.partner_mode = other.mode;
@@ -170,24 +161,23 @@ bool DoorSeen::hides(const Vec2& point, const Vec2& from) const {
 }
 
 std::vector<DoorSeen> doors_seen(const View& view, double z) {
-  const HomeDoors home_doors = by_name(view.home());
+  const Home& home = view.home();
   std::vector<DoorSeen> doors;
   for (const DeviceView& device : view.devices("gap")) {
     if (device.kind != "door") continue;
+    const HomeDoor* known = door_of(home, device.name);
+    // A hinge may be at any height of its leaf.
+    const auto* hinge = device.state.get_if<std::vector<double>>("hinge");
+    if (known == nullptr && hinge == nullptr) continue;
+    const double foot = known != nullptr ? known->pose.position.z() : hinge->at(2);
+    if (std::abs(foot - z) > kStoreyWithin) continue;
     DoorSeen door;
     door.name = std::string(device.name);
     door.model = std::string(device.model);
     door.mode = device.state.get<std::string>("mode");
     door.width = device.state.get<double>("width");
     door.gap = device.state.get<double>("gap");
-    const auto known = home_doors.find(door.name);
-    const HomeDoor* home = known == home_doors.end() ? nullptr : known->second;
-    if (!place(device.state, home, door)) continue;
-    // A hinge may be at any height of its leaf.
-    const double foot = home != nullptr ? home->pose.position.z()
-                                        : device.state.get<std::vector<double>>("hinge").at(2);
-    if (std::abs(foot - z) > kStoreyWithin) continue;
-    doors.push_back(std::move(door));
+    if (place(device.state, known, door)) doors.push_back(std::move(door));
   }
   return doors;
 }

@@ -48,9 +48,10 @@ std::vector<RoomOpening> room_openings(const View& view, const RoomPlan& plan,
     if (opening.first != opening.second) openings.push_back(opening);
   };
   for (const DeviceView& leaf : view.devices("gap", within)) {
-    for (const HomeDoor& door : plan.home.doors) {
-      if (door.name != leaf.name || name_of(door.kind) != leaf.kind) continue;
-      add(door, leaf.state.get<double>("gap"), leaf.state.get<double>("width"),
+    for (const HomeDoor::Kind kind : {HomeDoor::Kind::kDoor, HomeDoor::Kind::kWindow}) {
+      const HomeDoor* door = leaf.kind == name_of(kind) ? plan.home.door(kind, leaf.name) : nullptr;
+      if (door == nullptr) continue;
+      add(*door, leaf.state.get<double>("gap"), leaf.state.get<double>("width"),
           leaf.state.get<double>("height"));
     }
   }
