@@ -28,6 +28,15 @@ struct DeviceView {
   std::string_view model;
   Pose pose;             // world, of its model
   const Reading& state;  // its stamp is the time of the last change
+
+  /// Where it is (world, m): at the `position` of its state, if that is x y z in its model's frame,
+  /// or else at its model's origin.
+  Vec3 place() const { return place_of(pose, state); }
+  static Vec3 place_of(const Pose& model, const Reading& state) {
+    const auto* offset = state.get_if<std::vector<double>>("position");
+    const bool is_place = offset != nullptr && offset->size() == 3;  // not, say, that of a joint
+    return is_place ? model * Vec3(Vec3::Map(offset->data())) : model.position;
+  }
 };
 
 /// Queries of the running world. Times are the tick's, never the wall clock's.
@@ -46,8 +55,8 @@ class View {
   /// Contacts now, and the last ones of those that touched at any time in the last `period` (ns).
   virtual std::vector<ContactPair> contacts_within(ContactRef collision,
                                                    Nanoseconds period) const = 0;
-  /// The devices whose state has a field of that name and whose models stand in `within` (world,
-  /// m), in the order in which they came into the world.
+  /// The devices whose state has a field of that name and whose place() is in `within` (world, m),
+  /// in the order in which they came into the world.
   virtual std::vector<DeviceView> devices(const std::string& field,
                                           const Eigen::AlignedBox3d& within) const = 0;
   /// Devices with that field anywhere in the world.

@@ -176,9 +176,7 @@ class Microphone : public Sensor {
   // Expressed by a power whose level over 1 pW is the sound pressure level.
   static double heard(const View& view, const DeviceView& source, const Vec3& here,
                       const Hearing& hearing) {
-    const auto* offset = source.state.get_if<std::vector<double>>("position");
-    const bool is_place = offset != nullptr && offset->size() == 3;  // not, say, that of a joint
-    const Vec3 at = is_place ? source.pose * Vec3::Map(offset->data()) : source.pose.position;
+    const Vec3 at = source.place();
     const double power = from_decibels(source.state.get<double>("sound_power_level"));
     const int room = hearing.plan ? hearing.plan->at(at) : RoomPlan::kOutside;
     const bool together = hearing.plan ? room == hearing.here : room_at(view, at) == nullptr;

@@ -83,9 +83,7 @@ class RadioReceiver : public Sensor {
 
   // dBm; without obstacles if it is below `needed` anyway.
   double strength(const DeviceView& transmitter, double needed, const View& view) const {
-    const auto place = transmitter.state.get<std::vector<double>>("position");
-    if (place.size() != 3) return -HUGE_VAL;
-    const Vec3 from = transmitter.pose * Vec3::Map(place.data());
+    const Vec3 from = transmitter.place();
     const Vec3 way = view.pose().position - from;
     const double distance = way.norm();
     const double loss = free_space_loss(distance, transmitter.state.get<double>("frequency"));

@@ -28,11 +28,11 @@ class RfidReader : public Sensor {
     candidates_.clear();
     const Pose reader = view.pose();
     const Vec3 ahead = reader.rotation * Vec3::UnitX();
-    for (const DeviceView& device : view.devices("id")) {
+    const Vec3 around = Vec3::Constant(range_);
+    for (const DeviceView& device :
+         view.devices("id", {reader.position - around, reader.position + around})) {
       if (device.kind != "tag") continue;
-      const auto place = device.state.get<std::vector<double>>("position");
-      if (place.size() != 3) continue;
-      const Vec3 way = device.pose * Vec3::Map(place.data()) - reader.position;
+      const Vec3 way = device.place() - reader.position;
       const double distance = way.norm();
       if (distance > range_ || distance <= kSkin) continue;
       if (ahead.dot(way) < least_cosine_ * distance) continue;

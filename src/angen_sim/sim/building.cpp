@@ -6,6 +6,7 @@
 #include "core/alike.h"
 #include "core/nearest.h"
 #include "core/text.h"
+#include "plugin/view.h"
 #include "sim/customs.h"
 #include "sim/home.h"
 
@@ -89,13 +90,15 @@ const Building::DevicesByField& Building::devices_by_field(const std::string& fi
     const bool fixed = engines_->physics.mass(live->parts.links.at(0)) == 0.0;
     for (const DeviceInstance& device : live->devices) {
       if (!device.last || !device.last->find(field)) continue;
-      (fixed ? all.fixed : all.movable).push_back({live.get(), &device, pose_of(*live), order++});
+      const Pose pose = pose_of(*live);
+      (fixed ? all.fixed : all.movable)
+          .push_back(
+              {live.get(), &device, pose, DeviceView::place_of(pose, *device.last), order++});
     }
   }
-  std::stable_sort(all.fixed.begin(), all.fixed.end(),
-                   [](const FoundDevice& a, const FoundDevice& b) {
-                     return a.pose.position.z() < b.pose.position.z();
-                   });
+  std::stable_sort(
+      all.fixed.begin(), all.fixed.end(),
+      [](const FoundDevice& a, const FoundDevice& b) { return a.place.z() < b.place.z(); });
   return all;
 }
 
@@ -104,21 +107,29 @@ std::vector<Building::FoundDevice> Building::find_devices(const std::string& fie
   const DevicesByField& all = devices_by_field(field);
   std::vector<FoundDevice> found;
   const auto add = [&](const FoundDevice& device) {
-    if (within.contains(device.pose.position)) found.push_back(device);
+    if (within.contains(device.place)) found.push_back(device);
   };
   const auto lower =
       std::lower_bound(all.fixed.begin(), all.fixed.end(), within.min().z(),
-                       [](const FoundDevice& t, double z) { return t.pose.position.z() < z; });
-  for (auto at = lower; at != all.fixed.end() && at->pose.position.z() <= within.max().z(); ++at) {
+                       [](const FoundDevice& t, double z) { return t.place.z() < z; });
+  for (auto at = lower; at != all.fixed.end() && at->place.z() <= within.max().z(); ++at) {
     add(*at);
   }
   for (FoundDevice device : all.movable) {
     device.pose = pose_of(*device.live);
+    device.place = DeviceView::place_of(device.pose, *device.device->last);
     add(device);
   }
   std::sort(found.begin(), found.end(),
             [](const FoundDevice& a, const FoundDevice& b) { return a.order < b.order; });
   return found;
+}
+
+void Building::note_state(const LiveModel& live, DeviceInstance& device,
+                          MoverIndex::Moment when) const {
+  if (!device.last || live.is_light) return;  // queries do not find the world's own lights
+  const Vec3 place = DeviceView::place_of(pose_of(live), *device.last);
+  engines_->states.note(*device.last, place.z(), device.changes, when);
 }
 
 std::vector<Building::Target> Building::devices_named(const std::string& kind,

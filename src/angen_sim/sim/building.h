@@ -49,13 +49,16 @@ class Building {
   struct FoundDevice {
     const LiveModel* live;
     const DeviceInstance* device;
-    Pose pose;
+    Pose pose;   // of its model
+    Vec3 place;  // see DeviceView::place()
     std::size_t order;
   };
-  /// The devices whose last state has a field of that name and whose models are in `within`, in
-  /// the order of the models.
+  /// The devices whose last state has a field of that name and that are in `within`, in the order
+  /// of the models.
   std::vector<FoundDevice> find_devices(const std::string& field,
                                         const Eigen::AlignedBox3d& within) const;
+  /// To be called when a device reports another state, or has moved.
+  void note_state(const LiveModel& live, DeviceInstance& device, MoverIndex::Moment when) const;
   /// To be called when a device has other fields than before.
   void forget_fields() {
     by_field_.clear();

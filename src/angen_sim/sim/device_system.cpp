@@ -172,13 +172,15 @@ void DeviceSystem::report(Building& building, Clock clock, Snapshot& next) {
     device.cost += meter_.watch.lap();
     if (all) device.to_report = false;
     if (device.last && device.last->same_values(device.scratch)) continue;
-    if (!device.last || !device.last->same_names(device.scratch)) {
-      building.forget_fields();
-    } else {
-      building.engines().states.note(device.scratch, building.engines().movers.now());
-    }
+    const bool other_fields = !device.last || !device.last->same_names(device.scratch);
     device.scratch.stamp = clock.time;
     device.last = std::make_shared<const Reading>(device.scratch);
+    if (other_fields) {
+      device.changes = {};
+      building.forget_fields();
+    } else {
+      building.note_state(live, device, building.engines().movers.now());
+    }
     next.devices.set(index, device.last);
     next.new_states.push_back(index);
   }

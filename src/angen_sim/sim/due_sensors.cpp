@@ -37,7 +37,10 @@ bool queries_unchanged(const Engines& engines, const LiveModel& live,
   if (queried.model && model_changed) return false;
   if (queried.heat && heat_changed(engines, sensor)) return false;
   if (queried.heat_set && heat_set(engines, sensor)) return false;
-  if (queried.devices && engines.states.changed_since(queried.fields, sensor.seen)) return false;
+  if (queried.devices &&
+      engines.states.changed_since(queried.fields, queried.heights, sensor.seen)) {
+    return false;
+  }
   if (queried.light && !light_unchanged(engines, sensor)) return false;
   if (queried.contacts && contacts_revision(engines, sensor) != sensor.contacts_seen) return false;
   return !sensor.link_moves || !model_changed || pose_of(engines, live, sensor) == sensor.seen_from;

@@ -24,6 +24,7 @@ struct DeviceInstance : DeviceInfo {
   Reading scratch;                 // it reports into this, which is then compared
   std::size_t checked_fields = 0;  // how many of these
   std::shared_ptr<const Reading> last;
+  StateChanges::Device changes;
   LimbPoses limbs;             // limbs with that state
   Nanoseconds updated = 0;     // when it last was
   Nanoseconds idle_until = 0;  // unless it is commanded or its model wakes
@@ -81,6 +82,7 @@ struct Queried {
   bool heat = false;                // temperatures of surfaces
   bool heat_set = false;            // only when they begin to change
   bool model = false;               // links and joints of its own model
+  Heights heights{};                // at which it queried devices
 
   bool any() const { return contacts || light || devices || other || heat || heat_set || model; }
   /// Whether only its model, and what happens in the regions that it watches, change the answers;
@@ -89,8 +91,9 @@ struct Queried {
     return !(contacts || light || devices || other || heat || (heat_set && !near));
   }
   Queried operator|(const Queried& o) const {
-    return {contacts || o.contacts, light || o.light, devices || o.devices,   other || o.other,
-            fields | o.fields,      heat || o.heat,   heat_set || o.heat_set, model || o.model};
+    return {contacts || o.contacts, light || o.light,  devices || o.devices,
+            other || o.other,       fields | o.fields, heat || o.heat,
+            heat_set || o.heat_set, model || o.model,  heights | o.heights};
   }
 };
 
