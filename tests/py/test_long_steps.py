@@ -1,4 +1,5 @@
-"""Long steps of people who walk free of contact: the same readings, to a sample, as by 1 ms."""
+"""Long steps of people who walk free of contact, and of leaves: the same readings, to a sample, as
+by 1 ms."""
 from __future__ import annotations
 
 import math
@@ -75,6 +76,33 @@ def test_who_walks_against_a_wall_stops_there(world: World) -> None:
         ends.append(farthest)
     assert ends[0] == pytest.approx(ends[1], abs=5e-3)
     assert 1.6 < ends[0] < 1.66  # the wall's face is at 1.9 m, a person is 0.25 m deep
+
+
+@pytest.mark.parametrize('model', ['kitchen_door', 'fridge_door', 'freezer_door', 'wardrobe_door',
+                                   'shoe_flap', 'oven_door', 'window'])
+@pytest.mark.parametrize('in_way', ['', 'a post'])
+def test_a_leaf_swings_and_stops_as_by_short_steps(world: World, model: str, in_way: str) -> None:
+    """Opened by hand, and shut by its drive; a post stops it half way."""
+    runs = []
+    for long_steps in (True, False):
+        w = world(include(model, 'leaf_0', '0 0 0.5 0 0 0')
+                  + (box('post', '0.25 -0.25 1 0 0 0', '0.1 0.1 2', True) if in_way else ''),
+                  '<plugin name="door_controller" filename="libdoor_world_plugin.so"/>')
+        w.run(1.0)
+        (kind, name), = ((kind, name) for kind, name, _, _ in w.entities()
+                         if kind in ('door', 'cabinet', 'window'))
+        w.events()
+        places = []
+        for text in ('OpenByHand', 'Close'):
+            w.command(kind, name, text)
+            for _ in range(60):
+                w.run(0.1, long_steps=long_steps)
+                places.append(w.device(kind, name)['position'])
+        runs.append((places, [(at, event) for at, _, _, event, _ in w.events()]))
+    (fast, events), (exact, exact_events) = runs
+    assert fast == pytest.approx(exact, abs=0.012) and min(fast) < -0.2
+    assert [event for _, event in events] == [event for _, event in exact_events]
+    assert [at for at, _ in events] == pytest.approx([at for at, _ in exact_events], abs=0.1)
 
 
 def test_long_steps_are_not_recorded(tmp_path) -> None:

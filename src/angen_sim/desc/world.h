@@ -147,6 +147,7 @@ struct Joint {
   Vec3 anchor = Vec3::Zero();   // in the model's frame
   std::vector<JointAxis> axes;  // 0, 1 or 2
   double lead = 0.0;            // m/rad along the axis of a screw; positive: right-handed
+  double longest_step = 0.0;    // s, of the plug-in that leads it, as that declares
   Source source;
 };
 

@@ -27,6 +27,8 @@ constexpr double kMaxLag = 0.08;         // rad
 constexpr double kStallSpeed = 0.004;    // rad/s
 constexpr double kLoadShare = 10.0;      // times i / p, 1/s, in which it finds its load
 constexpr double kSwings = 3.5;          // kg m^2, or kg: what is heavier swings with the gains
+constexpr double kLongestStep = 0.01;    // s
+constexpr double kLongStep = 0.25;       // share of the time in which its damping stops it
 constexpr double kHandForce = 60.0;      // N, at the edge
 constexpr double kUprightAxis = 0.97;    // |z| of the axis of an upright leaf: 14 deg
 constexpr Nanoseconds kHandleTime = 3 * kSecond;
@@ -104,6 +106,8 @@ void Door::configure(Params& params, Wiring& wiring) {
   servo.stall_speed = kStallSpeed;
   servo.load_rate = servo.gains.p > 0.0 ? kLoadShare * servo.gains.i / servo.gains.p : 0.0;
   if (!is_plain) servo.gains = gains_for(limits_.inertia, servo.gains);
+  const double stops_in = limits_.inertia / servo.gains.d;
+  if (!is_plain) wiring.leads(hinge_, std::min(kLongestStep, kLongStep * stops_in));
   servo_ = Servo(servo);
 }
 

@@ -40,6 +40,7 @@ class Door : public Device {
   void report(const View& view, Reading& state) const override;
   void save(SavedParams& params) const override;
   Nanoseconds idle_until(const View& view) const override;
+  bool takes_long_steps() const override { return true; }
 
  private:
   enum class Mode { kClosed, kOpen, kOpening, kClosing, kBlocked, kAjar };

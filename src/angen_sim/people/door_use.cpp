@@ -197,6 +197,14 @@ std::optional<DoorSeen> door_on_way(const std::vector<DoorSeen>& doors,
   return found;
 }
 
+Surroundings::Vec2 up_to_door(const View& view, const Vec3& feet, const Surroundings::Vec2& to) {
+  const Surroundings::Vec2 at = feet.head<2>();
+  const std::optional<DoorSeen> door = door_on_way(doors_seen(view, feet.z()), at, to);
+  if (!door) return to;
+  const double share = meeting(at, to, door->hinge, door->edge()).value_or(1.0);
+  return at + std::max(0.0, share - kBeforeHandle / (to - at).norm()) * (to - at);
+}
+
 void DoorUse::enter(Phase phase, Nanoseconds now) {
   phase_ = phase;
   since_ = now;

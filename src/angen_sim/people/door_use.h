@@ -46,6 +46,9 @@ std::optional<DoorSeen> door_on_way(const std::vector<DoorSeen>& doors,
                                     const Surroundings::Vec2& at, const Surroundings::Vec2& to,
                                     Passable passable = Passable::kNo);
 
+/// Where a person at `feet` walks on the straight way to a place: up to a shut door, or all of it.
+Surroundings::Vec2 up_to_door(const View& view, const Vec3& feet, const Surroundings::Vec2& to);
+
 /// Takes a person through shut doors: it walks to the handle, opens the door by hand, out of the
 /// leaf's way, walks through, and may close it, as it may close one that was open. It always closes
 /// one whose leaf closes off a corridor. Of a double door it opens both leaves where one leaves too

@@ -96,7 +96,10 @@ void Person::run_errand(const Step& step) {
     const bool found = (!knows && !leaf) || explore(step);
     if (!found && (!leaf || *leaf < kShutsFrom)) return wait(step);  // it walks up to a leaf
     walker_.aim_straight();
-    if (found) walker_.aim_for(step.view, step.feet(), *navigator_.target());
+    if (found) {
+      walker_.aim_for(step.view, step.feet(),
+                      up_to_door(step.view, step.feet(), *navigator_.target()));
+    }
   }
   const double left = navigator_.left(at, errand.to());
   const bool nearer = errand.come(left);

@@ -170,6 +170,7 @@ class Builder {
     joint->type = from.type;
     joint->anchor = from.anchor;
     joint->lead = from.lead;
+    joint->longest_step = from.longest_step;
     Body* child = body_of_[link_index(from.child)];
     Body* parent = body_of_[link_index(from.parent)];
     const bool moves = child != parent && (child->dynamic() || parent->dynamic());

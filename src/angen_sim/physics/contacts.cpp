@@ -248,8 +248,10 @@ void Contacts::read_forces(const Pair& pair) {
   }
 }
 
-bool Contacts::upright_only_stand() const {
+bool Contacts::allow_long_steps() const {
+  const auto hangs = [](const Body& body) { return body.dynamic() && !body.joints.empty(); };
   return std::all_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+    if (hangs(*pair.first->body) || hangs(*pair.second->body)) return false;
     if (!pair.first->body->upright && !pair.second->body->upright) return true;
     if (pair.first->body->dynamic() && pair.second->body->dynamic()) return false;
     const auto first = points_.begin() + static_cast<std::ptrdiff_t>(pair.begin);

@@ -38,8 +38,9 @@ class Contacts {
   /// s, of the steps from now on.
   void set_step(double step) { step_ = step; }
 
-  /// Whether upright bodies touched nothing in the last step but static shapes below them.
-  bool upright_only_stand() const;
+  /// Whether upright bodies touched nothing in the last step but static shapes below them, and
+  /// bodies on joints nothing.
+  bool allow_long_steps() const;
 
   /// Forgets the pairs of the last step.
   void start();

@@ -79,7 +79,7 @@ struct World::Impl {
   void solve_again(const std::vector<BodyState>& start, bool push, const Solve& solve);
   void agree_on_friction(const std::vector<BodyState>& start, const Solve& solve);
   void renew();
-  void read_bodies();
+  void read_bodies(double step);
   /// Corrects positions after a long step, which moves bodies at their final speed all along.
   void take_back(const std::vector<Vec3>& before, double step);
 };

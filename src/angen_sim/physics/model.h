@@ -107,10 +107,11 @@ struct Joint {
   bool flipped = false;
   Vec3 anchor = Vec3::Zero();  // in the model's frame, all joints at 0
   std::vector<Axis> axes;
-  double lead = 0.0;        // m/rad, of a screw
-  ode::JointHandle main;    // the constraint with its stops; null as its bodies'
-  ode::JointHandle motor;   // first row: motor, brake or dry friction; second row: damping
-  ode::JointHandle thread;  // a screw's, couples its way and its angle
+  double lead = 0.0;          // m/rad, of a screw
+  double longest_step = 0.0;  // s, of what leads it
+  ode::JointHandle main;      // the constraint with its stops; null as its bodies'
+  ode::JointHandle motor;     // first row: motor, brake or dry friction; second row: damping
+  ode::JointHandle thread;    // a screw's, couples its way and its angle
   dJointFeedback main_feedback{};
   dJointFeedback motor_feedback{};
   dJointFeedback thread_feedback{};

@@ -40,7 +40,7 @@ void World::Impl::take_step(std::int64_t tick, std::int64_t count) {
     }
     integrate(tick, step);
     if (count > 1) take_back(before, step);
-    read_bodies();
+    read_bodies(step);
     const bool slept = let_sleep(awake, contacts, h, static_cast<int>(count));
     if (slept || !stopped.empty()) contacts.put_to_rest();
     list_is_old = true;
@@ -204,6 +204,7 @@ void World::Impl::renew() {
 void World::Impl::take_back(const std::vector<Vec3>& before, double step) {
   if (awake.size() != before.size()) return;  // some were stopped
   for (std::size_t i = 0; i < awake.size(); ++i) {
+    if (!awake[i]->joints.empty()) continue;
     dBodyID ode = awake[i]->ode.get();
     const Vec3 back = 0.5 * (step - h) * (awake[i]->velocity() - before[i]);
     const Vec3 at = ode::vec(dBodyGetPosition(ode)) - Vec3(back.x(), back.y(), 0.0);
@@ -211,7 +212,7 @@ void World::Impl::take_back(const std::vector<Vec3>& before, double step) {
   }
 }
 
-void World::Impl::read_bodies() {
+void World::Impl::read_bodies(double step) {
   for (Body* body : awake) {
     if (body->upright) set_upright(*body);
     const Pose at{ode::vec(dBodyGetPosition(body->ode.get())),
@@ -222,7 +223,7 @@ void World::Impl::read_bodies() {
   }
   for (Body* body : awake) {
     for (Joint* joint : body->joints) {
-      if (joint->first == body) update_joint(*joint, h);
+      if (joint->first == body) update_joint(*joint, step);
     }
   }
 }

@@ -268,12 +268,16 @@ void World::push(LinkId id, const Vec3& force, const Vec3& torque, const Vec3& p
 
 void World::step(std::int64_t tick, std::int64_t count) { impl_->take_step(tick, count); }
 
-bool World::allows_long_steps() const {
-  const auto is_calm = [&](const Body* body) {
-    return body->joints.empty() && (body->upright || body->idle_steps * impl_->h >= kCalmTime);
-  };
-  return std::all_of(impl_->awake.begin(), impl_->awake.end(), is_calm) &&
-         impl_->contacts.upright_only_stand();
+std::int64_t World::longest_step(std::int64_t most) const {
+  for (const Body* body : impl_->awake) {
+    const bool led = body->joints.size() == 1 && body->mechanism->bodies.size() == 1;
+    const double longest = led ? body->joints.front()->longest_step : 0.0;
+    const bool is_calm = body->upright || body->idle_steps * impl_->h >= kCalmTime;
+    if (body->joints.empty() && is_calm) continue;
+    if (longest < static_cast<double>(most) * impl_->h)
+      most = static_cast<std::int64_t>(longest / impl_->h);
+  }
+  return most > 1 && impl_->contacts.allow_long_steps() ? most : 1;
 }
 
 const std::vector<Stopped>& World::stopped() const { return impl_->stopped; }

@@ -120,12 +120,13 @@ class World {
   /// Collides and integrates one step of settings.step. `tick` keys the random numbers that the
   /// solver needs.
   void step(std::int64_t tick) { step(tick, 1); }
-  /// Collides and integrates one step that is `count` times as long; see allows_long_steps().
+  /// Collides and integrates one step that is `count` times as long, at most longest_step().
   void step(std::int64_t tick, std::int64_t count);
 
-  /// Whether each awake body never tilts and touches only the ground below it, or is
-  /// loose and has been at rest for 0.05 s.
-  bool allows_long_steps() const;
+  /// How many times as long a step may be, at most `most`. It is 1 unless each awake body never
+  /// tilts and touches only the ground below it, is loose and has been at rest for 0.05 s, or hangs
+  /// on one joint that is led, and touches nothing.
+  std::int64_t longest_step(std::int64_t most) const;
 
   /// Links that the last step stopped: they stay at their poses before the step, like static
   /// bodies, until their model is moved.

@@ -69,7 +69,8 @@ class Device {
   virtual Nanoseconds idle_until(const View&) const { return 0; }
   /// Called before update() or command() after that much time (ns) without updates.
   virtual void skip(Nanoseconds) {}
-  /// Whether its ticks may take up to 20 ms while no body is awake but those of such devices.
+  /// Whether its ticks may take up to 20 ms while no body is awake but people and joints that are
+  /// led (Wiring::leads).
   virtual bool takes_long_steps() const { return false; }
   /// Called after report(): the poses of the limbs that it declared by Wiring::anatomy, in the
   /// frame of their link. As the model has them unless overridden.

@@ -56,6 +56,9 @@ class Wiring {
   /// Properties of a living body that the plug-in moves. The names are those of visuals and
   /// collisions of the link; a name that the model does not have is without effect.
   virtual void anatomy(LinkRef, Anatomy) {}
+  /// The plug-in leads this joint, and can do so in steps of up to that many seconds: see
+  /// Device::takes_long_steps().
+  virtual void leads(JointRef, double) {}
 };
 
 }  // namespace angen

@@ -279,7 +279,7 @@ class World:
 
     def run(self, seconds: float, long_steps: bool = False, until_event: bool = False) -> None:
         """Advances by simulated seconds; ticks in which nothing happens are leapt over. With
-        long_steps ticks are up to 20 ms long while nothing moves but people who walk free of
+        long_steps ticks are up to 20 ms long while nothing moves but people and leaves free of
         contact. With until_event it ends earlier: with the tick of the first event."""
 
     def command(self, kind: str, name: str, text: str = '', values: Sequence[float] = []) -> None:

@@ -171,7 +171,7 @@ void bind_world(pyb::module_& module) {
           },
           pyb::arg("seconds"), pyb::arg("long_steps") = false, pyb::arg("until_event") = false,
           "Advances by simulated seconds; ticks in which nothing happens are leapt over. With "
-          "long_steps ticks are up to 20 ms long while nothing moves but people who walk free of "
+          "long_steps ticks are up to 20 ms long while nothing moves but people and leaves free of "
           "contact. With until_event it ends earlier: with the tick of the first event.")
       .def("command", &World::command, pyb::arg("kind"), pyb::arg("name"), pyb::arg("text") = "",
            pyb::arg("values") = std::vector<double>{},

@@ -117,11 +117,14 @@ class DeviceMaker {
     }
   }
 
-  void describe_bodies() {
-    if (bodies_.empty()) return;
+  void describe_declared() {
+    if (bodies_.empty() && led_.empty()) return;
     desc::Model described = model_;
     for (const auto& [link, anatomy] : bodies_) {
       described.links[static_cast<std::size_t>(link)].anatomy = anatomy;
+    }
+    for (const auto& [joint, longest_step] : led_) {
+      described.joints[static_cast<std::size_t>(joint)].longest_step = longest_step;
     }
     live_.desc = live_.read = std::make_shared<const desc::Model>(std::move(described));
   }
@@ -242,6 +245,7 @@ class DeviceMaker {
       instance.device->save(instance.started_with);
       instance.body = wiring.body().first;
       if (instance.body >= 0) bodies_.push_back(wiring.body());
+      led_.insert(led_.end(), wiring.led().begin(), wiring.led().end());
       driven_.insert(wiring.joints().begin(), wiring.joints().end());
       lit_.insert(wiring.lights().begin(), wiring.lights().end());
       return instance;
@@ -284,6 +288,7 @@ class DeviceMaker {
   std::set<std::string> driven_;                 // joints that a device has
   std::set<int> lit_;                            // lights that one has, by LightRef
   std::vector<std::pair<int, Anatomy>> bodies_;  // links whose anatomy one has declared
+  std::vector<std::pair<int, double>> led_;      // joints that one leads
 };
 
 }  // namespace
@@ -294,7 +299,7 @@ void make_devices(LiveModel& live, const std::vector<desc::Plugin>& world_plugin
   maker.make_all(world_plugins);
   maker.warn_of_idle_joints();
   maker.make_own_lamps();
-  maker.describe_bodies();
+  maker.describe_declared();
 }
 
 void remake_own_lamp(LiveModel& live, DeviceInstance& lamp, bool keep_level, Catalog& catalog,

@@ -101,10 +101,10 @@ struct Simulation::Impl {
   std::int64_t next_end(Nanoseconds until, bool long_steps) {
     const std::int64_t here = next.tick;
     const Engines& engines = building.engines();
-    if (!long_steps || engines.physics.awake_count() == 0 || !engines.physics.allows_long_steps()) {
-      return here + 1;
-    }
-    std::int64_t end = std::min((next.time / kLongStep + 1) * kLongStep, until) / next.step;
+    if (!long_steps || engines.physics.awake_count() == 0) return here + 1;
+    const Nanoseconds longest = engines.physics.longest_step(kLongStep / next.step) * next.step;
+    if (longest <= next.step) return here + 1;
+    std::int64_t end = std::min((next.time / longest + 1) * longest, until) / next.step;
     const Nanoseconds push = std::min(building.pushes().next(next.time), kForever - next.step);
     end = std::min({end, engines.next_rest() / next.step, push / next.step, fault_tick(),
                     devices.next_tick(building, clock(), true)});

@@ -39,8 +39,8 @@ class Simulation {
   /// Its tick ends at `until` at the latest, unless that has passed.
   std::shared_ptr<const Snapshot> leap(Nanoseconds until) { return leap(until, false); }
   /// With `long_steps` ticks are up to 20 ms long while no other bodies are awake than people who
-  /// touch nothing but the floor, and those that came to rest: people walk some millimeters from
-  /// where they would be.
+  /// touch nothing but the floor, leaves of doors that touch nothing, and those that came to rest:
+  /// people walk some millimeters from where they would be.
   std::shared_ptr<const Snapshot> leap(Nanoseconds until, bool long_steps);
 
   /// To be called after ticks that follow a clock: spare CPU time is used to find light sooner. No

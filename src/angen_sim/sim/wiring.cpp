@@ -177,6 +177,10 @@ void ModelWiring::anatomy(LinkRef link, Anatomy anatomy) {
   body_ = {link.index, std::move(anatomy)};
 }
 
+void ModelWiring::leads(JointRef joint, double longest_step) {
+  led_.emplace_back(joint.index, longest_step);
+}
+
 std::vector<SurfaceRef> ModelWiring::surfaces(const std::string& visual) {
   std::vector<SurfaceRef> found;
   std::vector<std::string> known;

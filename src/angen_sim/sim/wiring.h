@@ -40,6 +40,7 @@ class ModelWiring : public Wiring {
   std::optional<SensorPart> sensor(const std::string& sensor) override;
   std::vector<SurfaceRef> surfaces(const std::string& visual) override;
   void anatomy(LinkRef link, Anatomy anatomy) override;
+  void leads(JointRef joint, double longest_step) override;
 
   const std::set<std::string>& joints() const { return joints_; }  // requested joints
   const std::set<int>& lights() const { return lights_; }          // by LightRef
@@ -48,6 +49,8 @@ class ModelWiring : public Wiring {
   const std::set<std::string>& sensors() const { return sensors_; }  // requested sensors
   /// The link whose anatomy was declared, and that; -1: none was.
   const std::pair<int, Anatomy>& body() const { return body_; }
+  /// The joints that are led, by JointRef, with the longest step of each (s).
+  const std::vector<std::pair<int, double>>& led() const { return led_; }
 
  private:
   const desc::Model& model_;
@@ -59,6 +62,7 @@ class ModelWiring : public Wiring {
   std::vector<std::string> collisions_;
   std::set<std::string> sensors_;
   std::pair<int, Anatomy> body_{-1, {}};
+  std::vector<std::pair<int, double>> led_;
 };
 
 }  // namespace angen::sim

@@ -216,3 +216,22 @@ def test_a_wall_is_between_a_sensor_and_who_is_in_another_room(home):
     door = next(door for door in site.home.doors if door.name == 'kitchen0')
     at = door.pose[0], door.pose[1] + 0.5
     assert recorder._to_room(SimpleNamespace(at=at), 'kitchen0') == pytest.approx(0.5)
+
+
+def test_a_cell_belongs_to_who_is_in_it_and_not_to_who_walks_out_of_the_room(home):
+    """Anna stands at the fridge, whose front moves; Bert walks away."""
+    site = Site(home, 7)
+    household = Household(site.simulator, site.floors, 5, 'home', datetime.date(2026, 3, 23))
+    recorder = Recorder(site, household)
+    cell = next(sensor for sensor in site.sensors if sensor.name.startswith('cell_kitchen'))
+
+    def cause(**away: float) -> str:
+        household.residents = [SimpleNamespace(
+            name=name, number=number, at=(cell.x + away[name], cell.y), storey=0, away=False,
+            room=cell.room, walks=name == 'bert', posture='sit', moved=-math.inf,
+            item=SimpleNamespace(activity='cook')) for number, name in enumerate(away)]
+        return recorder._cause(60.0, cell)[0]
+
+    assert cause(anna=0.1, bert=1.8) == 'anna'
+    assert cause(anna=0.1, bert=1.2) == 'bert'
+    assert cause(anna=1.6, bert=1.8) == 'bert'

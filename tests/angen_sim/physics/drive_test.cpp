@@ -33,7 +33,7 @@ TEST(Drive, LongStepsWalkAsFarAsShortOnes) {
     world->add(floor_model());
     const LinkId body = world->only_link(world->add(person_model("person", {0, 0, 0.001})));
     world->run(0.1);
-    ASSERT_TRUE(world->allows_long_steps());
+    ASSERT_EQ(world->longest_step(20), 20);
     for (const double speed : {1.0, -0.5, 0.0}) {
       world->drive(body, {speed, 0.3 * speed, 0}, 0.0, 150.0);
       for (int i = 0; i < 50; ++i) {
@@ -55,9 +55,9 @@ TEST(Drive, WhoTouchesAWallOrAThingDoesMoreThanWalk) {
   const LinkId body = world.only_link(world.add(person_model("person", {0, 0, 0.001})));
   world.drive(body, {1.0, 0, 0}, 0.0, 150.0);
   world.run(0.5);
-  EXPECT_TRUE(world.allows_long_steps());
+  EXPECT_EQ(world.longest_step(20), 20);
   world.run(1.5);
-  EXPECT_FALSE(world.allows_long_steps());
+  EXPECT_EQ(world.longest_step(20), 1);
 }
 
 TEST(Drive, WhatCameToRestAllowsLongSteps) {
@@ -68,13 +68,34 @@ TEST(Drive, WhatCameToRestAllowsLongSteps) {
       world.only_link(world.add(box_model("box", 20.0, {0.4, 0.4, 0.4}, {2, 0, 0.2})));
   world.run(0.1);
   EXPECT_TRUE(world.awake(box));
-  EXPECT_TRUE(world.allows_long_steps());
+  EXPECT_EQ(world.longest_step(20), 20);
   const Vec3 at = world.link(box).pose.position;
   for (int i = 0; i < 10; ++i) world.step(100 + 20 * i, 20);
   EXPECT_LT((world.link(box).pose.position - at).norm(), 1e-4);
   world.push(box, {2000, 0, 0}, Vec3::Zero(), at);
   world.run(0.01);
-  EXPECT_FALSE(world.allows_long_steps());
+  EXPECT_EQ(world.longest_step(20), 1);
+}
+
+TEST(Drive, ALeafThatIsLedAllowsLongStepsUntilItTouchesSomething) {
+  for (const double longest : {0.0, 0.0155}) {
+    TestWorld world;
+    desc::Model door = door_model("door");
+    door.joints[1].longest_step = longest;
+    const ModelId id = world.add(door);
+    world.add(static_box("wall", {0.1, 0.1, 2}, {0.0, -0.6, 1}));
+    const JointId hinge = world.joints(id).at(1);
+    world.set_motor(hinge, -0.5, 100.0);
+    world.run(0.1);
+    EXPECT_EQ(world.longest_step(20), longest > 0.0 ? 15 : 1);
+    EXPECT_EQ(world.longest_step(10), longest > 0.0 ? 10 : 1);
+    const double from = world.joint(hinge).position;
+    for (int i = 0; i < 60; ++i) world.step(100 + 15 * i, 15);
+    EXPECT_NEAR(world.joint(hinge).position, from - 0.5 * 60 * 0.015, 1e-3);
+    world.run(3.0);
+    EXPECT_GT(world.joint(hinge).position, -1.5);
+    EXPECT_EQ(world.longest_step(20), 1);
+  }
 }
 
 TEST(Drive, ForceIsLimitedInEachDirection) {

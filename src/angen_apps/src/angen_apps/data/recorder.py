@@ -22,7 +22,7 @@ DEGREES = 0.5  # least step of temperature
 RECENT = 3.0  # s: a resident who moved within this time may have caused motion
 PUSHED = 0.02  # m
 HAND = 30.0  # s: a resident who commanded a device within this time has moved it
-NEAR = 1.5  # m: a resident within this distance may have sat down there
+NEAR = 1.5  # m: a resident within this distance may have sat down there, or is in a cell
 CLOSE = 2.0  # m: a resident who moves within this distance may have been detected
 HEIGHTS = (0.4, 1.0, 1.6)  # m above the floor, of parts of a person
 WIDE = 0.3  # m: half the width of a person
@@ -216,6 +216,9 @@ class Recorder:
             return (sits.name, sits.item.activity, 'seat') if sits else ('', '', 'noise')
         moving = [r for away, _, r in near if self._moves(r, time) and (
             sensor.kind == 'area' or away < CLOSE or r.room == sensor.room)]
+        if sensor.kind == 'motion' and moving:  # of a cell: who moves in it, or else stands there
+            inside = [r for away, _, r in near if away < NEAR]
+            moving = [r for r in inside if r in moving] or inside or moving
         if sensor.kind == 'area' and len(moving) > 1:  # it sees through doorways
             moving = [r for r in moving if r.room == sensor.room] or sorted(
                 moving, key=lambda r: (not r.walks, not self._sees(sensor, r),

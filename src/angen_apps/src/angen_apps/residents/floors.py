@@ -11,6 +11,7 @@ from scipy.ndimage import label
 
 from angen_apps.maps.gridmap import FREE, make_map
 from angen_apps.plan.polygons import inside
+from angen_apps.residents.fronts import Fronts
 from angen_apps.robot.doors import door_of
 from angen_apps.robot.planner import Door as Leaf, Point, distances
 from angen_tools.common.catalog import angen_module
@@ -33,6 +34,7 @@ class Floors:
 
     def __init__(self, world: Any, home: Home) -> None:
         self.home, self._world = home, world
+        self.fronts = Fronts(world)
         entrance = self.entrance()
         lives = home.storey_at(entrance.pose[2]) if entrance else min(r.storey for r in home.rooms)
         leaves = _opened(world, home)
@@ -116,12 +118,19 @@ class Floors:
         room = self.home.room_at(x, y, self.home.elevation(storey) + 0.5)
         return room.name if room else ''
 
-    def near(self, x: float, y: float, z: float, reach: float = REACH) -> Point | None:
-        """The free place nearest to a point, on the floor of its room."""
+    def near(self, x: float, y: float, z: float, reach: float = REACH, leaf: Leaf | None = None
+             ) -> Point | None:
+        """The free place nearest to a point, on the floor of its room; out of the swing of a leaf
+        if there is one."""
         room = self.home.room_at(x, y, z + 0.1)
         if room is None or room.storey not in self.grids:
             return None
-        return self._nearest(self.floor_of(room), room.storey, (x, y), reach)
+        free, grid = self.floor_of(room), self.grids[room.storey]
+        found = None
+        if leaf is not None:
+            away = np.hypot(grid.x - leaf.hinge[0], grid.y[:, None] - leaf.hinge[1])
+            found = self._nearest(free & (away >= leaf.width + BODY), room.storey, (x, y), reach)
+        return found or self._nearest(free, room.storey, (x, y), reach)
 
     def _nearest(self, free: np.ndarray, storey: int, point: Point, reach: float) -> Point | None:
         """The point, if its cell is among these, or the middle of the nearest of them."""

@@ -107,13 +107,6 @@ class Household:
         return next(((kind, name) for kind, name, other, _ in self.devices
                      if other == model and kind in kinds), None)
 
-    def front(self, thing: Any) -> tuple[str, str] | None:
-        """The front of a piece of furniture that opens: the nearest cabinet within its reach."""
-        near = sorted((((pose[0] - thing.pose[0]) ** 2 + (pose[1] - thing.pose[1]) ** 2, name)
-                       for kind, name, _, pose in self.devices if kind == 'cabinet'
-                       and abs(pose[2] - thing.pose[2]) < 2.2))
-        return ('cabinet', near[0][1]) if near and near[0][0] < 0.8 else None
-
     def others_in(self, room: str, who: str) -> bool:
         """Whether another person is awake in a room."""
         return any(r.room == room and r.name != who and not r.away for r in self.residents)

@@ -27,7 +27,6 @@ LIFT_ROOM = 1.6  # m around cabin and landings, where a robot uses the elevator
 IN_WAY = 2.5  # m: somebody there was in the way of one who gave up
 ASIDE = 0.55  # m between the middles of two people
 LEGS = 0.4  # m before a seat
-BACK = 0.25  # m: a step back
 
 Process = Iterator[float]
 
@@ -238,11 +237,3 @@ class Mover:
     def _step_to(self, point: Point) -> bool:
         """Steps to a place nearby, if one can stay there."""
         return self.floors.is_free(point, self.storey) and self._send(point, self.storey)
-
-    def _step_back(self, x: float, y: float, side: float) -> None:
-        """Steps away from a point, or where there is no room to one side: 1 left, -1 right."""
-        yaw = math.atan2(self.at[1] - y, self.at[0] - x)
-        for turn in (0.0, 0.8 * side, 1.6 * side, -0.8 * side, -1.6 * side):
-            if self._step_to((self.at[0] + BACK * math.cos(yaw + turn),
-                              self.at[1] + BACK * math.sin(yaw + turn))):
-                return

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.ndimage import binary_erosion, label
 
 from angen_apps.maps.gridmap import RESOLUTION
-from angen_apps.residents.activities import Step
+from angen_apps.residents.activities import OPENS, Step
 from angen_apps.residents.floors import Floors
 from angen_apps.residents.profiles import MOST
 from angen_apps.robot.planner import Point
@@ -171,10 +171,11 @@ class Places:
         places = [place for place in thing.places if place.posture == posture]
         if posture == 'stand' and not places:
             places = self._fronts(thing, floor)
+        leaf = self.floors.fronts.leaf(thing) if thing.type in OPENS else None
         found = []
         for place in places:
             x, y = place.pose[0], place.pose[1]
-            stand = self.floors.near(x, y, floor, FAR if posture == 'lie' else 1.1)
+            stand = self.floors.near(x, y, floor, FAR if posture == 'lie' else 1.1, leaf)
             if stand is None:
                 continue
             seat = None

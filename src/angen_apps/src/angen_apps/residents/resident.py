@@ -10,6 +10,7 @@ from typing import Any, Generator, Iterator
 from angen_apps.residents.activities import FRIDGE, Activity, Step, Visits, activities
 from angen_apps.residents.agenda import RESORT, Item, Planner
 from angen_apps.residents.chance import chance, choose, spread
+from angen_apps.residents.floors import BODY
 from angen_apps.residents.household import Household
 from angen_apps.residents.interface import Rejected
 from angen_apps.residents.mover import ASIDE
@@ -31,6 +32,7 @@ MORE, APART = 0.6, (3.0, 9.0)  # probability of a further movement in a bout, an
 SLOWLY = 3.0  # times that the straight way to a thing may last
 ROAMS = (15.0, 45.0)  # s at a place
 OPEN_FOR = 20.0  # s that a fridge is open, at most
+REACHES = (4.0, 15.0)  # s between two bouts of movements before it, ours
 QUEUE, PATIENCE = 10.0, 900.0  # s between two looks at a room or way, and until it is given up
 MAKES_WAY = 30.0  # s in which another one passes
 ANYWHERE = 4  # places for things that a home lacks
@@ -189,7 +191,7 @@ class Resident(User):
         self._lamps(activity.dark)
         used = self._use(step, spot)
         if used and step.opens:
-            yield from self._opened(used, spot, end)
+            yield from self._opened(used, end)
             used = None
         yield from self._busy(activity, index, spot, end)
         self._unuse(used)
@@ -217,10 +219,9 @@ class Resident(User):
                 return str(error)
         return ''
 
-    def _opened(self, used: list[tuple[str, str, str]], spot: Spot, end: float) -> Process:
-        """Steps out of the way of a front that opens, and shuts it in the end."""
-        yield from self._make_way(*used[0][:2], spot)
-        yield from self._stay(min(end, self.now + OPEN_FOR))
+    def _opened(self, used: list[tuple[str, str, str]], end: float) -> Process:
+        """Has a front open for a while."""
+        yield from self._stay(min(end, self.now + OPEN_FOR), REACHES)
         self._unuse(used)
 
     def _busy(self, activity: Activity, index: int, spot: Spot, end: float) -> Process:
@@ -268,7 +269,7 @@ class Resident(User):
             if thing is not None and thing.type == FRIDGE:
                 used = self._use(Step((FRIDGE,), opens=FRIDGE), other)
                 if used:
-                    yield from self._opened(used, other, until)
+                    yield from self._opened(used, until)
             yield from self._stay(until, MOVES[self.posture])
         self.household.leave(('spot', other.key), self.name)
 
@@ -326,13 +327,17 @@ class Resident(User):
             yield until
 
     def _shuffle(self, spot: Spot) -> Process:
-        """Steps aside, along the front of the thing in use."""
+        """Steps aside, along the front of the thing in use, out of the swing of its leaf."""
+        thing = self._thing(spot)
+        leaf = self.floors.fronts.leaf(thing) if thing else None
         for _ in range(4):
             point = (spot.stand[0] + self._habits.uniform(-0.3, 0.3),
                      spot.stand[1] + self._habits.uniform(-0.3, 0.3))
-            if self._step_to(point):
+            if (leaf is None or leaf.room_for(point) >= BODY) and self._step_to(point):
                 break
         yield self.now + 1.2
+        if self.simulator.state('person', self.name).get('going'):  # round who stands in its way
+            yield from self._walk(point, self.storey)
         self.look()
 
     def _roam(self, activity: Activity, step: Step, index: int, end: float) -> Process:

@@ -1,7 +1,6 @@
 """A resident's use of a home's devices: fronts, the stove, the TV, lamps."""
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Iterator
 
 from angen_apps.residents.activities import Step
@@ -13,8 +12,6 @@ from angen_apps.residents.profiles import Profile
 from angen_tools.common.home import Thing
 
 DARK = 50.0  # lx: with less, lamps are switched on
-LOOKS = 10  # at a leaf that opens, 1 s apart
-WIDER = 0.05  # rad that a leaf opens after a step out of its way, at least
 
 Process = Iterator[float]
 
@@ -37,9 +34,9 @@ class User(Mover):
             if entrance and household.do(self.name, 'door', entrance.name, 'OpenByHand'):
                 return [('door', entrance.name, 'CloseByHand')]
         elif step.opens and thing is not None:
-            front = household.front(thing)
-            if front and household.do(self.name, *front, 'Open'):
-                return [(*front, 'Close')]
+            front = self.floors.fronts.of(thing)
+            if front and household.do(self.name, 'cabinet', front, 'OpenByHand'):
+                return [('cabinet', front, 'Close')]
         elif step.runs == 'stove' and thing is not None:
             stove = household.of_model(thing.name, 'stove')
             if stove and household.do(self.name, *stove, 'FrontLeft 60'):
@@ -50,26 +47,6 @@ class User(Mover):
 
     def _thing(self, spot: Spot) -> Thing | None:
         return next((t for t in self.household.home.things if t.name == spot.thing), None)
-
-    def _make_way(self, kind: str, name: str, spot: Spot) -> Process:
-        """Steps back from a leaf that has hit the resident, until it is open."""
-        thing = self._thing(spot)
-        side, wide = 1.0, 0.0
-        for _ in range(LOOKS):
-            yield self.now + 1.0
-            self.look()
-            leaf = self.simulator.state(kind, name)
-            if leaf.get('mode') == 'OPEN':
-                return
-            if leaf.get('mode') != 'BLOCKED' or thing is None:
-                continue
-            if abs(leaf['position']) < wide + WIDER:  # the last step did not help
-                side = -side
-            wide = abs(leaf['position'])
-            self._step_back(*thing.pose[:2], side)
-            self.spot = replace(spot, stand=self.at)
-            yield self.now + 1.0
-            self.look()
 
     def _watch(self) -> list[tuple[str, str, str]] | None:
         sets = [t for t in self.household.home.things if t.type == 'tv']
