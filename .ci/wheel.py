@@ -26,19 +26,21 @@ PACKAGES = ('angen_models', 'angen_tools', 'angen_apps')
 ROS = re.compile(r'lib(roscpp|rosconsole|python3)')  # libraries of the node need one of these
 # What each Linux has, by PEP 600.
 SYSTEM = re.compile(r'(ld-linux|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+|z)\.so)')
-FILES = ('share/angen_sim/worlds', 'share/angen_apps/config', 'lib/angen_sim/angen_mesh')
-# Names on PyPI of Debian's packages in dependencies.apt; those of ROS, of the page and of MQTT are
-# not needed without ROS. Arrays of NumPy 2 differ from those that Debian's pybind11 reads.
+FILES = ('share/angen_sim/worlds', 'share/angen_apps/config', 'share/angen_apps/page',
+         'lib/angen_sim/angen_mesh')
+# Names on PyPI of Debian's packages in dependencies.apt; those of ROS and of MQTT are not needed
+# without ROS. Arrays of NumPy 2 differ from those that Debian's pybind11 reads.
 PYPI = {'numpy': 'numpy<2; python_version<"3.12"', 'lxml': 'lxml', 'argcomplete': 'argcomplete',
         'rich': 'rich', 'psutil': 'psutil', 'matplotlib': 'matplotlib', 'scipy': 'scipy',
-        'shapely': 'shapely', 'yaml': 'pyyaml', 'pil': 'pillow'}
+        'shapely': 'shapely', 'yaml': 'pyyaml', 'pil': 'pillow', 'aiohttp': 'aiohttp',
+        'qrcode': 'qrcode'}
 
 ABOUT = """# Angen
 
 A simulator of smart apartments: doors, elevators, lamps and people move; motion, light, door,
 contact and many other sensors measure them. This package needs no ROS: `import angen`, and
-the command `angen` with generate, plan, home, import, world, run --fast, care, realism and
-validate.
+the command `angen` with generate, plan, home, import, world, run --fast, care, realism,
+validate and web --replay.
 
     angen world home --seed 3 -o home.world
     angen plan home.world -o plan.png

@@ -4,7 +4,7 @@
     ./angen shell
     python3 docs/web_pictures.py [NAME ...]
 
-NAME is live, replay, tower or edit; without one it draws all.
+NAME is live, replay, tower, edit or film; without one it draws all.
 """
 from __future__ import annotations
 
@@ -15,12 +15,13 @@ import time
 from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
-from typing import Any, Iterator
+from typing import Any, Callable, Iterator
 
 import rospy
 from geometry_msgs.msg import PoseStamped
 from PIL import Image
 
+from angen_apps.web.film import Film, encoder
 from angen_tools.common.wait import wait
 from angen_tools.live.sandbox import Sandbox
 
@@ -28,7 +29,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / 'tests/ros'))
 
 from browser import Page, free_port  # noqa: E402
-from hand import Hand, draw_flat  # noqa: E402
+from hand import Hand, Place, draw_flat  # noqa: E402
 from selenium.webdriver.common.action_chains import ActionChains  # noqa: E402
 
 WIDTH, HEIGHT = 1280, 800
@@ -39,6 +40,12 @@ LIMIT = 180.0  # s; the processor draws
 REST = 5.0  # s until changes are drawn
 PLAIN = '''if (!angen.view) return;
     angen.view.plain = arguments[0]; angen.view.resize(); angen.view.dirty = true;'''
+FILM = 960, 640
+STEPS, HOLD = 3, 20  # pictures of a way of the pointer, and of the end
+POINTER = '''window.pointer = document.createElement("div");
+    pointer.style = `position: fixed; left: -9px; top: -9px; width: 18px; height: 18px; z-index: 9;
+        border-radius: 50%; background: #d9480f99; border: 2px solid #fff; pointer-events: none`;
+    document.body.append(pointer)'''
 HAPPENS = 20.0  # s of the day's plot
 
 
@@ -102,6 +109,13 @@ def drag_goal(page: Page) -> None:
     page.until('return document.querySelector("#hint").hidden')
 
 
+def mouse(page: Page, kind: str, x: float, y: float, down: bool = False) -> None:
+    """An event of the mouse: Moved, Pressed or Released, while the button is down or not."""
+    page.driver.execute_cdp_cmd('Input.dispatchMouseEvent', {
+        'type': f'mouse{kind}', 'x': x, 'y': y, 'clickCount': int(kind != 'Moved'),
+        'button': 'left' if down or kind != 'Moved' else 'none', 'buttons': int(down)})
+
+
 def live(sandbox: Sandbox) -> None:
     """The lower floor with a goal; both floors in the dark, with a plot; the plan on a phone."""
     sandbox.node(ROOT / 'worlds/angen.world', 1.0)
@@ -159,32 +173,100 @@ def tower(sandbox: Sandbox) -> None:
         save(page, 'web_tower')
 
 
-def edit(sandbox: Sandbox) -> None:
-    """The tutorial's apartment, drawn by hand; then on a phone."""
+def resize(page: Page, wide: int, high: int) -> None:
+    page.driver.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
+        'width': wide, 'height': high, 'deviceScaleFactor': 1, 'mobile': False})
+
+
+@contextmanager
+def empty_lot(sandbox: Sandbox, wide: int, high: int) -> Iterator[Page]:
+    """The page that angen edit serves, open."""
     port = free_port()
     sandbox.start(['angen', 'edit', str(sandbox.folder / 'home.world'), '--port', str(port)],
                   'edit')
     log = sandbox.folder / 'edit.log'
     wait(lambda: f':{port}/' in log.read_text(), 'angen edit does not serve', LIMIT)
     with tempfile.TemporaryDirectory() as folder:
-        page = Page(Path(folder), WIDTH, HEIGHT)
+        page = Page(Path(folder), wide, high)
         try:
-            for name, (wide, high) in (('edit', (WIDTH, HEIGHT)), ('edit_phone', PHONE)):
-                page.driver.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
-                    'width': wide, 'height': high, 'deviceScaleFactor': 1, 'mobile': False})
-                if name == 'edit':
-                    page.driver.get(f'http://127.0.0.1:{port}/')
-                    page.until('return !!window.angen?.history')
-                    page.run('angen.setTheme("light")')
-                    draw_flat(Hand(page))
-                page.run('angen.select(["sensors/1"]); angen.board.whole()')
-                page.until('return angen.kept && !angen.asking && !angen.stale')
-                time.sleep(1.0)
-                shoot(page, name)
-                if name == 'edit':
-                    edit_more(page)
+            resize(page, wide, high)
+            page.driver.get(f'http://127.0.0.1:{port}/')
+            page.until('return !!window.angen?.history')
+            page.run('document.documentElement.dataset.theme = "light"')
+            yield page
         finally:
             page.close()
+
+
+def edit(sandbox: Sandbox) -> None:
+    """The tutorial's apartment, drawn by hand; then on a phone."""
+    with empty_lot(sandbox, WIDTH, HEIGHT) as page:
+        draw_flat(Hand(page))
+        for name, (wide, high) in (('edit', (WIDTH, HEIGHT)), ('edit_phone', PHONE)):
+            resize(page, wide, high)
+            page.run('angen.select(["sensors/1"]); angen.board.whole()')
+            page.until('return angen.kept && !angen.asking && !angen.stale')
+            time.sleep(1.0)
+            shoot(page, name)
+            if name == 'edit':
+                edit_more(page)
+
+
+class Filmed(Hand):
+    """A hand whose ways are seen: a picture at each step of its pointer."""
+
+    def __init__(self, page: Page, put: Callable[[bytes], None]) -> None:
+        super().__init__(page)
+        self._put, self._at = put, (0.0, 0.0)
+        page.run(POINTER)
+
+    def _go(self, to: Place, down: bool = False) -> None:
+        (x, y), (u, v) = self._at, to
+        for step in range(1, STEPS + 1):
+            self._at = x + (u - x) * step / STEPS, y + (v - y) * step / STEPS
+            mouse(self.page, 'Moved', *self._at, down)
+            self._take()
+
+    def _take(self) -> None:
+        self.page.run('pointer.style.translate = `${arguments[0]}px ${arguments[1]}px`', *self._at)
+        self._put(self.page.driver.get_screenshot_as_png())
+
+    def drag(self, *places: Place) -> None:
+        first, *others = self.page.run(
+            'return arguments[0].map((at) => angen.board.screen(at))', places)
+        self._go(first)
+        mouse(self.page, 'Pressed', *first, True)
+        for place in others:
+            self._go(place, True)
+        mouse(self.page, 'Released', *self._at)
+        self._take()
+
+    press = drag
+
+    def button(self, selector: str) -> None:
+        self._go(self.page.run('''const shown = document.querySelector(arguments[0]);
+            shown.scrollIntoView({block: "nearest"});
+            const {left, top, width, height} = shown.getBoundingClientRect();
+            return [left + width / 2, top + height / 2]''', selector))
+        super().button(selector)
+
+    def keys(self, *keys: str) -> None:
+        for key in keys:
+            super().keys(key)
+            self._take()
+
+
+def film(sandbox: Sandbox) -> None:
+    """The tutorial's apartment while it is drawn."""
+    path, wide, high = ROOT / 'docs/images/edit.gif', *FILM
+    with empty_lot(sandbox, wide, high) as page:
+        with encoder(Film(path, None, 0.0, None, FILM, 'plan')) as put:
+            hand = Filmed(page, put)
+            draw_flat(hand)
+            hand.button('[title^="The whole home"]')
+            for _ in range(HOLD):
+                hand._take()
+    print(path, f'{path.stat().st_size / 1e6:.2f} MB', flush=True)
 
 
 def edit_more(page: Page) -> None:
@@ -216,7 +298,7 @@ def shoot(page: Page, name: str) -> None:
 
 
 def main(names: list[str]) -> None:
-    for make in (live, replay, tower, edit):
+    for make in (live, replay, tower, edit, film):
         if not names or make.__name__ in names:
             with tempfile.TemporaryDirectory() as folder, Sandbox(Path(folder)) as sandbox:
                 make(sandbox)

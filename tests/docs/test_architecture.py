@@ -21,7 +21,7 @@ ORDINARY = {'battery', 'camera', 'contact', 'depth', 'door', 'drive', 'elevator'
 LIBRARIES = {'tinyxml2.h': {'document', 'assets'}, 'ode/': {'physics'},
              'embree3/': {'rays', 'render'}, 'assimp/': {'assets'}, 'png.h': {'assets'},
              'jpeglib.h': {'assets'}, 'sdf/sdf': {'import'},
-             'ros/': {'ros', 'tf', 'rviz', 'scene', 'gazebo', 'node'}}
+             'ros/': {'ros', 'tf', 'rviz', 'gazebo', 'node'}}
 
 # a sentence of the page, with the figure that a constant in the code has
 FIGURES = [

@@ -62,10 +62,14 @@ def test_the_wheel_is_for_this_python_and_has_no_ros(wheel: Path) -> None:
                  'angen_files/lib/libdoor_world_plugin.so', 'angen_files/lib/angen_sim/angen_mesh',
                  'angen_files/share/angen_sim/worlds/angen.world',
                  'angen_files/share/angen_apps/config/care.yaml',
+                 'angen_files/share/angen_apps/page/index.html',
+                 'angen_files/lib/libangen_scene.so',
                  f'angen-{VERSION}.data/scripts/angen'):
         assert part in names
     assert not [name for name in names if re.search(r'ros(cpp|console)|libpython|libc\.so', name)]
-    assert 'Requires-Dist: numpy' in metadata and f'Version: {VERSION}' in metadata
+    assert f'Version: {VERSION}' in metadata
+    for name in ('numpy', 'aiohttp', 'qrcode'):
+        assert f'Requires-Dist: {name}' in metadata
 
 
 def test_a_wheel_for_several_pythons_names_each_and_its_numpy() -> None:

@@ -7,7 +7,7 @@ import subprocess
 from pathlib import Path
 from typing import Any
 
-from harness import SLOWNESS, Master, end, free_port, until
+from harness import SLOWNESS, HasEnvironment, end, free_port, until
 from selenium.common.exceptions import StaleElementReferenceException
 from selenium.webdriver import Chrome
 from selenium.webdriver.chrome.options import Options
@@ -25,13 +25,15 @@ OPTIONS = ('--headless=new', '--no-sandbox', '--disable-dev-shm-usage', '--no-fi
 class Server:
     """angen web beside a node."""
 
-    def __init__(self, master: Master, folder: Path, *options: str) -> None:
+    program = [str(SERVER)]
+
+    def __init__(self, master: HasEnvironment, folder: Path, *options: str) -> None:
         self.port = free_port()
         self.url = f'http://127.0.0.1:{self.port}/'
         self._log = folder / 'web.log'
         with self._log.open('w') as out:
             self.process = subprocess.Popen(
-                ['/usr/bin/python3', '-u', str(SERVER), '--port', str(self.port), *options],
+                ['/usr/bin/python3', '-u', *self.program, '--port', str(self.port), *options],
                 env=master.environment, text=True, stdout=out, stderr=out)
         try:
             until(self._serves, 'the address', LIMIT)

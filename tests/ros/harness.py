@@ -16,7 +16,7 @@ import time
 import xmlrpc.client
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Callable, Iterator
+from typing import Any, Callable, Iterator, Protocol
 
 import pytest
 
@@ -138,6 +138,12 @@ def processes_with(word: str) -> list[int]:
         except OSError:
             continue
     return found
+
+
+class HasEnvironment(Protocol):
+    """What a program runs in."""
+
+    environment: dict[str, str]
 
 
 class Master:
@@ -336,7 +342,7 @@ class Inbox:
 class Cli:
     """The angen command in the environment of a master."""
 
-    def __init__(self, master: Master) -> None:
+    def __init__(self, master: HasEnvironment) -> None:
         self.environment = dict(master.environment, PYTHONUNBUFFERED="1", TERM="xterm")
         self.words = [sys.executable, str(SCRIPT)]
 

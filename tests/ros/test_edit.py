@@ -15,6 +15,7 @@ from harness import end, free_port, until
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.actions.interaction import POINTER_TOUCH
 from selenium.webdriver.common.keys import Keys
+from test_web_language import WIDTH, english
 
 MOST = 120  # gestures
 NOW = 'return JSON.stringify(angen.history.now)'
@@ -23,11 +24,12 @@ NOW = 'return JSON.stringify(angen.history.now)'
 class Editor:
     """angen edit of a file, and its page."""
 
-    def __init__(self, path: Path, browser: Path, width: int = 1280, height: int = 800) -> None:
+    def __init__(self, path: Path, browser: Path, width: int = 1280, height: int = 800,
+                 language: str = 'en') -> None:
         self.path, self._log = path, path.with_suffix('.log')
         self.port = free_port()
         self.start()
-        self.page = Page(browser, width, height)
+        self.page = Page(browser, width, height, language)
         self.open()
 
     def start(self) -> None:
@@ -338,3 +340,34 @@ def test_touch_draws_too(editor: Editor) -> None:
         (e) => Math.min(e.clientWidth, e.clientHeight) < 42).length''')
     assert small == 0
     assert [error for error in page.errors() if '/do/' not in error] == []  # while it was away
+
+
+def test_all_of_it_is_german_on_a_phone_too(tmp_path: Path) -> None:
+    editor = Editor(tmp_path / 'home.world', tmp_path / 'browser', 1280, 800, 'de')
+    page, hand = editor.page, Hand(editor.page)
+    try:
+        hand.button('#tool-room')
+        hand.drag((0, 0), (4, 3))
+        hand.put('person', (2, 2))
+        hand.put('motion sensor', (0.15, 0.15))
+        page.until('return !angen.asking && !angen.stale && angen.kept')
+        for show in ('angen.selectRoom([3, 1])', 'angen.select(["walls/0"])',
+                     'angen.select(["sensors/0"])',
+                     'angen.select(["movers/0"]); angen.dayPlan.open("movers/0")'):
+            page.run(show)
+            assert english(page) <= {'Kind'}, show  # a child, in German
+        assert '06:37 aufstehen' in page.text('#day') and 'Berufstätig' in page.text('#card')
+        page.run('angen.select([])')
+        page.run('angen.shelf.search("Kühl")')
+        assert page.run('''return [...document.querySelectorAll("#panel .shelf button")].filter(
+            (one) => !one.hidden).map((one) => one.dataset.name)''') == ['fridge']
+        page.driver.set_window_size(390, 844)
+        page.until('return innerWidth < 600')
+        page.press('#help')
+        assert page.driver.find_element('id', 'language').is_displayed()
+        assert english(page) <= {'Kind'}
+        width, window, *wide = page.run(WIDTH)
+        assert width <= window and not wide
+        assert page.errors() == []
+    finally:
+        editor.close()

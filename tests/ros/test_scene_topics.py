@@ -9,10 +9,11 @@ from angen_msgs.msg import DoorState, Scene, SceneChanges, Summary
 from angen_msgs.srv import Delete, SendCommand, Spawn
 from gazebo_msgs.msg import LinkStates
 from geometry_msgs.msg import Point, Pose
-from harness import Angen, Inbox, until
+from harness import WORLD, Angen, Inbox, until
 from std_srvs.srv import Empty
 
-from angen_tools.common.catalog import kinds
+from angen_apps.web.scene import as_dict, packed
+from angen_tools.common.catalog import kinds, simulator
 
 SCENE, CHANGES = '/angen/scene', '/angen/scene_changes'
 
@@ -83,6 +84,21 @@ def test_levels_are_those_of_lamps(angen: Angen) -> None:
             return abs(followed.levels.get(lamp.name, 0.0) - 0.4) < 1e-6
         until(is_dimmed, 'the level')
     command(angen, 'lamp/all', 'Off')
+
+
+def test_python_draws_what_the_topic_has(angen: Angen) -> None:
+    told = packed(as_dict(scene_now()))
+    with simulator() as module:
+        here = packed(module.World.from_text(WORLD).scene)
+    for scene in (told, here):
+        del scene['revision']
+        for link in scene['links']:
+            if link['moves']:
+                del link['pose']  # the node has run for a while
+    assert told == here and len(told['shapes']) > 20
+    cameras = [one for one in told['sensors'] if one['kind'] in ('camera', 'depth')]
+    assert cameras and all(one['rays'] == 0 and one['yaw'][1] == -one['yaw'][0] > 0.3
+                           and one['pitch'][1] == -one['pitch'][0] > 0.2 for one in cameras)
 
 
 def test_another_scene_comes_when_models_do(angen: Angen) -> None:

@@ -1,4 +1,5 @@
-"""angen web --replay of a generated day: residents, leaves and sensors are as its files say."""
+"""angen web --replay without ROS: of a generated day residents, leaves and sensors are as its files
+say."""
 from __future__ import annotations
 
 import asyncio
@@ -6,18 +7,20 @@ import gzip
 import itertools
 import json
 import math
+import os
 from pathlib import Path
 from typing import Any, Iterator
 
 import pytest
 from aiohttp import ClientSession, WSMsgType
 from browser import LIMIT, Page, Server
-from harness import WORLD, Cli, Master, end
+from harness import SCRIPT, WORLD, Cli, Master, end
 from selenium.webdriver.common.action_chains import ActionChains
 
 from angen_apps.data.generate import sha256
 from angen_apps.data.site import apartment
 
+MISSING = ('rospy', 'rosgraph', 'genpy', 'std_msgs', 'angen_msgs')
 TRUTH = '''start,end,resident,activity,cause,phase,room,thing,posture,x,y,note
 0.000,100.000,anna,sleep,scheduled,does,bedroom0,bedroom_bed0,lie,1.990,8.450,
 100.000,110.000,anna,wash,free,goes,bedroom0,,stand,1.990,8.450,
@@ -77,9 +80,30 @@ async def played(port: int, end: float = 86400.0) -> tuple[dict[str, Any], list[
     return found, entries
 
 
+class Bare:
+    """The environment of a wheel: no module of ROS can be imported."""
+
+    def __init__(self, folder: Path) -> None:
+        self.environment = dict(os.environ, PYTHONPATH=f'{folder}:{os.environ["PYTHONPATH"]}')
+        for name in MISSING:
+            (folder / f'{name}.py').write_text(f'raise ModuleNotFoundError(name="{name}")\n')
+
+
+class BareServer(Server):
+    """Without a node."""
+
+    program = [str(SCRIPT), 'web']
+
+
 @pytest.fixture
-def server(master: Master, tmp_path: Path, day: Path) -> Iterator[Server]:
-    started = Server(master, tmp_path, '--replay', str(day))
+def bare(tmp_path: Path) -> Bare:
+    (tmp_path / 'bare').mkdir()
+    return Bare(tmp_path / 'bare')
+
+
+@pytest.fixture
+def server(bare: Bare, tmp_path: Path, day: Path) -> Iterator[Server]:
+    started = BareServer(bare, tmp_path, '--replay', str(day))
     yield started
     assert started.end() == 0, started.log()
     assert 'Traceback' not in started.log()
@@ -129,7 +153,7 @@ def test_a_day_is_played(server: Server) -> None:
     assert found['home']['start'] == '2026-03-21T00:00:00'
 
 
-def test_a_cabin_rides_with_who_is_in_it(master: Master, tmp_path: Path, day: Path) -> None:
+def test_a_cabin_rides_with_who_is_in_it(bare: Bare, tmp_path: Path, day: Path) -> None:
     world = tmp_path / 'lift.world'
     apartment(world)
     world.write_text(world.read_text().replace('</world>', '''<include>
@@ -142,7 +166,7 @@ def test_a_cabin_rides_with_who_is_in_it(master: Master, tmp_path: Path, day: Pa
                    '50.500,lift,cabin,30.0,0.0,1.5\n51.000,lift,cabin,30.0,0.0,2.0\n')
     with gzip.open(day / 'track.csv.gz', 'wt', encoding='utf-8') as file:
         file.write(f'{TRACK}40.0,anna,30.2,0.0,0\n60.0,anna,20.0,0.0,0\n')
-    server = Server(master, tmp_path, '--replay', str(day), str(world))
+    server = BareServer(bare, tmp_path, '--replay', str(day), str(world))
     try:
         found, entries = asyncio.run(played(server.port))
     finally:
@@ -161,13 +185,13 @@ def test_a_cabin_rides_with_who_is_in_it(master: Master, tmp_path: Path, day: Pa
     assert [heights[time] - floor for time in (50.5, 51.0, 60.0)] == pytest.approx([1.5, 2.0, 0.0])
 
 
-def test_a_recording_without_duration_shows_its_moment(master: Master, rospy_node: None,
+def test_a_recording_without_duration_shows_its_moment(master: Master, bare: Bare,
                                                        tmp_path: Path) -> None:
     (tmp_path / 'small.world').write_text(WORLD)
     log = tmp_path / 'run.log'
     assert end(master.node(tmp_path / 'small.world', tmp_path / 'node', record=log,
                            paused=True)) == 0
-    server = Server(master, tmp_path, '--replay', str(log))
+    server = BareServer(bare, tmp_path, '--replay', str(log))
     try:
         found, _ = asyncio.run(asyncio.wait_for(played(server.port, 0.0), LIMIT))
     finally:
@@ -230,17 +254,17 @@ def test_a_link_opens_at_its_time(server: Server, tmp_path: Path) -> None:
         page.close()
 
 
-def test_a_day_is_filmed_to_its_end(master: Master, tmp_path: Path, day: Path) -> None:
+def test_a_day_is_filmed_to_its_end(bare: Bare, tmp_path: Path, day: Path) -> None:
     path = tmp_path / 'day.gif'
-    done = Cli(master).run('web', '--replay', str(day), '--video', str(path), '--start', '23:59:50',
-                           '--size', '320x240', '--view', 'plan')
+    done = Cli(bare).run('web', '--replay', str(day), '--video', str(path), '--start', '23:59:50',
+                         '--size', '320x240', '--view', 'plan')
     assert done.returncode == 0, done.stderr
     assert '0.5 s from 86390.0 s on, 20 times as fast, 320 x 240' in done.stdout
     assert 'frame 5 of 5' in done.stderr and path.stat().st_size > 1000
 
 
-def test_folders_without_a_day_are_rejected(master: Master, tmp_path: Path, day: Path) -> None:
-    cli = Cli(master)
+def test_folders_without_a_day_are_rejected(bare: Bare, tmp_path: Path, day: Path) -> None:
+    cli = Cli(bare)
     empty = tmp_path / 'empty'
     empty.mkdir()
     assert 'has no data of angen generate' in cli.fails('web', '--replay', str(empty))
@@ -248,3 +272,4 @@ def test_folders_without_a_day_are_rejected(master: Master, tmp_path: Path, day:
     settings['settings']['world'] = 'f' * 64
     (day / 'home.json').write_text(json.dumps(settings))
     assert 'give the same file, too' in cli.fails('web', '--replay', str(day))
+    assert 'web needs ROS (the Python module ros' in cli.fails('web')

@@ -77,6 +77,13 @@ def test_a_lamp_is_switched_and_read_in_german(german: Page) -> None:
     assert area.split(' m²')[0].rpartition(',')[0][-1].isdigit()  # 12,3
 
 
+def test_a_word_has_the_meaning_of_its_kind(german: Page) -> None:
+    said = german.driver.execute_async_script('''const done = arguments[0];
+        import("/page/js/lang.js").then(({state}) => done(["person", "door"].map(
+            (kind) => state("BLOCKED  0.50", angen.home.kinds[kind]))))''')
+    assert said == ['KOMMT NICHT WEITER  0,50', 'BLOCKIERT  0,50']
+
+
 def test_a_switch_of_a_list_sends_the_verb(german: Page) -> None:
     find = '''const row = [...document.querySelectorAll("#panel .thing")].find(
         (one) => one.textContent.includes("Lampe")); return row.'''
@@ -94,6 +101,13 @@ def test_nothing_overflows_on_a_phone(german: Page) -> None:
         german.press(f'#tab-{tab}')
         width, window, *wide = german.run(WIDTH)
         assert width <= window and not wide, tab
+    german.press('#help')
+    assert german.driver.find_element('id', 'language').is_displayed()
+    assert german.run(WIDTH)[0] <= window
+    theme = german.run('return document.documentElement.dataset.theme')
+    german.press('#dialog button', 'Hell oder dunkel')
+    assert german.run('return document.documentElement.dataset.theme') != theme
+    german.press('#dialog .main')
     german.driver.set_window_size(1100, 800)
     german.until('return innerWidth > 1000')
 

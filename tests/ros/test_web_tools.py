@@ -17,6 +17,7 @@ from harness import Angen, Inbox, publisher_of, until
 from PIL import Image
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
+from sensor_msgs.msg import CameraInfo
 from std_msgs.msg import String
 
 
@@ -93,6 +94,14 @@ def test_one_sees_what_a_person_and_the_robots_camera_see(page: Page) -> None:
             return [p, home.roomAt(...p.slice(0, 3)).floor, 2 * Math.atan2(p[5], p[6])]''')
         assert math.dist((x, y), at[:2]) < 0.6 and low < z - floor < high, kind
         assert math.cos(yaw) * ahead[0] + math.sin(yaw) * ahead[1] > 0.8, kind
+        if kind == 'drive':
+            with Inbox('/turtlebot/camera/rgb/camera_info', CameraInfo) as infos:
+                info = infos.wait(lambda _: True, 'the camera')
+            high, wide = (math.atan(side / 2 / info.K[0]) for side in (info.height, info.width))
+            fov, aspect = page.run('const {camera} = angen.view.viewpoint;'
+                                   'return [camera.fov, camera.aspect]')
+            assert math.tan(math.radians(fov) / 2) == pytest.approx(
+                max(math.tan(high), math.tan(wide) / aspect), rel=0.01)  # all of its picture
         assert page.run('return angen.view.people.seen().length') == (0 if kind == 'person' else 1)
         shown = Image.open(BytesIO(page.driver.get_screenshot_as_png())).convert('RGB')
         assert len(set(shown.crop((50, 150, 650, 650)).resize((60, 50)).getdata())) > 30

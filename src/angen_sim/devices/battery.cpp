@@ -91,6 +91,7 @@ class BatteryPlugin : public Plugin {
   const Kind& kind() const override {
     static const Kind kind =
         Kind("battery", "A robot's battery.")
+            .group("")
             .example("set battery turtlebot_battery 80")
             .verb("Charge", "percent", "%", {0.0, 100.0}, "charges or discharges it to this")
             .number("voltage", "V", "constant")

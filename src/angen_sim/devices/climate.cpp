@@ -183,6 +183,7 @@ class ClimatePlugin : public Plugin {
   const Kind& kind() const override {
     static const Kind kind =
         Kind("climate", "The air in a model's rooms.")
+            .group("")
             .verb("Outside", "degrees", "°C", kCelsius, "temperature of the air outdoors")
             .verb("Heat", "degrees", "°C", kCelsius, "to which radiators heat each room")
             .texts("names", "of each room")

@@ -175,6 +175,7 @@ void Drive::report(const View&, Reading& state) const {
 const Kind& DrivePlugin::kind() const {
   static const Kind kind =
       Kind("drive", "A differential drive with odometry.")
+          .travels("robots")
           .model("turtlebot")
           .example("set drive turtlebot stop")
           .verb("Stop", "stops")

@@ -31,6 +31,7 @@ class TagPlugin : public Plugin {
  public:
   const Kind& kind() const override {
     static const Kind kind = Kind("tag", "An RFID tag on a model.")
+                                 .group("")
                                  .model("rfid_tag")
                                  .text("id", "that readers read")
                                  .shown()

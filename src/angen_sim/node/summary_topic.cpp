@@ -4,8 +4,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <limits>
-#include <variant>
 #include <vector>
 
 #include "plugin/summary.h"
@@ -16,29 +14,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kSummaryPeriod(250);
 
-bool is_scalar(const Field& field) {
-  return field.type == Field::Type::kFlag || field.type == Field::Type::kInteger ||
-         field.type == Field::Type::kNumber;
-}
-
-double number_of(const Value& value) {
-  if (const auto* number = std::get_if<double>(&value)) return *number;
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
-  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? 1.0 : 0.0;
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
-std::vector<double> values_of(const Kind& kind, const Reading& reading) {
-  std::vector<double> values;
-  for (const Field& field : kind.fields) {
-    if (!is_scalar(field)) continue;
-    const Value* value = reading.find(field.name);
-    values.push_back(value != nullptr ? number_of(*value)
-                                      : std::numeric_limits<double>::quiet_NaN());
-  }
-  return values;
-}
-
 angen_msgs::SummaryEntry entry_of(const Kind& kind, const std::string& name, const Reading* reading,
                                   Nanoseconds stamp) {
   angen_msgs::SummaryEntry entry;
@@ -47,7 +22,7 @@ angen_msgs::SummaryEntry entry_of(const Kind& kind, const std::string& name, con
   if (reading == nullptr) return entry;
   entry.text = summary(kind, *reading);
   entry.alarm = alarms(kind, *reading);
-  entry.values = values_of(kind, *reading);
+  entry.values = numbers(kind, *reading);
   entry.stamp = to_ros(stamp);
   return entry;
 }

@@ -10,6 +10,7 @@ namespace angen::people {
 const Kind& PersonPlugin::kind() const {
   static const Kind kind =
       Kind("person", "A person who walks a path.")
+          .travels("people")
           .example("set person walker stop")
           .verb("Stop", "stops where the person is")
           .verb("Go", "walks on: to where it was sent, or along its path")

@@ -59,6 +59,16 @@ Kind& Kind::command_topic(std::string topic) {
   return *this;
 }
 
+Kind& Kind::group(std::string group_name) {
+  group_ = std::move(group_name);
+  return *this;
+}
+
+Kind& Kind::travels(std::string group_name) {
+  travels_ = true;
+  return group(std::move(group_name));
+}
+
 Kind& Kind::ray_color(std::string color) {
   ray_color_ = std::move(color);
   return *this;

@@ -57,7 +57,8 @@ class Kind {
     std::string value;
   };
 
-  Kind(std::string name, std::string doc) : name(std::move(name)), doc(std::move(doc)) {}
+  Kind(std::string name, std::string doc)
+      : name(std::move(name)), doc(std::move(doc)), group_(this->name + "s") {}
 
   std::string name;           // "pir"
   std::string doc;            // one line
@@ -77,6 +78,13 @@ class Kind {
   const std::string& command_topic() const { return command_topic_; }
   /// Units of the numbers of a command without a verb: "m/s", "rad/s".
   const std::vector<std::string>& value_units() const { return value_units_; }
+  /// The group of its model in viewers, KIND + "s" if none is given; empty of a small part of a
+  /// model, which is grouped as without it.
+  const std::string& group() const { return group_; }
+  /// Whether its model changes storeys: its group is of none.
+  bool changes_storeys() const { return travels_ || passage_ == Passage::kElevator; }
+  /// Whether its model moves through the building.
+  bool travels() const { return travels_; }
   /// "r g b a", 0 to 1, in which rviz draws Sensor::rays(), as long as the field `ranges` says;
   /// <color> overrides it. Empty: it draws none.
   const std::string& ray_color() const { return ray_color_; }
@@ -91,6 +99,8 @@ class Kind {
   Kind& example(std::string line);
   Kind& command_topic(std::string topic);
   Kind& value_units(std::vector<std::string> units);
+  Kind& group(std::string name);
+  Kind& travels(std::string group);
   Kind& ray_color(std::string color);
 
   Kind& verb(std::string name, std::string doc);
@@ -142,6 +152,8 @@ class Kind {
   std::string command_topic_;
   std::vector<std::string> value_units_;
   std::string ray_color_;
+  std::string group_;
+  bool travels_ = false;
 };
 
 }  // namespace angen

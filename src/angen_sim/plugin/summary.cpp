@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 #include <type_traits>
 
@@ -53,6 +54,18 @@ std::string shown_value(const Field& field, const Value& value) {
       value);
 }
 
+bool is_scalar(const Field& field) {
+  return field.type == Field::Type::kFlag || field.type == Field::Type::kInteger ||
+         field.type == Field::Type::kNumber;
+}
+
+double number_of(const Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? 1.0 : 0.0;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 // "kitchen 20.1, bedroom 18.0 °C", or the values alone where their names are missing.
 std::string shown_field(const Field& field, const Value& value, const Reading& reading) {
   const auto names = reading.get<std::vector<std::string>>(field.names, {});
@@ -90,6 +103,17 @@ std::string summary(const Kind& kind, const Reading& reading) {
     if (!shown.empty()) append(part.append("=").append(shown));
   }
   return text;
+}
+
+std::vector<double> numbers(const Kind& kind, const Reading& reading) {
+  std::vector<double> values;
+  for (const Field& field : kind.fields) {
+    if (!is_scalar(field)) continue;
+    const Value* value = reading.find(field.name);
+    values.push_back(value != nullptr ? number_of(*value)
+                                      : std::numeric_limits<double>::quiet_NaN());
+  }
+  return values;
 }
 
 bool alarms(const Kind& kind, const Reading& reading) {

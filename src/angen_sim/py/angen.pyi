@@ -324,6 +324,10 @@ class World:
         """A sensor's reading or a device's state in a few words, as /angen/summary shows it; ''
         before the first."""
 
+    def summaries(self) -> list[tuple[str, str, str, bool, float, list[float]]]:
+        """Each sensor and device: (kind, name, summary, alarm, stamp, values); the values (nan:
+        missing) are of the fields that are flags or numbers."""
+
     def sensors(self, kind: str = '') -> list[str]:
         ...
 
@@ -385,6 +389,15 @@ class World:
     @property
     def home(self) -> dict[str, typing.Any]:
         """The home: its storeys, rooms, things, doors and elevators, as a dict; docs/home.md."""
+
+    @property
+    def revision(self) -> int:
+        """of its parts: another one after each spawn and deletion"""
+
+    @property
+    def scene(self) -> dict[str, typing.Any]:
+        """What viewers draw, as a dict: links with their groups and poses, shapes, meshes, lights
+        and the fields of sensors, as angen_msgs/Scene has them."""
 
     def room_at(self, x: float, y: float, z: float) -> str:
         """The name of the room that a place is in, or in whose wall, floor or ceiling; '' outside."""
@@ -500,6 +513,11 @@ class Replay:
 
     def world(self) -> World:
         """The current world, to continue with. The replay ends."""
+
+    @property
+    def present(self) -> World:
+        """The world as the replay has it: a World that can be read, and that advances with the
+        replay."""
 
     @property
     def time(self) -> float:

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "core/text.h"
 #include "plugin/ray_geometry.h"
 #include "render/tessellate.h"
+#include "scene/field.h"
 
 namespace angen::py {
 
@@ -80,14 +80,10 @@ pyb::dict joint(const World& world, const std::string& name) {
   return dict;
 }
 
-/// The field of a sensor with rays, or the horizontal one of a camera, whose range has no end.
 pyb::object field_of(const sim::SensorEntry& sensor) {
-  if (sensor.rays != nullptr)
-    return pyb::make_tuple(sensor.rays->min_yaw, sensor.rays->max_yaw, sensor.rays->max);
-  const Element* camera = sensor.desc->element.child("camera");
-  if (camera == nullptr || camera->child("horizontal_fov") == nullptr) return pyb::none();
-  const double half = parse_number(camera->child_text("horizontal_fov")).value_or(0.0) / 2;
-  return pyb::make_tuple(-half, half, std::numeric_limits<double>::infinity());
+  const auto field = scene::field_of(sensor);
+  if (!field) return pyb::none();
+  return pyb::make_tuple(field->min_yaw, field->max_yaw, field->range);
 }
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, 8, Eigen::RowMajor>;

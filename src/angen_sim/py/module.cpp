@@ -14,6 +14,7 @@
 #include "py/grid.h"
 #include "py/home.h"
 #include "py/replay.h"
+#include "py/scene.h"
 #include "py/signature.h"
 #include "py/subclass.h"
 #include "py/world.h"
@@ -209,6 +210,17 @@ void bind_world(pyb::module_& module) {
            "A sensor's reading or a device's state in a few words, as /angen/summary shows it; '' "
            "before the first.")
       .def(
+          "summaries",
+          [](const World& w) {
+            std::vector<std::tuple<Text, Text, Text, bool, double, std::vector<double>>> all;
+            for (const World::Brief& b : w.summaries()) {
+              all.emplace_back(b.kind, b.name, b.text, b.alarm, b.stamp, b.numbers);
+            }
+            return all;
+          },
+          "Each sensor and device: (kind, name, summary, alarm, stamp, values); the values (nan: "
+          "missing) are of the fields that are flags or numbers.")
+      .def(
           "sensors",
           [](const World& w, const std::string& kind) {
             return names_of_kind(w.now().structure->sensors, kind);
@@ -255,6 +267,13 @@ void bind_world(pyb::module_& module) {
       .def_property_readonly(
           "home", [](const World& w) { return home_dict(w.now().structure->home->get()); },
           "The home: its storeys, rooms, things, doors and elevators, as a dict; docs/home.md.")
+      .def_property_readonly(
+          "revision", [](const World& w) { return w.now().structure->revision; },
+          "of its parts: another one after each spawn and deletion")
+      .def_property_readonly(
+          "scene", [](const World& w) { return scene_dict(w.now()); },
+          "What viewers draw, as a dict: links with their groups and poses, shapes, meshes, lights "
+          "and the fields of sensors, as angen_msgs/Scene has them.")
       .def(
           "room_at",
           [](const World& w, double x, double y, double z) {

@@ -7,13 +7,35 @@ namespace angen::py {
 
 namespace {
 
+// A replay with a view of its present world.
+class Replay : public record::Replay {
+ public:
+  using record::Replay::Replay;
+
+  World& present() {
+    if (!present_) present_ = std::make_unique<World>(simulation());
+    return *present_;
+  }
+  void advance_to(Nanoseconds time) {
+    const std::shared_ptr<const sim::Snapshot> made = advance(time);
+    if (present_) present_->follow(made);
+  }
+  std::unique_ptr<World> take() {
+    if (present_) throw Error("its present world is in use");
+    return std::make_unique<World>(take_simulation(), log().header.models);
+  }
+
+ private:
+  std::unique_ptr<World> present_;
+};
+
 // Until the end, or `seconds` further; true while something is left.
-bool advance_replay(record::Replay& replay, double seconds) {
+bool advance_replay(Replay& replay, double seconds) {
   const Nanoseconds end = replay.simulation().snapshot()->time + duration(seconds);
   while (!replay.done() && replay.simulation().snapshot()->time < end) {
     {
       const pyb::gil_scoped_release release;
-      replay.advance(end);
+      replay.advance_to(end);
     }
     if (PyErr_CheckSignals() != 0) throw pyb::error_already_set();
   }
@@ -28,7 +50,6 @@ double time_of_end(const record::Log& log) {
 }  // namespace
 
 void bind_replay(pyb::module_& module, std::shared_ptr<Catalog> (*catalog)(bool any_path)) {
-  using record::Replay;
   pyb::class_<Replay>(module, "Replay", "A recorded run, run again; see docs/replay.md.")
       .def(pyb::init([catalog](const std::string& path, bool leap) {
              return std::make_unique<Replay>(record::read_log(path), catalog(allow_paths()),
@@ -38,13 +59,10 @@ void bind_replay(pyb::module_& module, std::shared_ptr<Catalog> (*catalog)(bool 
            "Reads a log and builds its world. Without leap, each tick is taken.")
       .def("advance", &advance_replay, pyb::arg("seconds"),
            "Continues by simulated seconds, to the end at most; True while something is left.")
-      .def(
-          "world",
-          [](Replay& replay) {
-            const std::string models = replay.log().header.models;
-            return std::make_unique<World>(replay.take_simulation(), models);
-          },
-          "The current world, to continue with. The replay ends.")
+      .def("world", &Replay::take, "The current world, to continue with. The replay ends.")
+      .def_property_readonly("present", &Replay::present,
+                             "The world as the replay has it: a World that can be read, and that "
+                             "advances with the replay.")
       .def_property_readonly(
           "time", [](Replay& r) { return to_seconds(r.simulation().snapshot()->time); }, "s")
       .def_property_readonly(

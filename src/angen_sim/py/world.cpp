@@ -38,6 +38,18 @@ load::SearchPaths search_paths(const std::string& beside, bool allow_paths) {
   return paths;
 }
 
+template <class Entry>
+World::Brief brief(const Entry& entry, const Reading* reading, Nanoseconds stamp) {
+  const Kind& kind = entry.plugin->kind();
+  if (reading == nullptr) return {entry.kind, entry.name, ""};
+  return {entry.kind,
+          entry.name,
+          summary(kind, *reading),
+          alarms(kind, *reading),
+          to_seconds(stamp),
+          numbers(kind, *reading)};
+}
+
 }  // namespace
 
 World::World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalog> catalog,
@@ -240,13 +252,27 @@ std::string World::summary(const std::string& kind, const std::string& name) con
   const sim::Structure& structure = *snapshot_->structure;
   for (std::size_t i = 0; i < structure.sensors.size(); ++i) {
     const sim::SensorEntry& entry = structure.sensors[i];
-    if (entry.kind != kind || entry.name != name) continue;
-    const std::shared_ptr<const Reading> reading = snapshot_->reading(i);
-    return reading ? angen::summary(entry.plugin->kind(), *reading) : "";
+    if (entry.kind == kind && entry.name == name) return brief_sensor(i).text;
   }
-  const std::size_t index = index_of(structure.devices, kind, name);
-  const auto& state = snapshot_->devices[index];
-  return state ? angen::summary(structure.devices[index].plugin->kind(), *state) : "";
+  return brief_device(index_of(structure.devices, kind, name)).text;
+}
+
+World::Brief World::brief_sensor(std::size_t index) const {
+  const sim::SensorEntry& entry = snapshot_->structure->sensors[index];
+  const std::shared_ptr<const Reading> reading = snapshot_->reading(index);
+  return brief(entry, reading.get(), reading ? snapshot_->stamp(index) : 0);
+}
+
+World::Brief World::brief_device(std::size_t index) const {
+  const Reading* state = snapshot_->devices[index].get();
+  return brief(snapshot_->structure->devices[index], state, state ? state->stamp : 0);
+}
+
+std::vector<World::Brief> World::summaries() const {
+  std::vector<Brief> all;
+  for (std::size_t i = 0; i < snapshot_->sensors.size(); ++i) all.push_back(brief_sensor(i));
+  for (std::size_t i = 0; i < snapshot_->devices.size(); ++i) all.push_back(brief_device(i));
+  return all;
 }
 
 std::string World::save() { return record::world_file(simulation_.world(), simulation_.saved()); }

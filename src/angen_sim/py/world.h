@@ -29,6 +29,10 @@ class World {
   World(const std::string& text, const std::string& name, std::uint64_t seed,
         std::shared_ptr<Catalog> catalog, bool allow_paths);
 
+  /// A view of one that others advance, see follow(): closed from the start.
+  explicit World(sim::Simulation& simulation)
+      : simulation_(simulation), snapshot_(simulation.snapshot()), closed_(true) {}
+
   /// Continues a simulation that has run already, of a world whose models are found in `models`.
   World(std::unique_ptr<sim::Simulation> simulation, const std::string& models);
 
@@ -53,6 +57,8 @@ class World {
   }
   void request(const std::string& kind, const std::string& name, bool wanted);
   void reset();
+  /// The simulation of a view has advanced.
+  void follow(std::shared_ptr<const sim::Snapshot> snapshot) { take(std::move(snapshot)); }
   /// Completes the record. From now on the world is only read.
   void close();
 
@@ -60,6 +66,15 @@ class World {
   Reading device(const std::string& kind, const std::string& name) const;
   /// The summary of a sensor or device, as on /angen/summary; "" before its first reading.
   std::string summary(const std::string& kind, const std::string& name) const;
+  /// A sensor or device in a few words.
+  struct Brief {
+    std::string kind, name, text;
+    bool alarm = false;
+    double stamp = 0.0;             // s
+    std::vector<double> numbers{};  // see angen::numbers()
+  };
+  /// Each sensor and device.
+  std::vector<Brief> summaries() const;
   std::string save();
 
   const sim::Snapshot& now() const { return *snapshot_; }
@@ -78,6 +93,8 @@ class World {
 
  private:
   void begin();
+  Brief brief_sensor(std::size_t index) const;
+  Brief brief_device(std::size_t index) const;
   void require_open() const;
   Nanoseconds leap_limit(Nanoseconds until) const;
   static void note(const std::vector<Diagnostic>& found, std::vector<std::string>& to);

@@ -46,16 +46,6 @@ struct RayStyle {
   std_msgs::ColorRGBA alarm;  // while an alarm of its kind is yes
 };
 
-/// Display of a device's model in rviz.
-struct ModelStyle {
-  std::string group;        // rviz namespace of its visuals; empty: KIND + "s"
-  std::string label;        // rviz namespace of a label with its name; empty: none
-  bool is_carried = false;  // its carrier is shown as without it
-  bool travels = false;     // through the building; its label moves along
-  bool is_on_floor = true;  // false: it changes storeys, its groups are of none
-  bool is_in_wall = false;  // it is hidden with the side of the building whose wall it is in
-};
-
 struct RosKind {
   /// The frame of a sensor's messages.
   using Frame = std::function<std::string(const sim::SensorEntry&)>;
@@ -69,7 +59,7 @@ struct RosKind {
   std::vector<Format> formats;   // the first is the one to name; at least one
   std::optional<RayStyle> rays;  // none: rviz shows no rays
   bool caption = false;          // rviz shows its summary over it
-  ModelStyle model;              // a device's
+  std::string label;             // rviz namespace of a label with a device's name; empty: none
   Frame frame;                   // null: one of its own, or <frameName>
   bool is_camera = false;        // its frame is optical (REP 103)
   std::function<Odometry(const sim::SensorEntry&)> odometry;  // null: its messages are none
@@ -197,34 +187,10 @@ class RosKindBuilder {
     return commanded_by(make, topics_by_parameter(std::move(parameter), std::move(fallback)));
   }
 
-  /// The rviz namespace of the visuals of its model, which is KIND + "s" otherwise.
-  RosKindBuilder& group(std::string name) {
-    kind_.model.group = std::move(name);
-    return *this;
-  }
   /// rviz shows its name over its model.
   RosKindBuilder& label(std::string group) {
-    kind_.model.label = std::move(group);
+    kind_.label = std::move(group);
     return *this;
-  }
-  /// It is a small part of its model, and does not group the model's visuals.
-  RosKindBuilder& carried() {
-    kind_.model.is_carried = true;
-    return *this;
-  }
-  RosKindBuilder& changes_storeys() {
-    kind_.model.is_on_floor = false;
-    return *this;
-  }
-  /// Its model is part of a wall, and is hidden with it.
-  RosKindBuilder& in_wall() {
-    kind_.model.is_in_wall = true;
-    return *this;
-  }
-  /// Its model moves through the building, and its label with it.
-  RosKindBuilder& travels() {
-    kind_.model.travels = true;
-    return label("labels").changes_storeys();
   }
 
   RosKind done();

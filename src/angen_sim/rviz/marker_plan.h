@@ -9,10 +9,6 @@
 
 namespace angen::node {
 
-/// The namespace of a link's markers, which rviz can switch off: `doors 0`, `walls south 1`,
-/// `furniture 0`, `robots`, … with the storey that its description places the model on.
-std::string marker_group(const sim::Structure& structure, std::uint32_t link);
-
 /// A marker, and the limb that it is a part of, in Anatomy::limbs; -1: none.
 struct LinkDrawing : Drawing {
   int limb = -1;
@@ -24,7 +20,8 @@ struct DrawnLink {
   sim::LimbPoses limbs;
 };
 
-/// Markers of one model, with the groups and ids that they keep until the model is deleted.
+/// Markers of one model, with the groups (their namespaces) and ids that they keep until the model
+/// is deleted.
 struct DrawnModel {
   std::vector<DrawnLink> links;  // indexed like desc::Model::links
 };

@@ -5,24 +5,21 @@
 #include <cmath>
 
 #include "ros/convert.h"
+#include "scene/shapes.h"
 
 namespace angen::node {
 namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kThin = 0.002;     // m, a plane's slab
-constexpr double kEndless = 100.0;  // m, a plane without a size
 constexpr double kRayWidth = 0.01;  // m
 constexpr double kDarkBall = 0.1;   // m, diameter of a lamp's light
 constexpr double kLitBall = 0.5;    // m, its glow at full level
 
-Marker sized(int type, double x, double y, double z) {
+Marker sized(int type, const Vec3& size) {
   Marker marker;
   marker.type = type;
-  marker.scale.x = std::max(x, 1e-4);
-  marker.scale.y = std::max(y, 1e-4);
-  marker.scale.z = std::max(z, 1e-4);
+  marker.scale = to_vector(size);
   return marker;
 }
 
@@ -32,15 +29,14 @@ bool carries_colors(const std::string& file) {
 }
 
 Marker draw_file(const Shape& shape) {
-  Marker marker = sized(Marker::MESH_RESOURCE, shape.mesh_scale.x(), shape.mesh_scale.y(),
-                        shape.mesh_scale.z());
+  Marker marker = sized(Marker::MESH_RESOURCE, shape.mesh_scale.cwiseMax(1e-4));
   marker.mesh_resource = file_address(shape.mesh_file);
   marker.mesh_use_embedded_materials = carries_colors(shape.mesh_file);
   return marker;
 }
 
 Marker draw_triangles(const TriangleMesh& mesh) {
-  Marker marker = sized(Marker::TRIANGLE_LIST, 1.0, 1.0, 1.0);
+  Marker marker = sized(Marker::TRIANGLE_LIST, Vec3::Ones());
   marker.points.reserve(mesh.triangles.size() * 3);
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t vertex : triangle) {
@@ -50,28 +46,18 @@ Marker draw_triangles(const TriangleMesh& mesh) {
   return marker;
 }
 
-// A message holds three points a triangle: the grid is thinned to that many columns and rows.
-Marker draw_heights(const HeightGrid& grid) {
-  constexpr std::uint32_t kMaxCells = 128;
-  Marker marker = sized(Marker::TRIANGLE_LIST, 1.0, 1.0, 1.0);
-  const std::uint32_t across = std::min(kMaxCells, grid.columns - 1);
-  const std::uint32_t down = std::min(kMaxCells, grid.rows - 1);
-  const auto add = [&](std::uint32_t column, std::uint32_t row) {
-    const Eigen::Vector3f vertex =
-        grid.vertex(column * (grid.columns - 1) / across, row * (grid.rows - 1) / down);
-    marker.points.push_back(to_point(vertex.cast<double>()));
-  };
-  for (std::uint32_t row = 0; row < down; ++row) {
-    for (std::uint32_t column = 0; column < across; ++column) {
-      add(column, row);
-      add(column, row + 1);
-      add(column + 1, row);
-      add(column + 1, row);
-      add(column, row + 1);
-      add(column + 1, row + 1);
-    }
+Marker draw_part(const scene::Part& part, const Shape& shape) {
+  switch (part.type) {
+    case scene::Part::Type::kBox:
+      return sized(Marker::CUBE, part.size);
+    case scene::Part::Type::kSphere:
+      return sized(Marker::SPHERE, part.size);
+    case scene::Part::Type::kCylinder:
+      return sized(Marker::CYLINDER, part.size);
+    case scene::Part::Type::kMesh:
+      break;
   }
-  return marker;
+  return shape.mesh_file.empty() ? draw_triangles(*part.mesh) : draw_file(shape);
 }
 
 }  // namespace
@@ -91,49 +77,12 @@ std::string file_address(const std::string& path) {
 }
 
 std::vector<Drawing> draw(const desc::Visual& visual) {
-  const Shape& shape = visual.shape;
-  const double width = 2 * shape.radius;
   std::vector<Drawing> drawings;
-  const auto add = [&](Marker marker, const Pose& offset = {}) {
+  for (const scene::Part& part : scene::parts_of(visual)) {
+    Marker marker = draw_part(part, visual.shape);
     const Eigen::Vector4f& c = visual.material.diffuse;
     if (!marker.mesh_use_embedded_materials) marker.color = color(c[0], c[1], c[2], c[3]);
-    drawings.push_back({std::move(marker), visual.pose * offset});
-  };
-  switch (shape.type) {
-    case Shape::Type::kEmpty:
-      break;
-    case Shape::Type::kBox:
-      add(sized(Marker::CUBE, shape.size.x(), shape.size.y(), shape.size.z()));
-      break;
-    case Shape::Type::kSphere:
-      add(sized(Marker::SPHERE, width, width, width));
-      break;
-    case Shape::Type::kCylinder:
-      add(sized(Marker::CYLINDER, width, width, shape.length));
-      break;
-    case Shape::Type::kCapsule:
-      add(sized(Marker::CYLINDER, width, width, shape.length));
-      for (const double end : {-0.5, 0.5}) {
-        add(sized(Marker::SPHERE, width, width, width),
-            {Vec3(0, 0, end * shape.length), Quat::Identity()});
-      }
-      break;
-    case Shape::Type::kPlane: {
-      const double x = shape.size.x() > 0 ? shape.size.x() : kEndless;
-      const double y = shape.size.y() > 0 ? shape.size.y() : kEndless;
-      add(sized(Marker::CUBE, x, y, kThin), {Vec3(0, 0, -kThin / 2), Quat::Identity()});
-      break;
-    }
-    case Shape::Type::kMesh:
-      if (!shape.mesh_file.empty()) {
-        add(draw_file(shape));
-      } else if (shape.mesh != nullptr) {
-        add(draw_triangles(*shape.mesh));
-      }
-      break;
-    case Shape::Type::kHeightmap:
-      if (shape.heights != nullptr) add(draw_heights(*shape.heights));
-      break;
+    drawings.push_back({std::move(marker), part.pose});
   }
   return drawings;
 }
@@ -141,7 +90,7 @@ std::vector<Drawing> draw(const desc::Visual& visual) {
 Marker draw(const desc::Light& light, double level) {
   const double part = std::sqrt(std::clamp(level, 0.0, 1.0));
   const double width = part > 0.0 ? kDarkBall + (kLitBall - kDarkBall) * part : kDarkBall;
-  Marker marker = sized(Marker::SPHERE, width, width, width);
+  Marker marker = sized(Marker::SPHERE, Vec3::Constant(width));
   const Eigen::Vector3f c = light.diffuse / std::max(light.diffuse.maxCoeff(), 1e-3F);
   marker.color =
       part > 0.0 ? color(c[0], 0.95F * c[1], 0.4F * c[2], 0.75F) : color(0.25F, 0.25F, 0.28F, 1.0F);

@@ -107,7 +107,7 @@ std::map<std::string, std::vector<LitFace>> faces_by_side(const sim::Structure& 
   for (const LitFace& face : lit_faces(room)) {
     Eigen::AlignedBox3d box(face.corner);
     box.extend(face.corner + face.u + face.v);
-    const std::string side = outer_side(structure, box);
+    const std::string side = scene::outer_side(structure, box);
     found[side.empty() ? "" : " " + side].push_back(face);
   }
   return found;
@@ -138,7 +138,7 @@ void Overlays::add_lamp(const sim::Structure& structure, std::uint32_t light) {
   overlay.link = entry.link;
   overlay.offset = entry.light.pose;
   const Pose pose = described_pose(structure, entry);
-  overlay.storey = storey_suffix(structure, entry.model, pose.position.z());
+  overlay.storey = scene::storey_suffix(structure, entry.model, pose.position.z());
   put(lamps_, entry.name, std::move(overlay));
 }
 
@@ -153,7 +153,7 @@ void Overlays::add_glow(const sim::Structure& structure, std::uint32_t light) {
   overlay.of = Of::kLight;
   overlay.index = light;
   overlay.offset.position = place;
-  const std::string storey = storey_suffix(structure, entry.model, place.z());
+  const std::string storey = scene::storey_suffix(structure, entry.model, place.z());
   for (auto& [side, faces] : faces_by_side(structure, *room)) {
     overlay.storey = side + storey;
     overlay.faces = std::move(faces);
@@ -168,8 +168,8 @@ void Overlays::add_sensor(const sim::Structure& structure, std::uint32_t sensor)
   overlay.index = sensor;
   overlay.link = entry.link;
   overlay.offset = entry.pose;
-  overlay.storey = storey_suffix(structure, entry.model,
-                                 (described_pose(structure, entry.link) * entry.pose).position.z());
+  overlay.storey = scene::storey_suffix(
+      structure, entry.model, (described_pose(structure, entry.link) * entry.pose).position.z());
   const RosKind& kind = ros_kind(entry);
   if (rays_of(entry)) {
     put(beams_, entry.kind + "/" + entry.name, std::move(overlay));
@@ -189,33 +189,34 @@ void Overlays::add_device(const sim::Structure& structure, std::uint32_t device)
   overlay.index = device;
   overlay.link = first_link(structure, entry.model);
   overlay.offset.position = kOverModel;
-  overlay.storey =
-      storey_suffix(structure, entry.model, structure.models[entry.model]->pose.position.z());
+  overlay.storey = scene::storey_suffix(structure, entry.model,
+                                        structure.models[entry.model]->pose.position.z());
   put(captions_, entry.kind + "/" + entry.name, std::move(overlay));
 }
 
 void Overlays::add_label(const sim::Structure& structure, std::uint32_t device) {
   const sim::DeviceEntry& entry = structure.devices[device];
-  const ModelStyle& style = ros_kind(entry).model;
-  if (style.label.empty()) return;
+  const std::string& label = ros_kind(entry).label;
+  const bool travels = entry.plugin->kind().travels();
+  if (label.empty()) return;
   if (entry.light != UINT32_MAX) return;  // a sun needs none
   const desc::Model& model = *structure.models[entry.model];
   const Vec3 place = place_of_label(model);
   Overlay overlay;
   overlay.of = Of::kDevice;
   overlay.index = device;
-  overlay.storey = storey_suffix(structure, entry.model, model.pose.position.z());
+  overlay.storey = scene::storey_suffix(structure, entry.model, model.pose.position.z());
   overlay.offset.position = model.pose * place;
-  if (style.travels) {
+  if (travels) {
     overlay.link = first_link(structure, entry.model);
     overlay.offset.position = model.links.front().pose.inverse() * place;
   }
-  const std::string text = style.travels ? entry.name : entry.kind + " " + entry.name;
+  const std::string text = travels ? entry.name : entry.kind + " " + entry.name;
   Overlay& kept = put(labels_, entry.kind + "/" + entry.name, std::move(overlay));
   show(kept,
-       text_marker(text, style.travels ? kMoverTextHeight : kDeviceTextHeight,
+       text_marker(text, travels ? kMoverTextHeight : kDeviceTextHeight,
                    color(1.0F, 0.9F, 0.7F, 1.0F)),
-       style.label + kept.storey);
+       label + kept.storey);
 }
 
 void Overlays::add_room_labels() {

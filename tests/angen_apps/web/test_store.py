@@ -56,6 +56,16 @@ def test_only_changes_are_sent() -> None:
     assert second.parts == {}
 
 
+def test_the_same_scene_is_not_sent_again() -> None:
+    store = Store()
+    store.put_scene(SCENE, 7)
+    seen = store.since(0).version
+    store.put_scene(dict(SCENE), 7)  # its topic was subscribed again
+    assert not store.since(seen)
+    store.put_scene({**SCENE, 'links': [{}, {}]}, 7)
+    assert store.since(seen).parts == {'scene': 2}
+
+
 def test_poses_that_come_before_their_scene_wait_for_it() -> None:
     store = Store()
     store.put_scene(SCENE, 7)

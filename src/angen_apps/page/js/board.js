@@ -1,6 +1,7 @@
 /** What pointers, keys and tools do on the sheet on which a home is drawn. */
 import { svg } from './dom.js';
 import { DOORWAY, GRID, STEP, along, directionOf, distance, gridded, itemOf, keysOf, lengthOf, liftOf, moved, normal, onWall, openingOf, placeOn, placesOf, roomWalls, snapped, stretched, turnedDoor, wallAt, wallOf } from './drawing.js';
+import { t } from './lang.js';
 import { BODY, MOUSE, SIGN, SPOT, Sheet } from './sheet.js';
 
 /** @typedef {import('./drawing.js').Item} Item @typedef {import('./drawing.js').Point} Point */
@@ -248,7 +249,7 @@ export class Board extends Sheet {
     if (tool.name === 'put') {
       const made = this.putAt({ does: 'tool', ...press });
       if (!made) {
-        editor.hint(tool.list === 'lifts' ? 'An elevator joins floors: add one first, by + Floor below' : 'A door or a window goes on a wall');
+        editor.hint(tool.list === 'lifts' ? t('An elevator joins floors: add one first, by + Floor below') : t('A door or a window goes on a wall'));
         return;
       }
       editor.do({ add: [made] }, [`${made[0]}/${(storey[made[0]] ?? []).length}`]);

@@ -158,6 +158,6 @@ export class Carry {
     if (!all.length) return;
     const at = all.indexOf(this.held?.model ?? ''), model = all[(at < 0 ? (way > 0 ? 0 : all.length - 1) : at + way + all.length) % all.length];
     this.held = { model, id: null, at: [0, 0], from: [0, 0, 0], pose: this.pose(model), dx: 0, dy: 0, turn: 0, moved: false };
-    by('hint').textContent = `${model.replaceAll('_', ' ')}: arrows, R, Enter`;
+    by('hint').textContent = t('{name}: arrows, R, Enter', { name: model.replaceAll('_', ' ') });
   }
 }

@@ -1,5 +1,6 @@
 /** What sensors see of a floor: cells, as the server found them by the simulator's rays. */
-import { svg } from './dom.js';
+import { svg, words } from './dom.js';
+import { t } from './lang.js';
 
 /**
  * @typedef {{kind: string, name: string, box: number[], standing: string, fallen: string}} Seeing
@@ -51,5 +52,6 @@ export function sensorsAt({ origin, side, sensors }, [x, y]) {
 /** @param {Coverage} coverage @returns {string} in a sentence */
 export function sentence({ share, rooms }) {
   const percent = (/** @type {number} */ part) => `${Math.round(part * 100)} %`, less = Object.entries(rooms).filter(([, part]) => part < 0.995).sort(([, a], [, b]) => a - b);
-  return `Motion sensors see ${percent(share)} of the floor${less.length && share > 0 ? `: ${less.map(([name, part]) => `${name.replace(/\d+$/, '').replaceAll('_', ' ')} ${percent(part)}`).join(', ')}` : ''}.`;
+  const parts = less.map(([name, part]) => `${words(name.replace(/\d+$/, ''))} ${percent(part)}`);
+  return `${t('Motion sensors see {share} of the floor', { share: percent(share) })}${parts.length && share > 0 ? `: ${parts.join(', ')}` : ''}.`;
 }

@@ -1,6 +1,7 @@
 /** The usual day of a person on a ribbon of 24 hours: activities as blocks that one drags. */
 import { by, clockText, el, words } from './dom.js';
 import { itemOf } from './drawing.js';
+import { t } from './lang.js';
 
 /** @typedef {{do: string[], low: number, high: number, days: string, chance?: number, together?: boolean, lasts?: number[]}} Planned */
 
@@ -8,6 +9,9 @@ const DAY = 86400, STEP = 900, FINE = 300; // s; of an arrow key, of a drag or w
 const LEAST = 900, LABEL = 8400, LANE = 46, TOP = 20; // s: the widths of a short block and of a text; px of a lane, above all
 const CLICK = 5; // px
 const BOUNDS = ['wake', 'sleep']; // they begin and end the day, and stay
+
+/** @param {string} activity */
+const doing = (activity) => t(activity.replaceAll('_', ' '));
 
 export class DayPlan {
   /** @param {import('./edit.js').Editor} editor */
@@ -57,11 +61,11 @@ export class DayPlan {
     if (!shown || this.held) return;
     const focused = /** @type {any} */ (document.activeElement)?.dataset?.index;
     const button = (/** @type {string} */ text, /** @type {any} */ more) => el('button', { type: 'button', ...more }, text);
-    const kinds = [['weekday', 'Mon – Fri'], ['weekend', 'Sat, Sun']].map(([kind, text]) => button(text, { 'aria-pressed': String(kind === this.kind), onclick: () => { this.kind = kind; this.show(); } }));
-    const adds = el('select', { 'aria-label': 'Add an activity', onchange: () => this.set([...this.day, { do: [adds.value], low: 43200, high: 45000, days: this.kind }], this.day.length) },
-      el('option', { value: '' }, 'Add …'), ...Object.keys(editor.durations).filter((name) => name !== 'sleep').map((name) => el('option', { value: name }, words(name))));
-    const reset = person.day ? button('As usual', { title: `The day of the profile ${person.habits}`, onclick: () => { const { day, ...rest } = person; editor.do({ change: { [key]: rest } }, [key]); } }) : null;
-    element.replaceChildren(el('header', {}, el('h2', {}, `The day of ${words(person.name)}`), ...kinds, adds, reset, el('button', { class: 'icon', type: 'button', 'aria-label': 'Close', onclick: () => this.open('') }, '×')),
+    const kinds = [['weekday', t('Mon – Fri')], ['weekend', t('Sat, Sun')]].map(([kind, text]) => button(text, { 'aria-pressed': String(kind === this.kind), onclick: () => { this.kind = kind; this.show(); } }));
+    const adds = el('select', { 'aria-label': t('Add an activity'), onchange: () => this.set([...this.day, { do: [adds.value], low: 43200, high: 45000, days: this.kind }], this.day.length) },
+      el('option', { value: '' }, t('Add …')), ...Object.keys(editor.durations).filter((name) => name !== 'sleep').map((name) => el('option', { value: name }, doing(name))));
+    const reset = person.day ? button(t('As usual'), { title: t('The day of the profile {name}', { name: words(person.habits) }), onclick: () => { const { day, ...rest } = person; editor.do({ change: { [key]: rest } }, [key]); } }) : null;
+    element.replaceChildren(el('header', {}, el('h2', {}, t('The day of {name}', { name: person.name })), ...kinds, adds, reset, el('button', { class: 'icon', type: 'button', 'aria-label': t('Close'), onclick: () => this.open('') }, '×')),
       el('div', { class: 'scroll' }, this.track()));
     if (focused !== undefined) /** @type {any} */ (element.querySelector(`[data-index="${focused}"]`))?.focus();
   }
@@ -87,13 +91,13 @@ export class DayPlan {
 
   /** @param {number} index @param {Planned} part @param {number} begin @param {number} long @param {number} lane */
   block(index, part, begin, long, lane) {
-    const bound = BOUNDS.includes(part.do[0]), name = part.do.map((each) => words(each)).join(', ').toLowerCase(), often = (part.chance ?? 1) < 1 ? `, on ${Math.round((part.chance ?? 1) * 100)} % of days` : '';
-    const text = `${words(name)} at ${clockText(begin).slice(0, 5)}${often}`;
-    return el('button', { type: 'button', class: `block${bound ? ' bound' : ''}`, 'data-index': index, title: `${text}. Drag it, or use arrow keys${bound ? '' : '; Delete removes it'}`, 'aria-label': text,
+    const bound = BOUNDS.includes(part.do[0]), name = part.do.map((each) => doing(each)).join(', '), at = clockText(begin).slice(0, 5), share = Math.round((part.chance ?? 1) * 100);
+    const text = share < 100 ? t('{what} at {time}, on {share} % of days', { what: name, time: at, share }) : t('{what} at {time}', { what: name, time: at });
+    return el('button', { type: 'button', class: `block${bound ? ' bound' : ''}`, 'data-index': index, title: `${text}. ${bound ? t('Drag it, or use arrow keys') : t('Drag it, or use arrow keys; Delete removes it')}`, 'aria-label': text,
       style: `left: ${(begin / DAY) * 100}%; width: ${(Math.min(long, DAY - begin) / DAY) * 100}%; top: ${TOP + lane * LANE}px`,
       onkeydown: (/** @type {KeyboardEvent} */ e) => this.pressed(e, index),
       onpointerdown: (/** @type {PointerEvent} */ e) => { this.held = { index, id: e.pointerId, x: e.clientX, by: 0 }; /** @type {any} */ (e.currentTarget).setPointerCapture(e.pointerId); },
-      onpointermove: (/** @type {PointerEvent} */ e) => this.moved(e, begin), onpointerup: (/** @type {PointerEvent} */ e) => this.dropped(e), onpointercancel: () => { this.held = null; this.show(); } }, `${clockText(begin).slice(0, 5)} ${words(name)}`);
+      onpointermove: (/** @type {PointerEvent} */ e) => this.moved(e, begin), onpointerup: (/** @type {PointerEvent} */ e) => this.dropped(e), onpointercancel: () => { this.held = null; this.show(); } }, `${at} ${name}`);
   }
 
   /** @param {PointerEvent} e @param {number} begin */

@@ -62,6 +62,12 @@ export function notice(text, bad = false) {
   setTimeout(() => shown.remove(), bad ? 7000 : 3500);
 }
 
+/** @param {...any} children of the dialog, which opens */
+export function showDialog(...children) {
+  by('dialog').replaceChildren(...children);
+  if (!by('dialog').open) by('dialog').showModal();
+}
+
 /** @param {string} name @param {string} text @param {string} type of a file for the user */
 export function download(name, text, type) {
   const link = el('a', { href: URL.createObjectURL(new Blob([text], { type })), download: name });

@@ -2,15 +2,17 @@
 import { Board } from './board.js';
 import { sentence } from './coverage.js';
 import { DayPlan } from './dayplan.js';
-import { by, el, notice } from './dom.js';
+import { by, el, notice, showDialog } from './dom.js';
 import { GRID, HEIGHT, History, apply, copied, empty, innerPoint, keysOf, middleOf, removed, shifted, storeyOf, turned, withFloor, within, withoutFloor } from './drawing.js';
-import { Form, labelIn } from './form.js';
+import { Form, floorName, labelIn } from './form.js';
 import { help, pressed } from './keys.js';
+import { t } from './lang.js';
+import { beginTheme, setTheme } from './settings.js';
 import { Shelf } from './shelf.js';
 
 const KEEP = 400, SURVEY = 350, AGAIN = 1500; // ms after a change until it is kept, and checked; between tries
 const COPIES = 'angen-edit-copies'; // in this browser's session
-const TOOLS = [['select', '⬉', 'Select', 'V'], ['wall', '╱', 'Walls', 'W'], ['room', '▭', 'Room', 'Q']];
+const TOOLS = [['select', '⬉', t('Select'), 'V'], ['wall', '╱', t('Walls'), 'W'], ['room', '▭', t('Room'), 'Q']];
 
 export class Editor {
   constructor() {
@@ -52,8 +54,7 @@ export class Editor {
     this.base = ''; // the drawing that is saved, as text
     this.place = ''; // the key of the drawing in this browser
     this.board = new Board(this);
-    this.setTheme(localStorage.getItem('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
-    by('theme').addEventListener('click', () => this.setTheme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark'));
+    beginTheme(setTheme);
     by('help').addEventListener('click', help);
     by('undo').addEventListener('click', () => this.undo());
     by('redo').addEventListener('click', () => this.redo());
@@ -81,7 +82,7 @@ export class Editor {
   async load() {
     const answer = await fetch('/home.json').catch(() => null);
     if (!answer?.ok) {
-      this.setStatus('off', 'No server');
+      this.setStatus('off', t('No server'));
       setTimeout(() => this.load(), AGAIN);
       return;
     }
@@ -102,7 +103,7 @@ export class Editor {
     this.dayPlan = new DayPlan(this);
     this.buildTools();
     if (this.closed) this.showClosed(given.reason);
-    else if (this.dirty && draft) this.ask('The changes that were not saved are here again.', [['Continue', () => {}], ['Show the saved home', () => this.discard()]]);
+    else if (this.dirty && draft) this.ask(t('The changes that were not saved are here again.'), [[t('Continue'), () => {}], [t('Show the saved home'), () => this.discard()]]);
     this.listen();
     this.changed();
     this.board.whole();
@@ -137,7 +138,7 @@ export class Editor {
       return { ...said, ok: answer.ok, conflict: answer.status === 409 };
     } catch {
       this.setConnected(false);
-      return { ok: false, lost: true, text: 'There is no connection to the server; the drawing is kept in this browser.' };
+      return { ok: false, lost: true, text: t('There is no connection to the server; the drawing is kept in this browser.') };
     }
   }
 
@@ -146,7 +147,7 @@ export class Editor {
     socket.onopen = () => { this.setConnected(true); };
     socket.onmessage = (event) => {
       const { windows } = JSON.parse(event.data);
-      if (windows > 1 && !this.closed) this.hint(`This home is open in ${windows} windows: change it in one of them`);
+      if (windows > 1 && !this.closed) this.hint(t('This home is open in {windows} windows: change it in one of them', { windows }));
     };
     socket.onclose = () => {
       this.setConnected(false);
@@ -205,7 +206,7 @@ export class Editor {
     };
     if (this.closed) return;
     if (this.history.now.plan.storeys.every((storey) => !storey.walls)) add(false);
-    else this.ask('The new floor on top of the home has', [['the walls of the one below', () => add(true)], ['no walls', () => add(false)], ['Cancel', () => {}]]);
+    else this.ask(t('The new floor on top of the home has'), [[t('the walls of the one below'), () => add(true)], [t('no walls'), () => add(false)], [t('Cancel'), () => {}]]);
   }
 
   removeFloor() {
@@ -236,7 +237,7 @@ export class Editor {
     if (this.conflict || (!this.dirty && !this.kept)) return;
     const answer = await (this.dirty ? this.order('keep', { drawing: this.history.now, at: Date.now() }) : this.order('discard')); // all is undone
     if (answer.conflict) this.showConflict(answer);
-    else if (!answer.ok && !answer.lost) notice(`The draft is not kept: ${answer.text}`, true);
+    else if (!answer.ok && !answer.lost) notice(t('The draft is not kept: {why}', { why: answer.text }), true);
     this.kept = answer.ok && this.dirty;
     this.showStatus();
   }
@@ -308,7 +309,7 @@ export class Editor {
     clearTimeout(this.keeping);
     const shown = window.open('', `angen-${what}`), buttons = [by('simulate'), by('a-day')]; // while it is the answer to a click
     for (const button of buttons) button.disabled = true;
-    this.hint(what === 'day' ? 'Writes the world, and people live in it for a day …' : 'Writes the world and starts the simulator …');
+    this.hint(what === 'day' ? t('Writes the world, and people live in it for a day …') : t('Writes the world and starts the simulator …'));
     const drawing = this.history.now, answer = await this.order(what, { drawing, anyway });
     for (const button of buttons) button.disabled = false;
     this.hint('');
@@ -316,7 +317,7 @@ export class Editor {
     if (answer.address && shown) shown.location.href = answer.address;
     else if (answer.address) location.href = answer.address;
     else shown?.close();
-    if (answer.wrong) notice(`It is saved, and does not run: ${answer.wrong}`, true);
+    if (answer.wrong) notice(t('It is saved, and does not run: {why}', { why: answer.wrong }), true);
   }
 
   async discard() {
@@ -331,8 +332,8 @@ export class Editor {
   showConflict(answer, anyway) {
     this.conflict = true;
     this.ask(`${answer.text[0].toUpperCase()}${answer.text.slice(1)}.`, [
-      ['Show the other', () => { localStorage.removeItem(this.place); location.reload(); }],
-      ['Keep mine', () => {
+      [t('Show the other'), () => { localStorage.removeItem(this.place); location.reload(); }],
+      [t('Keep mine'), () => {
         this.conflict = false;
         this.version = answer.version;
         if (anyway) anyway();
@@ -411,7 +412,7 @@ export class Editor {
     this.room = null;
     this.board.use({ name: 'put', ...what });
     this.form?.show();
-    this.hint(what.list === 'openings' ? 'Press on a wall; R turns it' : what.list === 'lifts' ? 'Press behind the wall in which its doors are; R turns it' : what.list === 'sensors' ? 'Press at its place, and drag to aim it' : 'Press at its place; R turns it');
+    this.hint(what.list === 'openings' ? t('Press on a wall; R turns it') : what.list === 'lifts' ? t('Press behind the wall in which its doors are; R turns it') : what.list === 'sensors' ? t('Press at its place, and drag to aim it') : t('Press at its place; R turns it'));
     by('board').focus();
   }
 
@@ -432,9 +433,9 @@ export class Editor {
 
   showStatus() {
     if (!this.history || this.closed) return;
-    if (!this.connected) this.setStatus('off', 'No connection: kept in this browser');
-    else if (this.dirty) this.setStatus('kept', this.kept ? 'Draft kept' : 'Changed');
-    else this.setStatus('', this.given.saved ? 'Saved' : 'New');
+    if (!this.connected) this.setStatus('off', t('No connection: kept in this browser'));
+    else if (this.dirty) this.setStatus('kept', this.kept ? t('Draft kept') : t('Changed'));
+    else this.setStatus('', this.given.saved ? t('Saved') : t('New'));
   }
 
   /** @param {string} cls @param {string} text */
@@ -447,11 +448,11 @@ export class Editor {
   showFindings() {
     const { findings, remarks, wrong } = this.told, item = (/** @type {string} */ text, cls = '') => el('li', { class: cls }, text);
     const rows = wrong ? [item(wrong, 'bad')] : [...findings.map((text) => item(text)), ...remarks.map((text) => item(text))];
-    const none = this.rooms.length ? 'Nothing is wrong with the home.' : 'Draw a room first: the tool Room, or walls around it.', { coverage } = this.told;
+    const none = this.rooms.length ? t('Nothing is wrong with the home.') : t('Draw a room first: the tool Room, or walls around it.'), { coverage } = this.told;
     const button = (/** @type {string} */ text, /** @type {boolean} */ on, /** @type {() => void} */ does) => el('button', { type: 'button', 'aria-pressed': String(on), onclick: does }, text);
-    const rules = this.history.now.sensors !== 'none', seen = coverage ? [el('div', { class: 'seen' }, el('p', {}, sentence(coverage)), button('Show coverage', this.covers, () => this.showCoverage()),
-      button('Sensors for me', rules, () => this.do({ home: { sensors: rules ? 'none' : 'seed' } }, this.selection)))] : [];
-    by('findings').replaceChildren(el('h2', {}, rows.length ? `Findings (${rows.length})` : 'Findings'), el('ul', {}, ...(rows.length ? rows : [item(none, 'good')])), ...seen);
+    const rules = this.history.now.sensors !== 'none', seen = coverage ? [el('div', { class: 'seen' }, el('p', {}, sentence(coverage)), button(t('Show coverage'), this.covers, () => this.showCoverage()),
+      button(t('Sensors for me'), rules, () => this.do({ home: { sensors: rules ? 'none' : 'seed' } }, this.selection)))] : [];
+    by('findings').replaceChildren(el('h2', {}, `${t('Findings')}${rows.length ? ` (${rows.length})` : ''}`), el('ul', {}, ...(rows.length ? rows : [item(none, 'good')])), ...seen);
   }
 
   showTool() {
@@ -464,9 +465,9 @@ export class Editor {
 
   buildTools() {
     const button = (/** @type {string} */ name, /** @type {string} */ sign, /** @type {string} */ text, /** @type {string} */ key) => el('button', { id: `tool-${name}`, type: 'button', 'aria-pressed': 'false', title: `${text} (${key})`, 'aria-label': text, onclick: () => { this.select([]); this.board.use({ name }); } }, sign, el('span', {}, text));
-    const several = el('button', { type: 'button', 'aria-pressed': 'false', title: 'Each press selects one more', 'aria-label': 'Several', onclick: () => { this.several = !this.several; several.setAttribute('aria-pressed', String(this.several)); } }, '☑', el('span', {}, 'Several'));
-    this.thick = el('select', { 'aria-label': 'Thickness of walls', onchange: () => { this.thickness = Number(this.thick.value); } }, ...[0.1, 0.15, 0.2, 0.3].map((value) => el('option', { value }, `${value * 100} cm`)));
-    by('tools').replaceChildren(...TOOLS.map(([name, sign, text, key]) => button(name, sign, text, key)), several, el('button', { type: 'button', title: 'The whole home (H)', 'aria-label': 'The whole home', onclick: () => this.board.whole() }, '⤢', el('span', {}, 'Whole')), this.thick);
+    const several = el('button', { type: 'button', 'aria-pressed': 'false', title: t('Each press selects one more'), 'aria-label': t('Several'), onclick: () => { this.several = !this.several; several.setAttribute('aria-pressed', String(this.several)); } }, '☑', el('span', {}, t('Several')));
+    this.thick = el('select', { 'aria-label': t('Thickness of walls'), onchange: () => { this.thickness = Number(this.thick.value); } }, ...[0.1, 0.15, 0.2, 0.3].map((value) => el('option', { value }, `${value * 100} cm`)));
+    by('tools').replaceChildren(...TOOLS.map(([name, sign, text, key]) => button(name, sign, text, key)), several, el('button', { type: 'button', title: t('The whole home (H)'), 'aria-label': t('The whole home'), onclick: () => this.board.whole() }, '⤢', el('span', {}, t('Whole'))), this.thick);
     by('tools').hidden = this.closed;
     this.showTool();
   }
@@ -474,9 +475,9 @@ export class Editor {
   buildFloors() {
     const { storeys } = this.history.now.plan;
     const button = (/** @type {string} */ id, /** @type {string} */ sign, /** @type {string} */ text, /** @type {() => void} */ does) => el('button', { id, type: 'button', title: text, 'aria-label': text, onclick: does }, sign);
-    by('floors').replaceChildren(...(this.closed ? [] : [button('floor-add', '+ Floor', 'Add a floor on top', () => this.addFloor())]),
-      ...(storeys.length > 1 ? [...storeys.entries()].sort(([, a], [, b]) => b.elevation - a.elevation).map(([i, one]) => el('button', { type: 'button', 'aria-pressed': String(i === this.floor), onclick: () => { this.goTo(i); this.select([]); this.board.whole(); } }, one.name || `Floor ${one.number}`)) : []),
-      ...(this.closed || storeys.length < 2 ? [] : [button('floor-remove', '− Floor', 'Remove this floor', () => this.removeFloor())]));
+    by('floors').replaceChildren(...(this.closed ? [] : [button('floor-add', t('+ Floor'), t('Add a floor on top'), () => this.addFloor())]),
+      ...(storeys.length > 1 ? [...storeys.entries()].sort(([, a], [, b]) => b.elevation - a.elevation).map(([i, one]) => el('button', { type: 'button', 'aria-pressed': String(i === this.floor), onclick: () => { this.goTo(i); this.select([]); this.board.whole(); } }, floorName(one))) : []),
+      ...(this.closed || storeys.length < 2 ? [] : [button('floor-remove', t('− Floor'), t('Remove this floor'), () => this.removeFloor())]));
   }
 
   /** @param {string} reason why the world cannot be edited */
@@ -485,7 +486,7 @@ export class Editor {
     by('side').hidden = true;
     by('picture').hidden = false;
     by('picture').src = '/plan.svg';
-    this.setStatus('off', 'Read only');
+    this.setStatus('off', t('Read only'));
     this.hint(reason);
   }
 
@@ -497,16 +498,7 @@ export class Editor {
 
   /** @param {string} text @param {[string, () => void][]} answers */
   ask(text, answers) {
-    const dialog = by('dialog');
-    dialog.replaceChildren(el('p', {}, text), el('form', { method: 'dialog', class: 'tools' }, ...answers.map(([name, does], i) => el('button', { class: i ? null : 'main', onclick: does }, name))));
-    if (!dialog.open) dialog.showModal();
-  }
-
-  /** @param {string} theme */
-  setTheme(theme) {
-    document.documentElement.dataset.theme = theme;
-    localStorage.setItem('theme', theme);
-    by('theme').textContent = theme === 'dark' ? '☀' : '☾';
+    showDialog(el('p', {}, text), el('form', { method: 'dialog', class: 'tools' }, ...answers.map(([name, does], i) => el('button', { class: i ? null : 'main', onclick: does }, name))));
   }
 }
 

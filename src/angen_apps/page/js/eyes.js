@@ -3,7 +3,7 @@ import * as THREE from '../vendor/three/three.module.min.js';
 import { yawOf } from './fields.js';
 import { poseMatrix } from './shapes.js';
 
-const WIDE = 72, CAMERA = 47, USUAL = 38; // degrees of the view, upright: a person's, a camera's of 60 degrees across, that of the home
+const WIDE = 72, ROBOT = 47, USUAL = 38; // degrees of the view, upright: a person's, a robot's without a camera, that of the home
 const STAND = 0.93, SIT = 1.15, LIE = 0.75; // share of a height; m over the floor
 const TOP = 0.5; // m over the base of a robot without a camera
 const DOWN = 0.12, UP = 1; // rad that one looks down; up, who lies
@@ -37,7 +37,7 @@ export class Eyes {
     view.viewpoint.goal = null;
     controls.enabled = false;
     view.people.hidden = entity.kind === 'person' ? entity.model : '';
-    this.widen(entity.kind === 'person' ? WIDE : CAMERA);
+    this.widen(this.wide());
     view.fields.group.visible = false;
     document.body.classList.add('eyes');
     view.storey = view.home.storeyAt(view.home.place(entity)[2]);
@@ -59,6 +59,13 @@ export class Eyes {
     view.storey = before.storey;
     view.setWalls(before.walls);
     this.ended();
+  }
+
+  /** @returns {number} degrees of the view, upright, in which the whole picture of the camera is */
+  wide() {
+    const { camera: { aspect } } = this.view.viewpoint, { camera: own } = this.camera();
+    const field = own && this.view.home.scene?.sensors.find((/** @type {any} */ one) => one.kind === own.kind && one.name === own.name);
+    return field ? (2 * Math.atan(Math.max(Math.tan(field.pitch[1]), Math.tan(field.yaw[1]) / aspect)) * 180) / Math.PI : this.entity.kind === 'person' ? WIDE : ROBOT;
   }
 
   /** @param {number} degrees of the view, upright */

@@ -1,6 +1,8 @@
 /** The keys of the page on which a home is drawn. */
-import { by, el } from './dom.js';
+import { by } from './dom.js';
 import { GRID, keysOf, moved } from './drawing.js';
+import { t } from './lang.js';
+import { showKeys } from './settings.js';
 
 const FINE = 0.01; // m of an arrow key with Shift
 
@@ -55,9 +57,7 @@ function next(editor, way) {
 
 /** Shows what keys and pointers do. */
 export function help() {
-  const rows = [['Walls (W)', 'press where they begin, then at each corner; type a length and Enter'], ['Room (Q)', 'press at two corners, or drag'], ['Click', 'selects; with Shift several; in a room: its name'], ['Drag', 'moves what is selected; on the ground selects all within'],
-    ['Wheel, right button', 'zooms, moves the sheet; on a phone two fingers'], ['Arrows', '0.1 m, with Shift 0.01 m; with a tool: its place, Enter puts'], ['R, Shift+R', 'turns by 90°, by 15°; a door: hinge and side'], ['. ,', 'the next, the last thing'],
-    ['Delete', 'removes it'], ['Ctrl+C X V D A', 'copy, cut, paste, twice, all'], ['Ctrl+Z Y', 'undo, redo'], ['Ctrl+S', 'saves'], ['Esc', 'ends a tool'], ['H, + −', 'the whole home, zoom'], ['C', 'what motion sensors see'], ['Alt', 'turns a sensor freely']];
-  by('dialog').replaceChildren(el('h2', {}, 'Keys'), el('dl', {}, ...rows.flatMap(([key, text]) => [el('dt', {}, el('kbd', {}, key)), el('dd', {}, text)])), el('form', { method: 'dialog' }, el('button', { class: 'main' }, 'Close')));
-  by('dialog').showModal();
+  showKeys([[t('Walls (W)'), t('press where they begin, then at each corner; type a length and Enter')], [t('Room (Q)'), t('press at two corners, or drag')], [t('Click'), t('selects; with Shift several; in a room: its name')], [t('Drag'), t('moves what is selected; on the ground selects all within')],
+    [t('Wheel, right button'), t('zooms, moves the sheet; on a phone two fingers')], [t('Arrows'), t('0.1 m, with Shift 0.01 m; with a tool: its place, Enter puts')], ['R, Shift+R', t('turns by 90°, by 15°; a door: hinge and side')], ['. ,', t('the next, the last thing')],
+    [t('Del'), t('removes it')], ['Ctrl+C X V D A', t('copy, cut, paste, twice, all')], ['Ctrl+Z Y', t('undo, redo')], ['Ctrl+S', t('saves')], [t('Esc'), t('ends a tool')], ['H, + −', t('the whole home, zoom')], ['C', t('what motion sensors see')], ['Alt', t('turns a sensor freely')]]);
 }

@@ -37,7 +37,7 @@ export function state(text, kind) {
     patterns.set(kind?.kind, pattern = new RegExp(`(?<!\\w)(?:${parts.join('|')})(?!\\w)`, 'gi'));
   }
   return numbers(text.replace(pattern, (word) => {
-    const found = t(word.toLowerCase());
+    const plain = word.toLowerCase(), own = `${kind?.kind}: ${plain}`, found = t(Object.hasOwn(table, own) ? own : plain); // which may have another meaning elsewhere
     return word === word.toUpperCase() ? found.toUpperCase() : found;
   }).replace(/(?<= · )\w+$/, (activity) => t(activity.replaceAll('_', ' '))));
 }
@@ -59,7 +59,7 @@ function translate() {
   document.documentElement.lang = language;
   for (const element of document.body.querySelectorAll('*')) {
     for (const name of ATTRIBUTES) if (element.hasAttribute(name)) element.setAttribute(name, t(element.getAttribute(name) ?? ''));
-    for (const node of element.childNodes) if (node.nodeType === Node.TEXT_NODE) node.nodeValue = t(node.nodeValue ?? '');
+    for (const node of element.childNodes) if (node.nodeType === Node.TEXT_NODE) node.nodeValue = (node.nodeValue ?? '').replace(/\S(?:.*\S)?/, (text) => t(text));
   }
 }
 

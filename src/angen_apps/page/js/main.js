@@ -7,10 +7,11 @@ import { sunAt } from './daylight.js';
 import { Goal } from './goal.js';
 import { Home } from './home.js';
 import { floorText } from './labels.js';
-import { choose, languages, numbers, t } from './lang.js';
+import { numbers, t } from './lang.js';
 import { Panels } from './panels.js';
 import { Plan } from './plan.js';
 import { Player } from './player.js';
+import { beginTheme, setTheme, showKeys } from './settings.js';
 import { share } from './share.js';
 import { View3d } from './view3d.js';
 
@@ -53,7 +54,7 @@ class Page {
     addEventListener('keydown', (e) => this.key(e));
     addEventListener('hashchange', () => { if (location.hash === '#home') this.whole(); });
     this.showNothing();
-    this.setTheme(localStorage.getItem('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
+    beginTheme((theme) => this.setTheme(theme));
     this.setView(this.view && !isNarrow() ? '3d' : 'plan');
     if (isNarrow()) by('side').classList.add('low');
     this.home.begin();
@@ -75,7 +76,6 @@ class Page {
     for (const [id, text] of [['3d', '3D'], ['plan', t('Plan')]]) {
       by('views').append(el('button', { type: 'button', id: `view-${id}`, disabled: id === '3d' && !this.view, title: id === '3d' && !this.view && NO_3D, onclick: () => this.setView(id) }, text));
     }
-    by('theme').addEventListener('click', () => this.setTheme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark'));
     by('help').addEventListener('click', () => this.help());
     by('share').addEventListener('click', () => share());
     home.on('access', () => { by('share').hidden = !accessed().tokens.build; });
@@ -125,9 +125,7 @@ class Page {
 
   /** @param {string} theme */
   setTheme(theme) {
-    document.documentElement.dataset.theme = theme;
-    localStorage.setItem('theme', theme);
-    by('theme').textContent = theme === 'dark' ? '☀' : '☾';
+    setTheme(theme);
     this.view?.setTheme(theme === 'dark');
     this.panels.plots.restyle();
     this.player.ribbonStale = true;
@@ -358,18 +356,10 @@ class Page {
   }
 
   help() {
-    const rows = [[t('Click'), t('a door, lamp, person, sensor or floor: what it is and does')], [t('Drag'), t('turns the view; with the right button or two fingers it moves')], [t('Wheel'), t('zooms')],
+    showKeys([[t('Click'), t('a door, lamp, person, sensor or floor: what it is and does')], [t('Drag'), t('turns the view; with the right button or two fingers it moves')], [t('Wheel'), t('zooms')],
       [t('Space'), t('pauses')], ['.', t('one second on, while paused')], ['N', t('the next event, in a recording')], ['0 – 9, *', t('a floor, all floors')], ['H, P', t('the whole home, from above')], ['V', t('3D or plan')], ['F', t('sensor fields')],
-      ['T', t('light or dark')], ['W A S D', t('drive the robot, in its tab')], [t('Drag the robot'), t('its goal')], ['M', t('moves things: drag them; by keys . and , choose one, arrows move it, R turns it, Enter puts it there')], [t('Esc'), t('closes')]];
-    by('dialog').replaceChildren(el('h2', {}, t('Keys')), el('dl', {}, ...rows.flatMap(([key, text]) => [el('dt', {}, el('kbd', {}, key)), el('dd', {}, text)])), languageMenu(),
-      el('form', { method: 'dialog' }, el('button', { class: 'main', autofocus: true }, t('Close'))));
-    by('dialog').showModal();
+      ['T', t('light or dark')], ['W A S D', t('drive the robot, in its tab')], [t('Drag the robot'), t('its goal')], ['M', t('moves things: drag them; by keys . and , choose one, arrows move it, R turns it, Enter puts it there')], [t('Esc'), t('closes')]]);
   }
 }
-
-const languageMenu = () => {
-  const menu = el('select', { id: 'language', onchange: () => choose(menu.value) }, ...languages().map(({ code, name, chosen }) => el('option', { value: code, selected: chosen, lang: code }, name)));
-  return el('label', { class: 'language' }, t('Language'), ' ', menu);
-};
 
 /** @type {any} */ (window).angen = new Page(); // for tests and the console

@@ -71,7 +71,7 @@ export class Fields {
     this.all = [];
     /** @type {number[]} */
     const positions = [];
-    for (const sensor of this.home.scene.sensors) {
+    for (const sensor of this.home.scene.sensors.filter((/** @type {any} */ s) => s.rays)) {
       if (this.home.scene.links[sensor.link].moves) continue;
       const points = fieldShape(this.home, sensor), first = positions.length / 3;
       for (let i = 1; i + 1 < points.length; i++) { // a fan, seen from its first corner

@@ -339,7 +339,7 @@ export class Plan {
   /** @param {number} number */
   showFields(number) {
     const { home } = this, fires = (/** @type {any} */ s) => Boolean(home.rows.get(`${s.kind}/${s.name}`)?.alarm);
-    const shown = home.scene.sensors.filter((/** @type {any} */ s) => (this.withFields || fires(s)) && !home.scene.links[s.link].moves);
+    const shown = home.scene.sensors.filter((/** @type {any} */ s) => s.rays && (this.withFields || fires(s)) && !home.scene.links[s.link].moves);
     const state = shown.map((/** @type {any} */ s) => `${s.name} ${fires(s)}`).join();
     if (state === this.fieldState && this.fieldsOf === this.fields) return; // a flash is not started again
     this.fieldState = state;

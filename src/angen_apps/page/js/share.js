@@ -1,6 +1,6 @@
 /** The links for others, which the owner of a page that has tokens gives away. */
 import { accessed } from './access.js';
-import { by, el, notice } from './dom.js';
+import { el, notice, showDialog } from './dom.js';
 import { t } from './lang.js';
 
 /** @type {Record<string, string>} */
@@ -13,6 +13,5 @@ export function share() {
     const copied = () => notice(t('The address is copied.')), shown = () => field.select(); // a page without https may not copy
     return el('label', { class: 'link' }, el('span', {}, text), field, el('button', { type: 'button', onclick: () => { (navigator.clipboard?.writeText(url) ?? Promise.reject()).then(copied, shown); } }, t('Copy')));
   });
-  by('dialog').replaceChildren(el('h2', {}, t('Links for others')), ...rows, el('form', { method: 'dialog' }, el('button', { class: 'main' }, t('Close'))));
-  by('dialog').showModal();
+  showDialog(el('h2', {}, t('Links for others')), ...rows, el('form', { method: 'dialog' }, el('button', { class: 'main' }, t('Close'))));
 }

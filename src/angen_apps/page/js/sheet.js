@@ -3,6 +3,7 @@ import { mapOf } from './coverage.js';
 import { by, svg } from './dom.js';
 import { distance, isBuilt, itemOf, keysOf, normal, placesOf } from './drawing.js';
 import { reach } from './fields.js';
+import { numbers } from './lang.js';
 import { Taken, nameOf } from './places.js';
 import { furniture, signOf } from './symbols.js';
 
@@ -101,7 +102,7 @@ export class Sheet {
     }
     for (const { x, y, width } of storey.openings ?? []) taken.boxes.push([x, y, width / 2, width / 2]);
     this.named = this.editor.rooms.flatMap((room, i) => {
-      const name = `${room.name.replaceAll('_', ' ')} · ${areaOf(room.polygon).toFixed(1)} m²`, wide = (LETTER / 2) * text * name.length, [x, y] = nameOf(room.polygon, wide, text / 2, taken);
+      const name = `${room.name.replaceAll('_', ' ')} · ${numbers(areaOf(room.polygon).toFixed(1))} m²`, wide = (LETTER / 2) * text * name.length, [x, y] = nameOf(room.polygon, wide, text / 2, taken);
       return [svg('path', { class: `room-shape${this.editor.room === i ? ' chosen' : ''}`, d: [room.polygon, ...room.holes].map(path).join(''), 'fill-rule': 'evenodd', 'stroke-width': 0 }),
         svg('text', { class: 'room-name', x, y: -y + 0.35 * text, 'font-size': text }, name)];
     });
@@ -225,7 +226,7 @@ export class Sheet {
   measure(a, b, typed = '') {
     const text = 13 / this.scale, yaw = atan2(b[1] - a[1], b[0] - a[0]), upright = abs(normal(yaw)) > PI / 2 + 0.01 ? yaw + PI : yaw, away = 14 / this.scale;
     const [x, y] = [(a[0] + b[0]) / 2 - away * sin(upright), (a[1] + b[1]) / 2 + away * cos(upright)];
-    return svg('text', { class: 'measure', 'font-size': text, transform: `translate(${x} ${-y}) rotate(${(-upright * 180) / PI})`, y: text / 3 }, typed ? `${typed} m` : `${distance(a, b).toFixed(2)} m`);
+    return svg('text', { class: 'measure', 'font-size': text, transform: `translate(${x} ${-y}) rotate(${(-upright * 180) / PI})`, y: text / 3 }, numbers(typed ? `${typed} m` : `${distance(a, b).toFixed(2)} m`));
   }
 }
 

@@ -1,9 +1,10 @@
 /** The catalog: all that one can put into a home, with pictures, and a search. */
 import { by, el, svg, words } from './dom.js';
 import { SORTS } from './drawing.js';
+import { t } from './lang.js';
 import { furniture, signOf } from './symbols.js';
 
-const RULES = { none: 'Only those that I put', seed: 'By rules: two motion sensors and a light sensor a room, contacts at doors and seats', casas: 'By rules: a motion sensor on each ceiling, contacts at doors' };
+const RULES = { none: t('Only those that I put'), seed: t('By rules: two motion sensors and a light sensor a room, contacts at doors and seats'), casas: t('By rules: a motion sensor on each ceiling, contacts at doors') };
 
 export class Shelf {
   /** @param {import('./edit.js').Editor} editor */
@@ -11,16 +12,16 @@ export class Shelf {
     this.editor = editor;
     /** @type {Map<any, any>} buttons by what they put */
     this.buttons = new Map();
-    const search = el('input', { type: 'search', placeholder: 'Search: bed, window, camera …', 'aria-label': 'Search the catalog', oninput: () => this.search(search.value) });
+    const search = el('input', { type: 'search', placeholder: t('Search: bed, window, camera …'), 'aria-label': t('Search the catalog'), oninput: () => this.search(search.value) });
     this.rules = el('select', { onchange: () => editor.do({ home: { sensors: this.rules.value } }, editor.selection) }, ...Object.entries(RULES).map(([value, text]) => el('option', { value }, text)));
     const { pieces, sensors } = editor.catalog;
     this.groups = [
-      this.group('Doors and windows', Object.keys(SORTS).map((sort) => [sort, { list: 'openings', of: sort }])),
-      this.group('Furniture', pieces.map((/** @type {any} */ piece) => [piece.name, { list: 'pieces', of: piece }])),
-      this.group('Lamps, people, robots, elevators', [['lamp', { list: 'lamps', of: 'lamp' }], ['person', { list: 'movers', of: 'person' }], ['robot', { list: 'movers', of: 'robot' }], ['elevator', { list: 'lifts', of: 'elevator' }]]),
-      this.group('Sensors', sensors.map((/** @type {any} */ sensor) => [sensor.name, { list: 'sensors', of: sensor }])),
+      this.group(t('Doors and windows'), Object.keys(SORTS).map((sort) => [sort, { list: 'openings', of: sort }])),
+      this.group(t('Furniture'), pieces.map((/** @type {any} */ piece) => [piece.name, { list: 'pieces', of: piece }])),
+      this.group(t('Lamps, people, robots, elevators'), [['lamp', { list: 'lamps', of: 'lamp' }], ['person', { list: 'movers', of: 'person' }], ['robot', { list: 'movers', of: 'robot' }], ['elevator', { list: 'lifts', of: 'elevator' }]]),
+      this.group(t('Sensors'), sensors.map((/** @type {any} */ sensor) => [sensor.name, { list: 'sensors', of: sensor }])),
     ];
-    by('panel').replaceChildren(search, ...this.groups.map(({ element }) => element), el('h3', {}, 'Sensors of the home'), el('label', { class: 'rules' }, this.rules));
+    by('panel').replaceChildren(search, ...this.groups.map(({ element }) => element), el('h3', {}, t('Sensors of the home')), el('label', { class: 'rules' }, this.rules));
   }
 
   /** @param {string} title @param {[string, any][]} entries */
@@ -49,7 +50,7 @@ export class Shelf {
   search(text) {
     const wanted = text.toLowerCase().trim();
     for (const { buttons, element } of this.groups) {
-      for (const button of buttons) button.hidden = !button.dataset.name.includes(wanted);
+      for (const button of buttons) button.hidden = ![button.dataset.name, button.textContent.toLowerCase()].some((name) => name.includes(wanted));
       element.hidden = buttons.every((button) => button.hidden);
     }
   }

@@ -24,8 +24,8 @@ void fill(const Reading& state, const Label&, sensor_msgs::BatteryState& message
   message.present = true;
 }
 
-ANGEN_REGISTER_ROS_KIND(
-    {"battery"}, RosKindBuilder().message<sensor_msgs::BatteryState>(&fill).caption().carried());
+ANGEN_REGISTER_ROS_KIND({"battery"},
+                        RosKindBuilder().message<sensor_msgs::BatteryState>(&fill).caption());
 
 }  // namespace
 }  // namespace angen::node

@@ -21,8 +21,7 @@ RosKindBuilder leaf() {
 }
 
 ANGEN_REGISTER_ROS_KIND({"door"}, leaf().label("door labels"));
-ANGEN_REGISTER_ROS_KIND({"window"}, leaf().in_wall());
-ANGEN_REGISTER_ROS_KIND({"cabinet"}, leaf());
+ANGEN_REGISTER_ROS_KIND({"window", "cabinet"}, leaf());
 
 }  // namespace
 }  // namespace angen::node

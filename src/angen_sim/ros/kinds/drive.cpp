@@ -27,7 +27,7 @@ void fill(const Reading& state, const Label& label, nav_msgs::Odometry& message)
 
 ANGEN_REGISTER_ROS_KIND(
     {"drive"},
-    RosKindBuilder().message<nav_msgs::Odometry>(&fill).robot(&of_twist).group("robots").travels());
+    RosKindBuilder().message<nav_msgs::Odometry>(&fill).robot(&of_twist).label("labels"));
 
 }  // namespace
 }  // namespace angen::node

@@ -23,9 +23,8 @@ void fill(const Reading& state, const Label& label, angen_msgs::ElevatorState& m
 
 ANGEN_REGISTER_ROS_KIND(
     {"elevator"},
-    RosKindBuilder()
-        .message_with_array<angen_msgs::ElevatorState, angen_msgs::ElevatorStateArray>(&fill)
-        .changes_storeys());
+    RosKindBuilder().message_with_array<angen_msgs::ElevatorState, angen_msgs::ElevatorStateArray>(
+        &fill));
 
 }  // namespace
 }  // namespace angen::node

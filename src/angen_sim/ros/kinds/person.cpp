@@ -22,8 +22,7 @@ ANGEN_REGISTER_ROS_KIND(
     {"person"},
     RosKindBuilder()
         .message_with_array<angen_msgs::PersonState, angen_msgs::PersonStateArray>(&fill)
-        .group("people")
-        .travels());
+        .label("labels"));
 
 }  // namespace
 }  // namespace angen::node

@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import time
 
+from angen_apps.web.feed import Feed
+from angen_apps.web.node import start_node
 from angen_apps.web.played import Lined
 from angen_tools.common.failure import Failure
 from angen_tools.common.wait import wait
@@ -11,7 +13,7 @@ STARTS = 10.0  # s of wall time in which the building answers
 TURN = 0.05
 
 
-class Captured(Lined):
+class Captured(Lined, Feed):
     """A Source, see server.py."""
 
     is_past = False
@@ -21,7 +23,16 @@ class Captured(Lined):
         super().__init__(length, 'live')
         self._length = length
 
+    def __exit__(self, *_: object) -> None:
+        self._unsubscribe_all()
+
+    def _unsubscribe_all(self) -> None:
+        for key in list(self._subscribers):
+            self._drop(key)
+
     def _prepare(self) -> None:
+        start_node('web')
+        self._subscribe_usual()
         wait(lambda: self._subscribers['scene'].get_num_connections() > 0 and self._now > 0.0
              and bool(self.store.scene), 'no simulator runs, ./angen run starts one: none answered',
              STARTS)

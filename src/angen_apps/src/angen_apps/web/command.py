@@ -20,7 +20,7 @@ from angen_tools.common.port import not_served, require_free
 
 if TYPE_CHECKING:
     from angen_apps.web.film import Film
-    from angen_apps.web.played import Lined, Played
+    from angen_apps.web.played import Lined
 
 ROLES = {SWITCH: 'to switch, not to build', LOOK: 'to look only'}  # what further addresses are for
 KEYS = ('kind', 'doc', 'role', 'verbs', 'values', 'fields', 'models')  # keys that the page reads
@@ -108,7 +108,7 @@ def _serve_source(source: Source, host: str, port: int, as_json: bool) -> None:
     serve('web', site, host, port, as_json, (BUILD, *ROLES))
 
 
-def _recording(path: Path, world: Path | None) -> Played:
+def _recording(path: Path, world: Path | None) -> Lined:
     """A recorded run, or a folder of angen generate."""
     if path.is_dir():
         from angen_apps.web.day import Day
@@ -127,11 +127,14 @@ def web_recording(path: Path, world: Path | None, host: str, port: int,
 
 def web_video(film: Film, path: Path | None, world: Path | None) -> None:
     """A video of a recording, or without one of the running building from now on."""
-    from angen_apps.web.captured import Captured
     from angen_apps.web.film import shoot
     film.check()
-    source: Lined = (Captured(film.seconds * (film.speed or 1.0)) if path is None
-                     else _recording(path, world))
+    source: Lined
+    if path is None:
+        from angen_apps.web.captured import Captured
+        source = Captured(film.seconds * (film.speed or 1.0))
+    else:
+        source = _recording(path, world)
     with source:
         source.store.put('symbols', symbols())
         shoot(source, film, page(), described_kinds())

@@ -4,6 +4,7 @@ from __future__ import annotations
 import datetime
 import json
 import math
+import tempfile
 from collections import defaultdict
 from pathlib import Path
 from typing import Any, Iterator, NamedTuple
@@ -14,21 +15,18 @@ from angen_apps.data.generate import CABINS, HOME, LOADS, sha256
 from angen_apps.data.site import Site, apartment
 from angen_apps.data.tables import EVENTS, POWER, SLIDES, TRACK, TRUTH, homes, rows
 from angen_apps.residents.figures import walker
-from angen_apps.web.feed import row_of
 from angen_apps.web.history import numbers
-from angen_apps.web.played import Played
+from angen_apps.web.played import Lined
 from angen_apps.web.rides import Cabin, Rider, cabins
+from angen_apps.web.store import summary
 from angen_tools.common.catalog import kinds, simulator
 from angen_tools.common.failure import Failure
-from angen_tools.common.files import write_text
-from angen_tools.common.wait import wait
 
 DAY = 86400.0  # s
 STANDBY = 0.05  # share of the most W of an appliance: with less it is off
 LEAST = 1.0  # W of an appliance that is on: the maximum of an unused one is its standby power
-RATE = 20.0  # simulated s per s, while leaves are measured
+STARTS, OPENING = 1.0, 6.0  # s in which all sensors have measured; in which all leaves open
 BEFORE, SPEED = 30.0, 20.0  # s before the first gets up, where a page begins to play, and how fast
-LIMIT = 120.0  # s of wall time, for the node to answer
 POSTURES = {'stand': 'standing', 'sit': 'sitting', 'lie': 'lying'}
 LEAVES = ('door', 'window', 'cabinet')
 WORDS = {'motion': ('MOTION', 'still'), 'area': ('MOTION', 'still'), 'door': ('open', 'closed'),
@@ -81,8 +79,8 @@ def read(folder: Path, name: str) -> Any:
         raise Failure(f'{folder / name}: cannot be read: {error}') from None
 
 
-class Day(Played):
-    """A Source, see server.py. A context: its end ends the node."""
+class Day(Lined):
+    """A Source, see server.py."""
 
     def __init__(self, folder: Path, world: Path | None) -> None:
         found = homes(folder)
@@ -92,21 +90,21 @@ class Day(Played):
         self._settings = read(folder, HOME)['settings']
         self._start = datetime.datetime.fromisoformat(self._layout['start'])
         self._people = [resident['name'] for resident in self._layout['residents']]
-        self._poses: dict[int, Any] = {}  # by link, as the node has them
-        self._has_rows = False
         self._cabins: dict[str, Cabin] = {}
         super().__init__(self._layout['days'] * DAY, folder.name)
-        self._write_world(world)
+        self._world = self._furnished(world)
 
-    def _write_world(self, given: Path | None) -> None:
-        path = self._folder / 'home.world'
+    def _furnished(self, given: Path | None) -> Any:
+        """The world of the data, with the residents."""
         expected = self._settings['world']
-        if not expected:
-            apartment(path)
-        elif given is None or sha256(given) != expected:
+        if expected and (given is None or sha256(given) != expected):
             raise Failure(f'{self._data}: is of a world of your own; give the same file, too')
-        site = Site(given if expected and given else path, self._settings['seed'],
-                    not self._settings['own_sensors'], self._settings['light'])
+        with tempfile.TemporaryDirectory() as folder:
+            if not expected or given is None:
+                given = Path(folder) / 'home.world'
+                apartment(given)
+            site = Site(given, self._settings['seed'], not self._settings['own_sensors'],
+                        self._settings['light'])
         for resident in self._layout['residents']:
             first = next(r for r in self._truth() if r['resident'] == resident['name'])
             room = site.home.room(first['room']) or site.home.rooms[0]
@@ -116,60 +114,37 @@ class Day(Played):
         self._sources = {name: (kind, model) for kind, name, model, _ in site.world.entities()}
         self._floors = {room.name: room.floor for room in site.home.rooms}
         self._elevations = {storey.number: storey.elevation for storey in site.home.storeys}
-        write_text(path, site.world.save())
+        return site.world
 
     def _truth(self) -> Iterator[dict[str, str]]:
         return rows(self._data / 'truth.csv.gz', TRUTH)
 
-    # --- from the node: the scene, and the angles of open leaves
+    # --- from the world: the scene, and the angles of open leaves
 
     def _run(self) -> None:
-        self._node = self._sandbox.node(self._folder / 'home.world', RATE)
-        wait(lambda: self._has_rows and all((
-            self.store.part('scene'), self.store.part('home'), self._poses)),
-            'the node has not described the home', LIMIT)
-        self._survey()
-        closed = dict(self._poses)
-        self._open_leaves()
-        self._unsubscribe_all()
-        self._end_node()
-        self._play(closed, dict(self._poses))
+        world = self._world
+        with simulator():
+            world.run(STARTS)
+            moves = np.flatnonzero(self._show(world, start=self._start.isoformat()))
+            self._put_rows()
+            closed = world.link_poses
+            for kind in LEAVES:
+                if world.devices(kind):
+                    world.command(kind, 'all', 'Open')
+            world.run(OPENING)
+            opened = world.link_poses
+            self._play({i: closed[i] for i in moves}, {i: opened[i] for i in moves})
         self._finish()
 
-    def _on_changes(self, message: Any) -> None:
-        for link, pose in zip(message.links, np.reshape(message.poses, (-1, 7))):
-            self._poses[int(link)] = pose.copy()
-
-    def _on_home(self, message: Any) -> None:
-        super()._on_home(message)
-        home = {**self.store.part('home'), 'start': self._start.isoformat()}
-        self.store.put('home', home)
-
-    def _on_summary(self, message: Any) -> None:
-        if self._has_rows:
-            return
+    def _put_rows(self) -> None:
         shown = {*SHOWN, *(self._sources[sensor['name']][0] for sensor in self._layout['sensors']
                            if sensor['kind'] in WORDS and sensor['name'] in self._sources)}
         if (self._data / CABINS).is_file():
             shown.add('elevator')
-        self.store.put_rows([  # the node's own air, light and cabins are not those of the day
-            (*row[:4], 0.0, row[5]) if row[0] in shown else (*row[:2], '', False, 0.0, [])
-            for row in map(row_of, message.entries)], True)
-        self._has_rows = bool(message.complete)
-
-    def _on_stats(self, message: Any) -> None:
-        self._now = message.sim_time.to_sec()
-
-    def _on_event(self, _: Any) -> None:
-        pass
-
-    def _open_leaves(self) -> None:
-        listed = {e['kind'] for e in self.store.part('entities')}
-        for kind in LEAVES:
-            if kind in listed:
-                self._orders.execute({'do': 'command', 'target': f'{kind}/all', 'text': 'Open'})
-        until = self._now + 6.0
-        wait(lambda: self._now > until, 'the leaves do not open', LIMIT)
+        self.store.put_rows([  # the world's own air, light and cabins are not those of the day
+            summary(kind, name, text, alarm, 0.0, values) if kind in shown
+            else summary(kind, name, '', False, 0.0, [])
+            for kind, name, text, alarm, _, values in self._world.summaries()], True)
 
     # --- from the files
 
@@ -242,18 +217,14 @@ class Day(Played):
 
     def _play_events(self) -> None:
         sensors = {sensor['id']: sensor for sensor in self._layout['sensors']}
-        entities = self.store.part('entities')
-        leaves = {e['model']: e for e in entities if e['kind'] in LEAVES}
-        names = {(e['kind'], e['model']): e['name'] for e in entities}
-        names.update({(e['kind'], e['name']): e['name'] for e in entities})
+        leaves = {e['model']: e for e in self.store.part('entities') if e['kind'] in LEAVES}
         for event in rows(self._data / 'events.csv.gz', EVENTS):
             time = (datetime.datetime.fromisoformat(event['time']) - self._start).total_seconds()
             sensor = sensors[event['sensor']]
-            kind, (source, model) = sensor['kind'], self._sources.get(sensor['name'], ('', ''))
-            # a saved world may name a spawned sensor as the model that it is on
-            name = names.get((source, sensor['name'])) or names.get((source, model))
-            if name is None:
+            kind, name = sensor['kind'], sensor['name']
+            if name not in self._sources:
                 continue
+            source, model = self._sources[name]
             if kind in UNITS:
                 field, unit = UNITS[kind]
                 value = float(event['value'])
@@ -323,7 +294,7 @@ class Day(Played):
         self._cabins = cabins([(float(row['time']), row['model'], row['link'], float(row['z']))
                                for row in slides], middles)
         for name, model in models.items():
-            if model in self._cabins:  # else it stays as the node has it
+            if model in self._cabins:  # else it stays as the world has it
                 self.store.put_rows([
                     ('elevator', name, f'{mode}  {height:.2f} m', False, time,
                      self._values('elevator', 'position', height))

@@ -15,7 +15,7 @@ import numpy as np
 from angen_apps.web import scene
 from angen_apps.web.images import jpeg
 from angen_apps.web.orders import Orders
-from angen_apps.web.store import PICTURE, SCAN, Row, Store
+from angen_apps.web.store import PICTURE, SCAN, Store, summary
 from angen_apps.web.threads import in_thread
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home
@@ -112,9 +112,7 @@ class Feed:
         except Failure:
             self._listed = -1
             return
-        self.store.put('entities', [
-            {'kind': e.kind, 'name': e.name, 'model': e.model, 'topic': e.topic, 'type': e.type,
-             'room': e.room, 'pose': scene.rounded(e.pose, 5)} for e in entities])
+        self.store.put('entities', [*map(scene.of_entity, entities)])
 
     def _subscribe(self, key: str, topic: str, kind: Any, handle: Any, queue: int = 50) -> None:
         import rospy
@@ -180,18 +178,20 @@ class Feed:
     # --- messages
 
     def _on_scene(self, message: Any) -> None:
-        self.store.put_scene(scene.as_dict(message), message.revision)
+        self.store.put_scene(scene.packed(scene.as_dict(message)), message.revision)
         self._fixed = message.revision, np.array([not link.moves for link in message.links], bool)
 
     def _on_changes(self, message: Any) -> None:
         self.store.put_changes(message.revision, message.links, message.poses, message.lights,
-                               message.levels)
+                               message.levels, message.header.stamp.to_sec())
         revision, fixed = self._fixed
         if revision == message.revision and fixed[message.links].any():
             self._listed = -1  # a static model was put elsewhere
 
     def _on_summary(self, message: Any) -> None:
-        self.store.put_rows(map(row_of, message.entries), message.complete)
+        self.store.put_rows([
+            summary(e.kind, e.name, e.text, bool(e.alarm), e.stamp.to_sec(), e.values)
+            for e in message.entries], message.complete)
 
     def _on_stats(self, message: Any) -> None:
         now = message.sim_time.to_sec()
@@ -239,12 +239,6 @@ class Pictures:
         content = jpeg(image)
         if content:
             self._store.put_named(PICTURE, self._topic, content)
-
-
-def row_of(entry: Any) -> Row:
-    """A SummaryEntry; JSON has no NaN."""
-    values = [value if value - value == 0.0 else None for value in entry.values]
-    return (entry.kind, entry.name, entry.text, bool(entry.alarm), entry.stamp.to_sec(), values)
 
 
 def seed() -> int:

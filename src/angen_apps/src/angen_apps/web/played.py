@@ -1,29 +1,29 @@
-"""A source that is played with a time line, and filled once by a node of its own."""
+"""A source that is played with a time line, and filled once."""
 from __future__ import annotations
 
 import asyncio
+import dataclasses
 import sys
-import tempfile
 import threading
-from pathlib import Path
 from typing import Any, Self
 
-from angen_apps.web.feed import Feed
+from angen_apps.web import scene
+from angen_apps.web.store import Store
 from angen_apps.web.timeline import Timeline
 from angen_tools.common.failure import Failure
-from angen_tools.live.sandbox import Sandbox, end
+from angen_tools.session.in_process import InProcess
 
 
-class Lined(Feed):
+class Lined:
     """A Source with a time line, see server.py: a thread fills it once, then it stays. A context:
-    its end ends the subscriptions."""
+    its end ends what fills it."""
 
     is_past = True  # whether it has ended already
     is_filmed = False
 
     def __init__(self, length: float, name: str) -> None:
         super().__init__()
-        self.store = Timeline()
+        self.store: Store = Timeline()
         self._line: dict[str, Any] = {'end': length, 'loaded': 0.0, 'name': name}
         self.store.put('status', {'node': False, 'replay': True})
         self.store.put('line', dict(self._line))
@@ -31,15 +31,12 @@ class Lined(Feed):
         self._filled = False
 
     def __enter__(self) -> Self:
-        from angen_apps.web.node import start_node
-        start_node('web')
-        self._subscribe_usual()
         self._prepare()
         threading.Thread(target=self._work, daemon=True).start()
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._unsubscribe_all()
+        pass
 
     def _prepare(self) -> None:
         """Before the thread begins; Failure where it could not."""
@@ -77,34 +74,19 @@ class Lined(Feed):
     async def order(self, order: dict[str, Any]) -> dict[str, Any]:
         raise ValueError('a recording takes no orders')
 
-    def _on_changes(self, message: Any) -> None:
-        self.store.put_changes(message.revision, message.links, message.poses, message.lights,
-                               message.levels, message.header.stamp.to_sec())
+    def close(self) -> None:
+        pass
 
-    def _unsubscribe_all(self) -> None:
-        for key in list(self._subscribers):
-            self._drop(key)
+    def _show(self, world: Any, **home: Any) -> list[bool]:
+        """What pages show of an angen.World, but what moves; `home`: more of the home. Returns
+        which links move."""
+        inside, drawn = InProcess(world), world.scene
+        self.store.put('home', {**dataclasses.asdict(inside.home), **home})
+        self.store.put('entities', [*map(scene.of_entity, inside.entities())])
+        self.store.put_scene(scene.packed(drawn), drawn['revision'])
+        return [link['moves'] for link in drawn['links']]
 
     def _finish(self) -> None:
         self._line['loaded'] = self._line['end']
         self.store.put('line', dict(self._line))
         self._filled = True
-
-
-class Played(Lined):
-    """One that a node of its own fills. A context: its end ends the node."""
-
-    def __init__(self, length: float, name: str) -> None:
-        super().__init__(length, name)
-        self._held = tempfile.TemporaryDirectory(prefix='angen_web_')
-        self._folder = Path(self._held.name)
-        self._sandbox = Sandbox(self._folder)
-        self._node: Any = None
-
-    def __exit__(self, *_: object) -> None:
-        self._sandbox.__exit__()
-        self._held.cleanup()
-
-    def _end_node(self) -> None:
-        if self._node is not None:
-            end(self._node)

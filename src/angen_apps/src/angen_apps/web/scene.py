@@ -1,4 +1,4 @@
-"""angen_msgs/Scene as the page reads it."""
+"""The scene of a world as the page reads it."""
 from __future__ import annotations
 
 import base64
@@ -6,45 +6,54 @@ from typing import Any
 
 import numpy as np
 
-
-def rounded(values: Any, digits: int = 4) -> list[float]:
-    """Numbers of few digits, which JSON has in few bytes."""
-    return [round(float(value), digits) for value in values]
+from angen_tools.session.world import Entity
 
 
-def pose(message: Any) -> list[float]:
+def packed(value: Any) -> Any:
+    """Numbers of few digits, which JSON has in few bytes; arrays in base64, little-endian."""
+    if isinstance(value, dict):
+        return {key: packed(each) for key, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [packed(each) for each in value]
+    if isinstance(value, np.ndarray):
+        return base64.b64encode(value.astype(value.dtype.newbyteorder('<')).tobytes()).decode()
+    return round(value, 5) if isinstance(value, float) else value
+
+
+def of_entity(entity: Entity) -> dict[str, Any]:
+    """A device or sensor, ready for JSON."""
+    return {'kind': entity.kind, 'name': entity.name, 'model': entity.model, 'topic': entity.topic,
+            'type': entity.type, 'room': entity.room, 'pose': packed(entity.pose)}
+
+
+def _pose(message: Any) -> list[float]:
     """x y z qx qy qz qw."""
     at, turn = message.position, message.orientation
-    return rounded((at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w), 5)
+    return [at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w]
 
 
-def color(message: Any) -> list[float]:
-    return rounded((message.r, message.g, message.b, message.a), 3)
-
-
-def packed(values: Any, kind: str) -> str:
-    """An array in base64, little-endian."""
-    return base64.b64encode(np.asarray(values).astype(kind).tobytes()).decode()
+def _color(message: Any) -> list[float]:
+    return [message.r, message.g, message.b, message.a]
 
 
 def as_dict(scene: Any) -> dict[str, Any]:
-    """A Scene message, ready for JSON."""
+    """A Scene message as `angen.World.scene` has it."""
     return {
         'revision': scene.revision,
         'links': [{'model': link.model, 'name': link.name, 'group': link.group,
-                   'moves': bool(link.moves), 'pose': pose(link.pose)} for link in scene.links],
+                   'moves': bool(link.moves), 'pose': _pose(link.pose)} for link in scene.links],
         'shapes': [{'type': shape.type, 'link': shape.link, 'mesh': shape.mesh,
-                    'pose': pose(shape.pose), 'color': color(shape.color),
-                    'size': rounded((shape.size.x, shape.size.y, shape.size.z))}
+                    'pose': _pose(shape.pose), 'color': _color(shape.color),
+                    'size': [shape.size.x, shape.size.y, shape.size.z]}
                    for shape in scene.shapes],
-        'meshes': [{'vertices': packed(mesh.vertices, '<f4'),
-                    'triangles': packed(mesh.triangles, '<u4')} for mesh in scene.meshes],
+        'meshes': [{'vertices': np.array(mesh.vertices, np.float32),
+                    'triangles': np.array(mesh.triangles, np.uint32)} for mesh in scene.meshes],
         'lights': [{'name': light.name, 'model': light.model, 'link': light.link,
-                    'sun': bool(light.directional), 'pose': pose(light.pose),
-                    'color': color(light.color)} for light in scene.lights],
+                    'sun': bool(light.directional), 'pose': _pose(light.pose),
+                    'color': _color(light.color)} for light in scene.lights],
         'sensors': [{'kind': sensor.kind, 'name': sensor.name, 'link': sensor.link,
-                     'pose': pose(sensor.pose), 'rays': sensor.rays,
-                     'yaw': rounded((sensor.min_yaw, sensor.max_yaw)),
-                     'pitch': rounded((sensor.min_pitch, sensor.max_pitch)),
-                     'range': round(float(sensor.range), 3)} for sensor in scene.sensors],
+                     'pose': _pose(sensor.pose), 'rays': sensor.rays,
+                     'yaw': [sensor.min_yaw, sensor.max_yaw],
+                     'pitch': [sensor.min_pitch, sensor.max_pitch], 'range': sensor.range}
+                    for sensor in scene.sensors],
     }

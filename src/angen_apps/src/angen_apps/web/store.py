@@ -8,7 +8,7 @@ import struct
 import threading
 from collections import deque
 from dataclasses import dataclass, field
-from typing import Any, Callable, Iterable
+from typing import Any, Callable, Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,12 @@ EVENTS = 500  # kept for a new browser
 POSES, LEVELS, PICTURE, SCAN = 1, 2, 3, 4  # kinds of binary messages; see docs/web.md
 HEAD = struct.Struct('<II')  # the kind, and the scene's number or the length of a name
 Row = tuple[str, str, str, bool, float, list[float | None]]  # kind name text alarm stamp values
+
+
+def summary(kind: str, name: str, text: str, alarm: bool, stamp: float, values: Sequence[float]
+            ) -> Row:
+    """A summary; JSON has no NaN."""
+    return kind, name, text, alarm, stamp, [v if v - v == 0.0 else None for v in values]
 
 
 @dataclass
@@ -121,8 +127,10 @@ class Store:
         self.changed()
 
     def put_scene(self, scene: dict[str, Any], revision: int) -> None:
-        """Another scene. Poses of its revision may have come before it."""
+        """Another scene, or the same one again. Poses of its revision may have come before it."""
         with self._lock:
+            if (self._scene, self._revision) == ({**scene, 'number': self._scene_number}, revision):
+                return  # its topic was subscribed again
             version = self._next()
             self._scene_number += 1
             self._scene = {**scene, 'number': self._scene_number}

@@ -3,14 +3,12 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from typing import Any, Iterator, Mapping, Sequence
+from typing import Any, Iterator, Sequence
 
-from angen_tools.common.catalog import Plugin, kinds, simulator
+from angen_tools.common.catalog import simulator
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home, Pose
 from angen_tools.session.world import Entity, Event, State, Summary, World
-
-SCALARS = ('flag', 'integer', 'number')
 
 
 class InProcess(World):
@@ -77,16 +75,7 @@ class InProcess(World):
             self.world.request(kind, name, wanted)
 
     def summaries(self) -> dict[tuple[str, str], Summary]:
-        return {key: self._summary(*key) for key in self._keys()}
-
-    def _summary(self, kind: str, name: str) -> Summary:
-        text = self.world.summary(kind, name)
-        if not text:
-            return Summary(kind, name, '', False, 0.0)
-        values, described = self._reading(kind, name), kinds().get(kind, {'fields': []})
-        return Summary(kind, name, text, _alarms(described, values), values['stamp'],
-                       [float(values.get(each['name'], math.nan)) for each in described['fields']
-                        if each['type'] in SCALARS])
+        return {each[:2]: Summary(*each) for each in self.world.summaries()}
 
     def events(self) -> list[Event]:
         return [Event(*event) for event in self.world.events()]
@@ -118,10 +107,6 @@ class InProcess(World):
 
 def _state(reading: dict[str, Any]) -> State:
     return State(reading.pop('kind'), reading.pop('name'), reading.pop('stamp'), reading)
-
-
-def _alarms(kind: Plugin | Mapping[str, Any], values: Mapping[str, Any]) -> bool:
-    return any(values.get(field['name']) for field in kind['fields'] if field['alarm'])
 
 
 def _seven(pose: Sequence[float]) -> Pose:

@@ -1,11 +1,12 @@
-#include "rviz/rooms.h"
+#include "scene/groups.h"
 
 #include <gtest/gtest.h>
 
-#include "rviz/glow.h"
-#include "rviz/marker_plan.h"
+#include <algorithm>
 
-namespace angen::node {
+#include "plugin/library.h"
+
+namespace angen::scene {
 namespace {
 
 desc::Link box_link(const std::string& name, const Vec3& middle, const Vec3& size) {
@@ -51,13 +52,23 @@ sim::Structure structure_of(const std::vector<desc::Model>& models) {
   return structure;
 }
 
+/// A device of one of Angen's own kinds.
+sim::DeviceEntry device_of(const std::string& kind, std::uint32_t model) {
+  static Catalog catalog;
+  static const std::vector<std::shared_ptr<const Plugin>> own = catalog.own();
+  const auto found = std::find_if(own.begin(), own.end(),
+                                  [&](const auto& plugin) { return plugin->kind().name == kind; });
+  EXPECT_NE(found, own.end()) << kind;
+  return {{kind, "it", *found, ""}, model};
+}
+
 TEST(Groups, OfABuildingHaveItsStoreyAndSide) {
   const sim::Structure structure = structure_of({house(4.0)});
   const std::vector<std::string> expected = {"floors 1",      "floors 1",      "ceilings 1",
                                              "walls south 1", "walls north 1", "walls west 1",
                                              "walls east 1",  "walls 1"};
   for (std::uint32_t i = 0; i < expected.size(); ++i) {
-    EXPECT_EQ(marker_group(structure, i), expected[i]);
+    EXPECT_EQ(group_of(structure, i), expected[i]);
   }
 }
 
@@ -65,14 +76,18 @@ TEST(Groups, HaveTheStoreyOfTheirModelUnlessItTravels) {
   desc::Model chair;
   chair.pose.position.z() = 3.6;
   chair.links.push_back(box_link("link", Vec3::Zero(), Vec3::Ones()));
-  sim::Structure structure = structure_of({chair, chair, chair, chair});
-  structure.devices.push_back({{"door", "kitchen1", nullptr, ""}, 1});
-  structure.devices.push_back({{"drive", "robot", nullptr, ""}, 2});
-  structure.devices.push_back({{"person", "person", nullptr, ""}, 3});
-  EXPECT_EQ(marker_group(structure, 0), "furniture 1");
-  EXPECT_EQ(marker_group(structure, 1), "doors 1");
-  EXPECT_EQ(marker_group(structure, 2), "robots");
-  EXPECT_EQ(marker_group(structure, 3), "people");
+  sim::Structure structure = structure_of({chair, chair, chair, chair, chair});
+  structure.devices.push_back(device_of("tag", 0));  // a part of it
+  structure.devices.push_back(device_of("door", 1));
+  structure.devices.push_back(device_of("battery", 2));
+  structure.devices.push_back(device_of("drive", 2));
+  structure.devices.push_back(device_of("person", 3));
+  structure.devices.push_back(device_of("elevator", 4));
+  EXPECT_EQ(group_of(structure, 0), "furniture 1");
+  EXPECT_EQ(group_of(structure, 1), "doors 1");
+  EXPECT_EQ(group_of(structure, 2), "robots");
+  EXPECT_EQ(group_of(structure, 3), "people");
+  EXPECT_EQ(group_of(structure, 4), "elevators");
 }
 
 TEST(Groups, OfAWindowHaveTheSideOfTheWallThatItIsIn) {
@@ -85,33 +100,13 @@ TEST(Groups, OfAWindowHaveTheSideOfTheWallThatItIsIn) {
   }
   sim::Structure structure = structure_of(models);
   for (std::uint32_t i = 1; i < models.size(); ++i) {
-    structure.devices.push_back({{"window", "w", nullptr, ""}, i});
+    structure.devices.push_back(device_of("window", i));
   }
   const auto first = static_cast<std::uint32_t>(models[0].links.size());
-  EXPECT_EQ(marker_group(structure, first), "windows south 1");
-  EXPECT_EQ(marker_group(structure, first + 1), "windows north 1");
-  EXPECT_EQ(marker_group(structure, first + 2), "windows 1");
-  EXPECT_EQ(marker_group(structure, first + 3), "windows 0");  // of no building
-}
-
-/// The greatest alpha on the floor, and on the wall at the greatest y.
-std::pair<float, float> strongest(const visualization_msgs::Marker& glow, double floor) {
-  std::pair<float, float> found{0.0F, 0.0F};
-  for (std::size_t i = 0; i < glow.points.size(); ++i) {
-    const bool low = glow.points[i].z < floor + 0.03;
-    float& part = low ? found.first : found.second;
-    part = std::max(part, glow.colors[i].a);
-  }
-  return found;
-}
-
-/// L-shaped, 4 x 3 m without its upper right quarter.
-Room corner_room(double floor) {
-  Room room;
-  room.outline = {{0, 0}, {4, 0}, {4, 1.5}, {2, 1.5}, {2, 3}, {0, 3}};
-  room.floor = floor;
-  room.ceiling = floor + 2.5;
-  return room;
+  EXPECT_EQ(group_of(structure, first), "windows south 1");
+  EXPECT_EQ(group_of(structure, first + 1), "windows north 1");
+  EXPECT_EQ(group_of(structure, first + 2), "windows 1");
+  EXPECT_EQ(group_of(structure, first + 3), "windows 0");  // of no building
 }
 
 TEST(Storey, OfAModelIsByTheStoreysThatTheWorldDescribes) {
@@ -120,17 +115,6 @@ TEST(Storey, OfAModelIsByTheStoreysThatTheWorldDescribes) {
   structure.storeys = {{-1, "", -2.6, 2.6}, {0, "", 0.0, 2.9}, {1, "", 2.9, 2.6}};
   EXPECT_EQ(storey_suffix(structure, 0, 3.0), " 1");
   EXPECT_EQ(storey_suffix(structure, 0, -2.0), " -1");
-}
-
-TEST(Glow, GrowsWithTheLampsLevelOnFloorAndWalls) {
-  Room room = corner_room(0.0);
-  room.outline = {{0, 0}, {4, 0}, {4, 3}, {0, 3}};
-  const Vec3 lamp(2.0, 1.5, 2.2);
-  const auto dim = strongest(draw_glow(room, lit_faces(room), lamp, {}, 0.1), -2.2);
-  const auto full = strongest(draw_glow(room, lit_faces(room), lamp, {}, 1.0), -2.2);
-  EXPECT_GT(dim.first, 0.0F);
-  EXPECT_GT(full.first, 2 * dim.first);
-  EXPECT_GT(full.second, 2 * dim.second);
 }
 
 TEST(Groups, OfASurfaceHaveTheSideOfTheOutermostWallThatItIsOn) {
@@ -145,28 +129,5 @@ TEST(Groups, OfASurfaceHaveTheSideOfTheOutermostWallThatItIsOn) {
   EXPECT_EQ(side({0.1, 0.07, 0.0}, {3.9, 0.07, 2.8}), "");  // below the building
 }
 
-TEST(Glow, LiesInTheRoom) {
-  const Room room = corner_room(4.0);
-  const Vec3 lamp(1.0, 1.0, 6.2);
-  const visualization_msgs::Marker glow = draw_glow(room, lit_faces(room), lamp, {}, 1.0);
-  ASSERT_EQ(glow.points.size(), glow.colors.size());
-  double area = 0.0;  // of the floor that is lit
-  for (std::size_t i = 0; i < glow.points.size(); i += 3) {
-    Vec3 middle = lamp;
-    std::vector<Vec3> corners;
-    for (std::size_t k = i; k < i + 3; ++k) {
-      corners.emplace_back(glow.points[k].x, glow.points[k].y, glow.points[k].z);
-      middle += corners.back() / 3.0;
-    }
-    EXPECT_TRUE(room.at_height(middle.z()));
-    const bool inside = room.contains(middle.head<2>());
-    EXPECT_TRUE(inside || room.distance(middle.head<2>()) < 0.5) << middle.transpose();
-    if (middle.z() < room.floor + 0.03) {
-      area += (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2;
-    }
-  }
-  EXPECT_NEAR(area, 9.0, 1.0);
-}
-
 }  // namespace
-}  // namespace angen::node
+}  // namespace angen::scene

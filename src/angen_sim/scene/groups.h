@@ -4,8 +4,13 @@
 
 #include "sim/snapshot.h"
 
-/// The storeys and sides of a building, for markers.
-namespace angen::node {
+/// The groups of links, which viewers switch off together; they have the storeys and sides of a
+/// building.
+namespace angen::scene {
+
+/// The group of a link: `doors 0`, `walls south 1`, `furniture 0`, `robots`, … with the storey that
+/// its description places the model on.
+std::string group_of(const sim::Structure& structure, std::uint32_t link);
 
 /// A static model of many links is a building: its links are distinguished by their names.
 bool is_building(const desc::Model& model);
@@ -24,4 +29,4 @@ std::string outer_side(const sim::Structure& structure, const desc::Model& windo
 /// The same of a surface within that box (world).
 std::string outer_side(const sim::Structure& structure, const Eigen::AlignedBox3d& surface);
 
-}  // namespace angen::node
+}  // namespace angen::scene

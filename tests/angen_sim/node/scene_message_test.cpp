@@ -1,4 +1,4 @@
-#include "scene/scene.h"
+#include "node/scene_message.h"
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ class SceneOfHousehold : public testing::Test {
 
   Scene scene() {
     const std::shared_ptr<const sim::Snapshot> snapshot = simulation_.tick();
-    return describe_scene(*snapshot->structure, snapshot->link_poses);
+    return scene_message(*snapshot->structure, snapshot->link_poses);
   }
 
   static std::uint32_t link_of(const Scene& scene, const std::string& model,
@@ -119,7 +119,7 @@ TEST_F(SceneOfHousehold, AMeshIsSentOnceForAllItsShapes) {
   structure.links.push_back(link);
   sim::SharedArray<Pose> poses;
   poses.push_back(Pose{});
-  const Scene all = describe_scene(structure, poses);
+  const Scene all = scene_message(structure, poses);
   ASSERT_EQ(all.shapes.size(), 2U);
   ASSERT_EQ(all.meshes.size(), 1U);
   EXPECT_EQ(all.meshes[0].vertices.size(), 9U);

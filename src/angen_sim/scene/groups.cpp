@@ -1,10 +1,8 @@
-#include "rviz/rooms.h"
+#include "scene/groups.h"
 
 #include <algorithm>
 
-#include "ros/ros_kind.h"
-
-namespace angen::node {
+namespace angen::scene {
 namespace {
 
 constexpr std::size_t kBuildingLinks = 10;
@@ -39,6 +37,16 @@ std::string side_of(const Extent& all, const Extent& box) {
   return "";
 }
 
+bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+bool is_ground(const desc::Link& link) {
+  return std::any_of(link.visuals.begin(), link.visuals.end(), [](const desc::Visual& visual) {
+    return visual.shape.type == Shape::Type::kPlane;
+  });
+}
+
+std::string with_side(const std::string& side) { return side.empty() ? "" : " " + side; }
+
 }  // namespace
 
 bool is_building(const desc::Model& model) {
@@ -47,9 +55,34 @@ bool is_building(const desc::Model& model) {
 
 std::string storey_suffix(const sim::Structure& structure, std::uint32_t model, double z) {
   for (const sim::DeviceEntry& device : structure.devices) {
-    if (device.model == model && !ros_kind(device).model.is_on_floor) return "";
+    if (device.model == model && device.plugin->kind().changes_storeys()) return "";
   }
   return " " + std::to_string(floor_at(structure.storeys, z));
+}
+
+std::string group_of(const sim::Structure& structure, std::uint32_t link) {
+  const sim::LinkEntry& entry = structure.links[link];
+  const desc::Model& model = *structure.models[entry.model];
+  const desc::Link& described = model.links[entry.link];
+  if (is_ground(described)) return "ground";
+  const double height = model.pose.position.z();
+  const std::string storey = storey_suffix(structure, entry.model, height);
+  for (const sim::DeviceEntry& device : structure.devices) {
+    if (device.model != entry.model) continue;
+    const Kind& kind = device.plugin->kind();
+    if (kind.group().empty()) continue;
+    const bool in_wall = kind.passage() == Kind::Passage::kWindow;
+    const std::string side = in_wall ? outer_side(structure, model) : "";
+    return kind.group() + with_side(side) + storey;
+  }
+  if (is_building(model)) {
+    if (has(described.name, "ceiling")) return "ceilings" + storey;
+    if (has(described.name, "floor")) return "floors" + storey;
+    const std::string side = outer_side(model, described);
+    return "walls" + with_side(side) + storey;
+  }
+  const bool senses = model.is_static && !described.sensors.empty();
+  return (senses ? "sensors" : "furniture") + storey;
 }
 
 std::string outer_side(const desc::Model& building, const desc::Link& link) {
@@ -79,4 +112,4 @@ std::string outer_side(const sim::Structure& structure, const Extent& surface) {
   return "";
 }
 
-}  // namespace angen::node
+}  // namespace angen::scene

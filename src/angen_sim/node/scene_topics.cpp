@@ -1,11 +1,11 @@
-#include "scene/scene_topics.h"
+#include "node/scene_topics.h"
 
 #include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "node/scene_message.h"
 #include "ros/convert.h"
-#include "scene/scene.h"
 
 namespace angen::node {
 namespace {
@@ -57,7 +57,7 @@ void SceneTopics::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_poin
   if (is_other) {
     structure_ = snapshot.structure;
     scene_.set([structure = structure_, poses = snapshot.link_poses] {
-      return describe_scene(*structure, poses);
+      return scene_message(*structure, poses);
     });
   }
   const bool listened = changes_.has_subscribers();
