@@ -186,9 +186,10 @@ TEST(Friction, OfAPersonWhoStandsIsTheSameInEachDirection) {
 }
 
 struct Runners {
-  double uphill;    // coefficients of friction
-  double downhill;  // across the slope
-  double height;    // of the center of mass, in distances of the runners
+  double uphill;       // coefficients of friction
+  double downhill;     // across the slope
+  double height;       // of the center of mass, in distances of the runners
+  bool laden = false;  // a small box, of 1 % of its mass, lies on it
 };
 
 /// A frame on two runners across the slope, which falls towards x.
@@ -204,6 +205,8 @@ desc::Model frame_model(const Runners& runners) {
                   {{(uphill ? -0.5 : 0.5) * apart, 0, 0.01}, Quat::Identity()}));
     link.collisions.back().name = uphill ? "uphill" : "downhill";
   }
+  link.collisions.push_back(
+      collision(box_shape({0.2, 0.2, 0.02}), 10.0, {{0, 0, 0.05}, Quat::Identity()}));
   return model_of("frame", {link});
 }
 
@@ -245,6 +248,7 @@ TEST_P(Frame, SlidesFromTheSlopeOnThatStaticsGives) {
     TestWorld world({}, on_slope(limit + beyond * M_PI / 180.0, 0.0));
     world.add(floor_model(10.0));
     const LinkId link = world.only_link(world.add(frame_model(r)));
+    if (r.laden) world.add(box_model("load", 0.1, {0.1, 0.1, 0.02}, {0, 0, 0.07}, 10.0));
     world.run(0.3);
     const Vec3 at = world.link(link).pose.position;
     double share = 0.0;
@@ -262,7 +266,9 @@ TEST_P(Frame, SlidesFromTheSlopeOnThatStaticsGives) {
 INSTANTIATE_TEST_SUITE_P(Friction, Frame,
                          ::testing::Values(Runners{0.8, 0.0, 1.0}, Runners{0.0, 0.5, 1.0},
                                            Runners{0.8, 0.0, 0.5}, Runners{0.0, 0.8, 0.5},
-                                           Runners{0.3, 0.6, 0.7}, Runners{1.2, 0.0, 1.5}));
+                                           Runners{0.3, 0.6, 0.7}, Runners{1.2, 0.0, 1.5},
+                                           Runners{0.8, 0.0, 1.0, true},
+                                           Runners{0.0, 0.5, 1.0, true}));
 
 // On balls of the radius r: W / 2 cos a = T (sin a - r / l), with T = mu W at the limit.
 TEST(Friction, HoldsALadderAtASmoothWallFromTheAngleOfStaticsOn) {
