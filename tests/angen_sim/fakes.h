@@ -13,7 +13,6 @@
 #include "plugin/plugin.h"
 #include "plugin/view.h"
 #include "plugin/wiring.h"
-#include "rays/shaft.h"
 
 /// A world of plain values, for testing one device or sensor without a simulation.
 namespace angen::test {
@@ -63,7 +62,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   Nanoseconds now = 0;
   Nanoseconds dt = 1'000'000;
   const rays::Scene* scene = nullptr;  // none: rays hit nothing
-  mutable int shafts = 0;              // that a sensor requested
+  mutable int ray_queries = 0;
   Pose at;
   std::string instance = "it";
   std::string model_name = "model";
@@ -74,17 +73,12 @@ class FakeWorld : public View, public Wiring, public Outputs {
   Names collisions;
   Names surface_names;
   double ambient = 295.15;  // K
-  std::vector<rays::WarmShape> warm;
-  std::uint64_t revision = 0;
-  std::map<std::uint32_t, Warming> courses;  // by shape; none: constant
-  std::uint64_t set = 0;
+  Revisions revisions;
   std::map<std::string, std::vector<ContactPair>> touching;           // by collision name
   std::map<std::string, std::vector<ContactPair>> touched;            // lately, and not now
-  Eigen::Vector3f albedo = Eigen::Vector3f::Constant(0.5F);           // of all shapes
   std::function<light::Sample(light::Probe&, const Pose&)> light_at;  // dark where not given
   std::function<std::vector<std::uint8_t>(const render::PinholeCamera&, const Pose&)> colors_at;
   std::function<std::vector<float>(const render::PinholeCamera&, const Pose&)> depths_at;
-  std::function<std::vector<rays::Crossing>(const Vec3&, const Vec3&)> crossings_at;  // else none
   std::vector<FakeDevice> others;
   Home described;
   std::vector<double> floor_heights;  // m, of the storeys from its model up
@@ -125,7 +119,6 @@ class FakeWorld : public View, public Wiring, public Outputs {
     if (found != touched.end()) all.insert(all.end(), found->second.begin(), found->second.end());
     return all;
   }
-  Eigen::Vector3f reflectance(std::uint32_t) const override { return albedo; }
   using View::devices;
   std::vector<DeviceView> devices(const std::string& field,
                                   const Eigen::AlignedBox3d& within) const override {
@@ -137,40 +130,24 @@ class FakeWorld : public View, public Wiring, public Outputs {
     return found;
   }
   const Home& home() const override { return described; }
-  using View::cast;
-  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
-            rays::Mobilities among) const override {
-    hits.assign(rays.size(), {});
-    if (scene != nullptr) scene->cast(rays.data(), hits.data(), rays.size(), among);
-  }
-  rays::Hit cast_at(std::uint32_t shape, const rays::Ray& ray) const override {
-    return scene == nullptr ? rays::Hit{0.0, shape} : scene->cast_at(shape, ray);
+  const rays::Scene& rays() const override {
+    static const rays::Scene nothing;
+    ++ray_queries;
+    return scene == nullptr ? nothing : *scene;
   }
   std::vector<std::uint32_t> own_shapes() const override { return {}; }
-  rays::Shaft shaft(const Vec3& from, double near, std::uint32_t shape) const override {
-    ++shafts;
-    return scene->shaft(from, near, shape);
-  }
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override {
     return light_at ? light_at(probe, pose) : light::Sample{};
   }
 
   double ambient_temperature() const override { return ambient; }
-  const std::vector<rays::WarmShape>& warm_shapes() const override { return warm; }
-  std::uint64_t scene_revision() const override { return revision; }
-  Warming warming(const rays::WarmShape& shape) const override {
-    const auto found = courses.find(shape.shape);
-    return found != courses.end() ? found->second
-                                  : Warming{shape.temperature, shape.temperature, 0.0, 0};
+  const std::vector<rays::WarmShape>& warm_shapes() const override {
+    static const std::vector<rays::WarmShape> none;
+    return scene == nullptr ? none : scene->warm_shapes();
   }
-  std::uint64_t surfaces_set() const override { return set; }
-  using View::crossings;
-  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
-                                        rays::Mobilities) const override {
-    return crossings_at ? crossings_at(from, to) : std::vector<rays::Crossing>{};
+  Revisions watch(const std::function<std::vector<rays::Ray>()>&) const override {
+    return revisions;
   }
-  Eigen::AlignedBox3d static_bounds() const override { return {}; }
-  std::uint64_t static_revision() const override { return revision; }
   std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                    const Pose& pose) const override {
     return colors_at ? colors_at(lens, pose) : std::vector<std::uint8_t>{};

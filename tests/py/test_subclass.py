@@ -1,4 +1,6 @@
 """A sensor and a device written in Python, loaded as a world's plug-ins."""
+import math
+
 import numpy as np
 import pytest
 
@@ -98,6 +100,27 @@ class Wordless(angen.Device):
         kind.shown()
 
 
+class Ruler(angen.Sensor):
+    """Distance straight ahead with noise, m; counts its samples by whether it may be idle."""
+
+    fields = {'range': 'number m'}
+    samples = {False: 0, True: 0}
+
+    def configure(self, params, wiring):
+        params.noise('range', 'm', 'of the range')
+        self.may_idle = params.flag('may_idle', False)
+
+    def aim(self, view):
+        return np.hstack([view.pose[:3], view.rotation[:, 0], [0.0, 5.0]])[None]
+
+    def read(self, view, ranges, rng):
+        self.samples[self.may_idle] += 1
+        return {'range': ranges[0]}
+
+    def idle_until(self, view):
+        return math.inf if self.may_idle else view.time
+
+
 class Broken(angen.Sensor):
     """Divides by zero after half a second."""
 
@@ -117,6 +140,7 @@ angen.register('beeper.py', 'beeper', Beeper)
 angen.register('declared.py', 'declared', Declared)
 angen.register('broken.py', 'broken', Broken)
 angen.register('tracker.py', 'tracker', Tracker)
+angen.register('ruler.py', 'ruler', Ruler)
 angen.register('rangefinder.py', 'rangefinder', Rangefinder)
 angen.register('pusher.py', 'pusher', Pusher)
 
@@ -143,6 +167,20 @@ def test_its_parameters_are_checked_like_any_other(world):
         world(RANGE.format(yaw=0, extra='<reach>far</reach>'))
     with pytest.raises(angen.Error, match='raech'):
         world(RANGE.format(yaw=0, extra='<raech>3</raech>'))
+
+
+def test_a_noisy_one_that_may_be_idle_reads_the_same_with_fewer_samples(world):
+    wall = box('wall', '3 0 1 0 0 0', '0.2 4 2', True)
+    ruler = RANGE.replace('rangefinder', 'ruler')
+    worlds = [world(wall + ruler.format(yaw=0, extra=f'<noise_stddev>0.1</noise_stddev>{more}'))
+              for more in ('', '<may_idle>true</may_idle>')]
+    seen = [[], []]
+    for _ in range(20):
+        for w, values in zip(worlds, seen):
+            w.run(1.0)
+            values.append(w.sensor('ruler', 'ranger')['range'])
+    assert seen[0] == seen[1] and len(set(seen[0])) == 20
+    assert Ruler.samples[False] == 201 and Ruler.samples[True] < 5
 
 
 def declared(field: str) -> str:

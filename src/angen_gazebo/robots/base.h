@@ -53,7 +53,7 @@ class TrueOdometry : public Sensor {
   void read(const View& view, Hits, Rng&, Reading& reading) override {
     base_.read_true(view, reading);
   }
-  bool steady() const override { return base_.rests(); }
+  Nanoseconds idle_until(const Ahead&) const override { return base_.rests() ? kForever : 0; }
 
  private:
   Base base_;
@@ -90,7 +90,7 @@ class InertialUnit : public Sensor {
     inertia_.read(view, reading);
     reading.set("variances", variances_);
   }
-  bool steady() const override { return inertia_.rests(); }
+  Nanoseconds idle_until(const Ahead&) const override { return inertia_.rests() ? kForever : 0; }
 
  protected:
   /// Errors of the orientation (rad), turn rate (rad/s) and acceleration (m/s^2), about or along x,

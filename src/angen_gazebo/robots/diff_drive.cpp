@@ -62,7 +62,9 @@ class DiffDriveOdometry : public Sensor {
     }
   }
 
-  bool steady() const override { return by_wheels_ ? wheels_.rests() : base_.rests(); }
+  Nanoseconds idle_until(const Ahead&) const override {
+    return (by_wheels_ ? wheels_.rests() : base_.rests()) ? kForever : 0;
+  }
 
  private:
   Base base_;

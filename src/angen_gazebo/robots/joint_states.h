@@ -11,7 +11,7 @@ namespace angen::robots {
 class JointStates : public Sensor {
  public:
   void read(const View& view, Hits, Rng&, Reading& reading) override;
-  bool steady() const override { return rests_; }
+  Nanoseconds idle_until(const Ahead&) const override { return rests_ ? kForever : 0; }
 
  protected:
   void set_up(std::vector<std::string> names, Wiring& wiring);

@@ -101,7 +101,7 @@ class KobukiOdometry : public Sensor {
     const double heading = to_rpy(link.pose.rotation).z();
     wheels_.read(view, base_, std::make_pair(heading, link.angular_velocity.z()), reading);
   }
-  bool steady() const override { return wheels_.rests(); }
+  Nanoseconds idle_until(const Ahead&) const override { return wheels_.rests() ? kForever : 0; }
 
  private:
   void restart_where_reset(const View& view) {

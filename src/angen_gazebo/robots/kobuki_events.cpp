@@ -100,7 +100,7 @@ class KobukiBumper : public Sensor {
     }
     for (std::size_t i = 0; i < kParts.size(); ++i) reading.set(kParts.at(i), pressed.at(i));
   }
-  bool steady() const override { return touch_.lasting(); }
+  Nanoseconds idle_until(const Ahead&) const override { return touch_.lasting() ? kForever : 0; }
 
  private:
   static constexpr double kLowest = 0.01;  // m above the base's origin, as in Gazebo
@@ -145,7 +145,9 @@ class KobukiWheelDrop : public Sensor {
       reading.set(kWheels.at(i), touch.watches() && touch.pairs(view).empty());
     }
   }
-  bool steady() const override { return touches_[0].lasting() && touches_[1].lasting(); }
+  Nanoseconds idle_until(const Ahead&) const override {
+    return touches_[0].lasting() && touches_[1].lasting() ? kForever : 0;
+  }
 
  private:
   std::array<Touch, kWheels.size()> touches_;
@@ -205,7 +207,7 @@ class KobukiCliff : public Sensor {
     }
     reading.set("ranges", std::move(ranges));
   }
-  bool steady() const override { return true; }
+  Nanoseconds idle_until(const Ahead&) const override { return kForever; }
 
  private:
   struct Eye {
@@ -229,7 +231,7 @@ class KobukiCliff : public Sensor {
     constexpr double kStep = 1e-4;  // m, past a surface
     for (const std::uint32_t shape : own_) {
       rays::Hit hit;
-      while ((hit = view.cast_at(shape, ray)).hit()) ray.min = hit.range + kStep;
+      while ((hit = view.rays().cast_at(shape, ray)).hit()) ray.min = hit.range + kStep;
     }
     return ray.min;
   }

@@ -36,7 +36,7 @@ class P3d : public Sensor {
     reading.set("angular_velocity", numbers(own.angular_velocity));
     rests_ = own.linear_velocity.isZero(0.0) && own.angular_velocity.isZero(0.0);
   }
-  bool steady() const override { return rests_; }
+  Nanoseconds idle_until(const Ahead&) const override { return rests_ ? kForever : 0; }
 
  private:
   LinkRef link_;

@@ -15,6 +15,8 @@ struct Warming {
   double time_constant = 0.0;  // s; 0 = it is at its limit
   Nanoseconds since = 0;
 
+  static Warming constant(double temperature) { return {temperature, temperature, 0.0, 0}; }
+
   bool operator==(const Warming& o) const {
     return start == o.start && limit == o.limit && time_constant == o.time_constant &&
            since == o.since;

@@ -127,7 +127,7 @@ bool Doorway::is_between(const Leaf& one, const Leaf& other, const View& view) {
   if (length - 2.0 * edge < kNarrowest) return false;
   for (int i = 0; i < kBeams; ++i) {
     const Vec3 height = (kLowestBeam + i * kBetweenBeams) * Vec3::UnitZ();
-    for (const rays::Crossing& each : view.crossings(from + height, to + height)) {
+    for (const rays::Crossing& each : view.rays().crossings(from + height, to + height)) {
       const bool is_around = each.enter <= 0.0 || each.leave >= length;  // a leaf or the floor
       if (!is_around && each.leave > edge && each.enter < length - edge) return true;
     }

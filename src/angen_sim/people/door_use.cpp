@@ -108,7 +108,8 @@ std::string in_the_way(const View& view, const Vec3& feet, const DoorSeen& door)
         const Surroundings::Vec2 place = door.hinge + along * door.along + away * door.into;
         return Vec3(place.x(), place.y(), feet.z() + height);
       };
-      for (const rays::Crossing& c : view.crossings(at(kLeafSkin), at(door.width - kLeafSkin))) {
+      for (const rays::Crossing& c :
+           view.rays().crossings(at(kLeafSkin), at(door.width - kLeafSkin))) {
         const std::string model = view.model_of(c.shape);
         const std::vector<std::uint32_t> own = view.own_shapes();
         if (model != door.model && std::count(own.begin(), own.end(), c.shape) == 0) return model;

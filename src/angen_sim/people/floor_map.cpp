@@ -47,7 +47,7 @@ double cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 FloorMap::FloorMap(const View& view, const Vec3& feet, const Vec2& to, Extent extent) {
   const Eigen::AlignedBox2d ends = ends_of(feet, to);
   floor_ = floor_of(feet);
-  revision_ = view.static_revision();
+  revision_ = view.rays().static_revision();
   area_ = area(view, ends);
   Eigen::AlignedBox2d box = area_;
   if (box.volume() > kMaxMapCells * kCell * kCell) return;
@@ -71,7 +71,7 @@ FloorMap::FloorMap(const View& view, const Vec3& feet, const Vec2& to, Extent ex
 Eigen::AlignedBox2d FloorMap::area(const View& view, const Eigen::AlignedBox2d& ends) {
   const Vec2 detour = Vec2::Constant(kDetour - kBorder);
   const Eigen::AlignedBox2d box(ends.min() - detour, ends.max() + detour);
-  const Eigen::AlignedBox3d all = view.static_bounds();
+  const Eigen::AlignedBox3d all = view.rays().static_bounds();
   if (all.isEmpty()) return ends;
   const Eigen::AlignedBox2d standing(Vec2(all.min().head<2>()) - Vec2::Constant(kBorder),
                                      Vec2(all.max().head<2>()) + Vec2::Constant(kBorder));
@@ -80,7 +80,7 @@ Eigen::AlignedBox2d FloorMap::area(const View& view, const Eigen::AlignedBox2d& 
 }
 
 bool FloorMap::serves(const View& view, const Vec3& feet, const Vec2& to) const {
-  if (revision_ != view.static_revision() || floor_ != floor_of(feet)) return false;
+  if (revision_ != view.rays().static_revision() || floor_ != floor_of(feet)) return false;
   const Eigen::AlignedBox2d other = area(view, ends_of(feet, to));
   return other.min() == area_.min() && other.max() == area_.max();
 }
@@ -94,8 +94,8 @@ std::vector<double> FloorMap::other_heights(const View& view) const {
       const int cell = y * columns_ + x;
       if (gap(cell) < kClearance) continue;
       const Vec2 at = place(cell);
-      const auto crossed = view.crossings({at.x(), at.y(), floor_ + kHead},
-                                          {at.x(), at.y(), floor_ + kLow}, kStatic);
+      const auto crossed = view.rays().crossings({at.x(), at.y(), floor_ + kHead},
+                                                 {at.x(), at.y(), floor_ + kLow}, kStatic);
       for (const rays::Crossing& c : crossed) {
         heights.push_back(kFloorStep *
                           std::round((kHead - 0.5 * (c.enter + c.leave)) / kFloorStep));
@@ -126,7 +126,7 @@ void FloorMap::scan_lines(const std::vector<double>& heights, const View& view, 
     for (const double height : heights) {
       const double z = floor_ + height;
       for (const rays::Crossing& c :
-           view.crossings({from.x(), from.y(), z}, {to.x(), to.y(), z}, kStatic)) {
+           view.rays().crossings({from.x(), from.y(), z}, {to.x(), to.y(), z}, kStatic)) {
         spans.emplace_back(c.enter, c.leave);
       }
     }
@@ -248,7 +248,7 @@ bool FloorMap::can_stand(const View& view, int cell) {
   if (gap(cell) < kClearance) return false;
   if (std::exchange(known_[cell], 1) != 0) return true;
   static thread_local std::vector<rays::Hit> hits;
-  view.cast({down_at(place(cell))}, hits);
+  view.rays().cast({down_at(place(cell))}, hits);
   if (!hits[0].hit()) squares_[cell] = 0.0;
   return hits[0].hit();
 }
@@ -264,7 +264,7 @@ bool FloorMap::has_floor(const View& view, const Vec2& from, const Vec2& to) con
     down.push_back(down_at(from + (to - from) * (static_cast<double>(i) / steps)));
   }
   std::vector<rays::Hit> hits;
-  view.cast(down, hits);
+  view.rays().cast(down, hits);
   int missing = 0;
   for (const rays::Hit& hit : hits) {
     missing = hit.hit() ? 0 : missing + 1;

@@ -115,7 +115,7 @@ std::string Navigator::why_not(const View& view, const Vec3& feet, const Vec2& t
   const std::string own = view.model_of(view.own_shapes().at(0));
   const auto model_at = [&](const Vec3& from, const Vec3& end, double near) -> std::string {
     const double length = (end - from).norm();
-    for (const rays::Crossing& c : view.crossings(from, end)) {
+    for (const rays::Crossing& c : view.rays().crossings(from, end)) {
       const std::string model = view.model_of(c.shape);
       if (model != own && length - c.leave < near) return model;
     }

@@ -204,7 +204,7 @@ void Person::start(const Step& step) {
   const auto beside =
       best_place(step.view, {at - reach, at + reach}, floor, [&](const Vec2& place) {
         const Vec3 low(place.x(), place.y(), floor + kLow);  // a bed may be a thing that can move
-        const bool taken = !step.view.crossings(low + Vec3::UnitZ(), low).empty();
+        const bool taken = !step.view.rays().crossings(low + Vec3::UnitZ(), low).empty();
         return taken ? 0.0 : 3.0 - (place - at).norm();
       });
   const Vec2 stand = beside.value_or(at);

@@ -48,7 +48,7 @@ double support(const View& view, const FloorPose& place, Posture posture) {
     for (const double across : {-0.15, -0.05, 0.05, 0.15}) {
       const Vec3 from = pose * Vec3(along, across, kLooksFrom);
       for (const rays::Crossing& c :
-           view.crossings(from, from - 2.0 * kLooksFrom * Vec3::UnitZ())) {
+           view.rays().crossings(from, from - 2.0 * kLooksFrom * Vec3::UnitZ())) {
         if (!is_own(view, c.shape)) highest = std::max(highest, from.z() - c.enter);
       }
     }
@@ -64,7 +64,7 @@ std::optional<Quat> direction_to_lie(const View& view, const Pose& body) {
     bool is_free = true;
     for (const double across : {-0.2, 0.0, 0.2}) {
       const auto met =
-          view.crossings(lies * Vec3(-0.95, across, 0.15), lies * Vec3(0.8, across, 0.15));
+          view.rays().crossings(lies * Vec3(-0.95, across, 0.15), lies * Vec3(0.8, across, 0.15));
       is_free = is_free && std::all_of(met.begin(), met.end(), [&](const rays::Crossing& c) {
                   return is_own(view, c.shape);
                 });
@@ -144,7 +144,8 @@ std::optional<Vec3> place_to_stand(const View& view, const Seat& seat) {
   const Vec2 reach = Vec2::Constant(1.0);
   const auto is_behind_wall = [&](const Vec2& at) {
     const Vec3 end(at.x(), at.y(), seat.stand.z() + 1.0);
-    return !view.crossings(seat.stand + Vec3::UnitZ(), end, rays::only(rays::Mobility::kStatic))
+    return !view.rays()
+                .crossings(seat.stand + Vec3::UnitZ(), end, rays::only(rays::Mobility::kStatic))
                 .empty();
   };
   const auto place =

@@ -166,7 +166,7 @@ void Surroundings::scan(const View& view, const Vec3& feet) {
       rays_.push_back({feet + height * Vec3::UnitZ(), direction, kOwn, kSight});
     }
   }
-  view.cast(rays_, hits_);
+  view.rays().cast(rays_, hits_);
   std::vector<Vec2> seen;
   for (std::size_t i = 0; i < rays_.size(); ++i) {
     if (!is_obstacle(hits_[i])) continue;
@@ -181,7 +181,7 @@ void Surroundings::scan(const View& view, const Vec3& feet) {
 void Surroundings::find_edges(const View& view, const Vec3& feet, std::vector<Vec2>& seen) const {
   const auto has_floor = [&](const Vec2& place) {
     std::vector<rays::Hit> hits;
-    view.cast({down_at(feet, place)}, hits);
+    view.rays().cast({down_at(feet, place)}, hits);
     return hits[0].hit();
   };
   const double reach = kEdgesAt[turned_ ? 0 : 1];
@@ -197,7 +197,7 @@ void Surroundings::find_edges(const View& view, const Vec3& feet, std::vector<Ve
     down.push_back(down_at(feet, feet.head<2>() + reach * directions.back()));
   }
   std::vector<rays::Hit> hits;
-  view.cast(down, hits);
+  view.rays().cast(down, hits);
   for (std::size_t i = 0; i < down.size(); ++i) {
     const Vec2 at = feet.head<2>();
     if (hits[i].hit() || has_floor(at + (reach + kEdgeWide) * directions[i])) continue;
@@ -225,7 +225,7 @@ std::string Surroundings::model_ahead(const View& view, const Vec3& feet, const 
   for (const double turn : {0.0, -0.15, 0.15, -0.3, 0.3}) look(0.0, turn);
   for (const double aside : {-kBody, kBody}) look(aside, 0.0);
   std::vector<rays::Hit> hits;
-  view.cast(ways, hits, rays::kAll & ~rays::only(rays::Mobility::kStatic));
+  view.rays().cast(ways, hits, rays::kAll & ~rays::only(rays::Mobility::kStatic));
   const auto nearest =
       std::min_element(hits.begin(), hits.end(),
                        [](const rays::Hit& a, const rays::Hit& b) { return a.range < b.range; });
@@ -244,7 +244,7 @@ void Surroundings::remove_gone(const View& view, const Vec3& feet, std::vector<V
     rays.push_back(down_at(feet, point));
   }
   std::vector<rays::Hit> hits;
-  view.cast(rays, hits);
+  view.rays().cast(rays, hits);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto first = hits.begin() + static_cast<std::ptrdiff_t>(i * kRays);
@@ -311,7 +311,7 @@ std::optional<Vec2> Surroundings::way_aside(const Vec2& from, const Vec2& to) co
 
 bool Surroundings::is_walkable(const View& view, const Vec3& feet, const Vec2& to) {
   const auto crossed = [&](const Vec3& from, const Vec3& end) {
-    return view.crossings(from, end, rays::only(rays::Mobility::kStatic));
+    return view.rays().crossings(from, end, rays::only(rays::Mobility::kStatic));
   };
   const Vec2 way = to - feet.head<2>();
   const int steps = static_cast<int>(std::ceil(way.norm() / kSlopeStep));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 
 #include "core/pose.h"
@@ -39,6 +40,11 @@ struct LinkView {
 struct JointWrench {
   Vec3 force = Vec3::Zero();   // N, world axes
   Vec3 torque = Vec3::Zero();  // N m, world axes, about the joint's anchor
+};
+/// They grow, the first when shapes come, go or move: while it stays, rays get the same answers.
+struct Revisions {
+  std::uint64_t shapes = 0;
+  std::uint64_t temperatures = 0;  // when one begins to change, or changes at once
 };
 /// The stops of a joint, and the resistance to its motion.
 struct JointLimits {

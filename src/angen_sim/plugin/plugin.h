@@ -14,6 +14,7 @@
 #include "core/pose.h"
 #include "core/random.h"
 #include "core/time.h"
+#include "plugin/ahead.h"
 #include "plugin/command.h"
 #include "plugin/kind.h"
 #include "plugin/params.h"
@@ -81,7 +82,6 @@ class Device {
   /// The positions (m) of an elevator's joint at which it stops, the lowest first.
   virtual std::vector<double> stops() const { return {}; }
 };
-constexpr Nanoseconds kForever = INT64_MAX;
 
 /// Something that measures. The world answers its rays; it returns a reading. See docs/plugins.md.
 class Sensor {
@@ -101,45 +101,15 @@ class Sensor {
   /// The reading, without the noise that configure() declared by Params::noise(). `rng` is for
   /// other random effects.
   virtual void read(const View& view, Hits hits, Rng& rng, Reading& reading) = 0;
-  /// Called after read(): whether further readings would have the same values (before noise), no
-  /// event and not be urgent, as long as its pose and all that it queried stay as they are. Those
-  /// of a NoisySensor may differ as its lazy reading has them, until its next event.
-  virtual bool steady() const { return false; }
-};
-
-/// The random numbers of a sample, (0), and of those before it: (1) of the previous one.
-using Draws = std::function<Rng(int samples_ago)>;
-
-/// Makes the readings of a steady sensor that differ by noise, or by time in a known way. Snapshots
-/// hold it instead of readings that have not been read yet. Any thread may call it, also after the
-/// sensor was deleted, so it depends on neither.
-class LazyReading {
- public:
-  virtual ~LazyReading() = default;
-  /// Fills in the values of the sample at `time`, as the sensor's read() would.
-  virtual void read(Nanoseconds time, const Draws& draws, Reading& reading) const = 0;
-};
-
-/// An optional second base of a sensor that decides by noisy values, as a motion detector does, and
-/// so applies its noise itself. Without it such a sensor samples at each due time.
-class NoisySensor {
- public:
-  virtual ~NoisySensor() = default;
-  /// Whether readings of a steady sensor differ from sample to sample.
-  virtual bool varies() const = 0;
-  /// If the first uniform() of a sample's random numbers is below this, the sample has no event
-  /// and is not urgent while the sensor is steady.
-  virtual double no_event_probability() const = 0;
-  /// The sample at or after this time may have an event, whatever its random numbers are, while
-  /// the sensor is steady; none before has one for another reason than these.
-  virtual Nanoseconds next_event() const { return kForever; }
-  /// On how many earlier samples a reading depends.
-  virtual int memory() const = 0;
-  /// Makes its readings while nothing changes.
-  virtual std::shared_ptr<const LazyReading> lazy_reading() const = 0;
+  /// Called after read(): when a sample may next have other values, an event or be urgent, as long
+  /// as its pose and all that it queried stay as they are. Values that differ by the noise of
+  /// Params::noise(), or as lazy_reading() has them, are no others.
+  virtual Nanoseconds idle_until(const Ahead&) const { return 0; }
+  /// Makes its readings until then, without the noise of Params::noise(); null: they are the last.
+  virtual std::shared_ptr<const LazyReading> lazy_reading() const { return nullptr; }
   /// Called before the sample after those that its lazy reading replaced, the last of them at
   /// `time`: the sensor's state is to be as if it had read them. `draws` are of that last one.
-  virtual void resume(Nanoseconds time, const Draws& draws) = 0;
+  virtual void skip(Nanoseconds, const Draws&) {}
 };
 
 /// The description of a model by which a plug-in decides whether to serve it.

@@ -12,7 +12,6 @@
 #include "core/home.h"
 #include "core/pose.h"
 #include "core/time.h"
-#include "core/warming.h"
 #include "light/probe.h"
 #include "plugin/parts.h"
 #include "plugin/reading.h"
@@ -66,50 +65,21 @@ class View {
   }
   /// The home that the world describes. It is valid until the next update or sample.
   virtual const Home& home() const = 0;
-  /// Nearest hits on shapes of these mobilities: hits[i] answers rays[i].
-  virtual void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
-                    rays::Mobilities among) const = 0;
-  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const {
-    cast(rays, hits, rays::kAll);
-  }
-  /// The nearest hit on this shape, as if there were no others.
-  virtual rays::Hit cast_at(std::uint32_t shape, const rays::Ray& ray) const = 0;
+  /// All shapes: casts rays, and answers other queries of what is on their way.
+  virtual const rays::Scene& rays() const = 0;
   /// The shapes of its own model that rays hit.
   virtual std::vector<std::uint32_t> own_shapes() const = 0;
-  /// For many rays from one point (world, m) to one shape; see rays::Scene::shaft.
-  virtual rays::Shaft shaft(const Vec3& from, double near, std::uint32_t shape) const = 0;
   /// The name of the model that a shape belongs to.
   virtual std::string model_of(std::uint32_t) const { return ""; }
-  /// The albedo, r g b, 0 to 1, of a shape that a ray hit.
-  virtual Eigen::Vector3f reflectance(std::uint32_t shape) const = 0;
   /// Light at a place; see light::Lighting::measure. The first query in a world finds the light of
   /// all lit lamps, which takes up to some seconds of CPU time.
   virtual light::Sample illuminance(light::Probe& probe, const Pose& pose) const = 0;
   virtual double ambient_temperature() const = 0;  // K
-  /// Shapes that are warmer or colder than the air now.
+  /// Shapes whose temperature is known, or changes; others are as warm as the air.
   virtual const std::vector<rays::WarmShape>& warm_shapes() const = 0;
-  /// Grows when shapes come, go or move: where it is the same, rays get the same answers.
-  virtual std::uint64_t scene_revision() const = 0;
-  /// To a sensor that calls it before those two, only shapes near some rays matter: those that
-  /// make() returns (world), where they run between static shapes.
-  virtual void watch(const std::function<std::vector<rays::Ray>()>& make) const {
-    static_cast<void>(make);
-  }
-  /// How the temperature of one of them changes from now on, until surfaces_set() grows.
-  virtual Warming warming(const rays::WarmShape& shape) const = 0;
-  /// Grows when one of them begins to change, or changes at once.
-  virtual std::uint64_t surfaces_set() const = 0;
-  /// The shapes of these mobilities on the segment between two points (world, m), in the order in
-  /// which it enters them.
-  virtual std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
-                                                rays::Mobilities among) const = 0;
-  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to) const {
-    return crossings(from, to, rays::kAll);
-  }
-  /// Box (m, world) around all static shapes except planes.
-  virtual Eigen::AlignedBox3d static_bounds() const = 0;
-  /// Grows when static shapes come, go or are placed elsewhere; that of two worlds differs.
-  virtual std::uint64_t static_revision() const = 0;
+  /// To a sensor that calls it before other queries, only shapes matter that are near the rays that
+  /// make() returns (world), up to the static shapes that these hit.
+  virtual Revisions watch(const std::function<std::vector<rays::Ray>()>& make) const = 0;
   /// The image of a camera at `pose` (world, x ahead, z up): height x width x 3 bytes, sRGB.
   virtual std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                            const Pose& pose) const = 0;

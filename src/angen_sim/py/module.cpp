@@ -334,7 +334,9 @@ void bind_bases(pyb::module_& module) {
   pyb::exec(R"(
 class Sensor:
     """A sensor in Python. Override configure(params, wiring), aim(view) -> (n, 8) rows of origin,
-    direction, min, max (m, world frame) or None, and read(view, ranges, rng) -> dict. `fields`
+    direction, min, max (m, world frame) or None, and read(view, ranges, rng) -> dict. After read(),
+    idle_until(view) says when (s) it may next return other values, as long as its pose and all that
+    it queried stay the same: math.inf without a memory, 0 for the next time. `fields`
     declares the keys of that dict, as {'range': 'number m', 'hit': 'flag'}: type and unit; types
     are flag, integer, number, text, numbers and texts. None are declared: any are taken.
     describe(kind) (static) declares them with docs and words, see Kind."""
@@ -356,6 +358,9 @@ class Sensor:
     def read(self, view: View, ranges: 'numpy.typing.NDArray[numpy.float64]',
              rng: Rng) -> 'dict[str, typing.Any]':
         raise NotImplementedError('a sensor has to read')
+
+    def idle_until(self, view: View) -> float:
+        return 0.0
 
 
 class Device:

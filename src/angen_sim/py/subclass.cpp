@@ -82,11 +82,15 @@ class PythonSensor : public Sensor {
         ranges[static_cast<Eigen::Index>(i)] = hits[i].range;
       }
       from_dict(self_.get().attr("read")(borrowed(view), ranges, borrowed(rng)), reading);
+      const double until = pyb::cast<double>(self_.get().attr("idle_until")(borrowed(view)));
+      idle_until_ = until < 1e9 ? from_seconds(until) : kForever;
     });
   }
+  Nanoseconds idle_until(const Ahead&) const override { return idle_until_; }
 
  private:
   Held self_;
+  Nanoseconds idle_until_ = 0;
 };
 
 class PythonDevice : public Device {
@@ -234,6 +238,13 @@ void bind_params(pyb::module_& module) {
           },
           pyb::arg("path"), pyb::arg("default"), pyb::arg("unit") = "", pyb::arg("doc") = "",
           pyb::arg("min") = Range{}.min, pyb::arg("max") = Range{}.max)
+      .def(
+          "noise",
+          [](Params& p, const std::string& field, const std::string& unit, const std::string& doc,
+             bool relative) { return p.noise(field, unit, doc, relative); },
+          pyb::arg("field"), pyb::arg("unit") = "", pyb::arg("doc") = "",
+          pyb::arg("relative") = false,
+          "Reads <noise_stddev>, of Gaussian noise that is added to this key of read().")
       .def("flag", &Params::flag, pyb::arg("path"), pyb::arg("default"), pyb::arg("doc") = "")
       .def("text", &Params::text, pyb::arg("path"), pyb::arg("default"), pyb::arg("doc") = "");
 }

@@ -173,18 +173,18 @@ ShapeId Scene::add(const Shape& shape, const Pose& pose, Mobility mobility,
   return id;
 }
 
-void Scene::warm(ShapeId shape, double temperature) {
+void Scene::warm(ShapeId shape, const Warming& course) {
   const Entry& entry = impl_->entries.at(shape);
   if (entry.type == Shape::Type::kEmpty && impl_->hidden.count(shape.index) == 0) return;
   auto& warmed = impl_->warmed;
   const auto known = std::find_if(warmed.begin(), warmed.end(),
                                   [&](const auto& each) { return each.first == shape; });
   if (known == warmed.end()) {
-    warmed.push_back({shape, {shape.index, temperature, {}}});
-  } else if (known->second.temperature == temperature) {
+    warmed.push_back({shape, {shape.index, course, {}}});
+  } else if (known->second.course == course) {
     return;
   } else {
-    known->second.temperature = temperature;
+    known->second.course = course;
   }
   impl_->warm_dirty = true;
 }
@@ -275,9 +275,9 @@ void Scene::cast(const Ray* rays, Hit* hits, std::size_t count, Mobilities among
   }
 }
 
-void Scene::cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const {
+void Scene::cast(const std::vector<Ray>& rays, std::vector<Hit>& hits, Mobilities among) const {
   hits.resize(rays.size());
-  cast(rays.data(), hits.data(), rays.size());
+  cast(rays.data(), hits.data(), rays.size(), among);
 }
 
 void Scene::better(ShapeId moving, const Ray& ray, Hit& hit) const {

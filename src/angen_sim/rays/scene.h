@@ -9,6 +9,7 @@
 
 #include "core/id.h"
 #include "core/shape.h"
+#include "core/warming.h"
 
 /// Shapes in two bounding hierarchies, and rays cast against them.
 namespace angen::rays {
@@ -57,7 +58,7 @@ struct Placement {
 /// A shape with its own surface temperature; all others have the temperature of the air.
 struct WarmShape {
   std::uint32_t shape = UINT32_MAX;                        // index of its ShapeId, as in Hit
-  double temperature = 0.0;                                // K
+  Warming course;                                          // its temperature
   Eigen::AlignedBox3d box;                                 // m, world, around it
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // own frame to world
 };
@@ -82,8 +83,8 @@ class Scene {
   /// Reflectance is the diffuse albedo (r g b, 0..1) that `light` uses. Empty shapes are never hit.
   ShapeId add(const Shape& shape, const Pose& pose, Mobility mobility,
               const Eigen::Vector3f& reflectance);
-  /// Sets the surface temperature of a shape, K; ignores empty shapes.
-  void warm(ShapeId shape, double temperature);
+  /// How the surface temperature of a shape changes from now on; ignores empty shapes.
+  void warm(ShapeId shape, const Warming& course);
   void move(ShapeId shape, const Pose& pose);
   /// Makes a movable shape anchored or moving; ignores static shapes.
   void set_anchored(ShapeId shape, bool anchored);
@@ -100,7 +101,7 @@ class Scene {
   /// before movable ones, then the lowest index wins. A ray that is not finite or has no direction
   /// hits nothing. Requires commit() since the last change. Several threads may call it at once.
   void cast(const Ray* rays, Hit* hits, std::size_t count, Mobilities among = kAll) const;
-  void cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
+  void cast(const std::vector<Ray>& rays, std::vector<Hit>& hits, Mobilities among = kAll) const;
 
   /// Replaces `hit` if the movable shape is nearer. A cast() among static shapes, followed by this
   /// for every movable shape on the ray's way, in any order, equals a cast() among all bit for bit.

@@ -68,7 +68,7 @@ class Accelerometer : public Sensor {
     reading.set("height", height_);
   }
 
-  bool steady() const override { return !moving_; }
+  Nanoseconds idle_until(const Ahead&) const override { return moving_ ? 0 : kForever; }
 
  private:
   // rad, of its z axis from the measured acceleration.

@@ -13,7 +13,7 @@ class AirSensor : public Sensor {
 
   void configure(Params& params, Wiring& wiring) override;
   void read(const View& view, Hits, Rng& rng, Reading& reading) override;
-  bool steady() const override { return true; }
+  Nanoseconds idle_until(const Ahead&) const override { return kForever; }
 
  private:
   const char* name_;

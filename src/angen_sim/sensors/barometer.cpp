@@ -32,7 +32,7 @@ class Barometer : public Sensor {
     reading.set("reference_pressure", reference_);
   }
 
-  bool steady() const override { return true; }
+  Nanoseconds idle_until(const Ahead&) const override { return kForever; }
 
  private:
   double ground_ = 0.0;     // Pa

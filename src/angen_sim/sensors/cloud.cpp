@@ -49,7 +49,7 @@ void Cloud::read(const View& view, Hits hits, Rng&, Reading& reading) {
     double intensity = 0.0;
     if (std::isfinite(ranges[i])) {
       const auto [at, is_new] = known.emplace(hit.shape, 0.0);
-      if (is_new) at->second = kWhite * view.reflectance(hit.shape).mean();
+      if (is_new) at->second = kWhite * view.rays().reflectance(hit.shape).mean();
       intensity = at->second;
     }
     const bool seen = std::isfinite(ranges[i]) && intensity >= least_intensity_;

@@ -6,6 +6,7 @@
 #include "plugin/registration.h"
 #include "plugin/view.h"
 #include "plugin/wiring.h"
+#include "sensors/debounce.h"
 #include "sensors/watched.h"
 
 namespace angen::sensors {
@@ -48,17 +49,17 @@ bool has(const std::vector<ContactPair>& pairs, const std::string& first,
 /// them since its last reading.
 class Contact : public Sensor {
  public:
-  Nanoseconds sample_period() const override { return debounce_ > 0 ? sample_period_ : 0; }
+  Nanoseconds sample_period() const override { return debounce_.duration > 0 ? sample_period_ : 0; }
 
   void configure(Params& params, Wiring& wiring) override {
     params.noise("forces", "N", "of each component of a force");
-    debounce_ = from_seconds(params.number(
+    debounce_.duration = from_seconds(params.number(
         "debounce", 0.0, "s", "least duration of a touch or release that counts", {0.0, 1e6}));
     const double sample_rate = params.number("sample_rate", 100.0, "Hz",
                                              "how often it samples, given a debounce", {1e-3, 1e6});
     sample_period_ = from_seconds(1.0 / sample_rate);
     params.text("bumperTopicName", "/angen/contact/NAME", "where it publishes");
-    if (debounce_ == 0) window_ = params.update_period();
+    if (debounce_.duration == 0) window_ = params.update_period();
     read_frame(params, wiring);
     collisions_ = read_watched(params, wiring, "a contact sensor");
   }
@@ -75,8 +76,10 @@ class Contact : public Sensor {
       }
     }
     const bool touched = !pairs.empty();
-    if (settled(touched, view.time())) {
-      reading.urgent = debounce_ > 0;
+    if (!pressed_) pressed_ = touched;
+    if (debounce_.changes(*pressed_, touched, view.time())) {
+      pressed_ = touched;
+      reading.urgent = debounce_.duration > 0;
       reading.event = touched ? "pressed" : "released";
       if (touched) reading.event_detail = "by " + pairs.front().second;
     }
@@ -94,8 +97,10 @@ class Contact : public Sensor {
     reading.set("frame", frame_);
   }
 
-  /// Not while it waits for the end of a debounce, or has contacts that have ended.
-  bool steady() const override { return !changed_at_ && lasting_; }
+  /// 0 while it waits for the end of a debounce, or has contacts that have ended.
+  Nanoseconds idle_until(const Ahead&) const override {
+    return !debounce_.waits() && lasting_ ? kForever : 0;
+  }
 
  private:
   // The frame that points and forces are in, where it is a link of the model.
@@ -110,29 +115,14 @@ class Contact : public Sensor {
     }
   }
 
-  // True when a change that began a debounce ago or earlier has lasted until now.
-  bool settled(bool touched, Nanoseconds now) {
-    if (!pressed_) pressed_ = touched;
-    if (touched == *pressed_) {
-      changed_at_.reset();
-      return false;
-    }
-    if (!changed_at_) changed_at_ = now;
-    if (now - *changed_at_ < debounce_) return false;
-    changed_at_.reset();
-    pressed_ = touched;
-    return true;
-  }
-
   std::vector<ContactRef> collisions_;
-  Nanoseconds debounce_ = 0;
+  Debounce debounce_;
   Nanoseconds window_ = 0;             // contacts that ended before are not reported
   bool lasting_ = true;                // all that it reported last touched then
   std::string frame_ = "world";        // frame of points and forces
   std::optional<LinkRef> frame_link_;  // none: it is the world
   Nanoseconds sample_period_ = kSecond / 100;
-  std::optional<bool> pressed_;            // none before the first reading
-  std::optional<Nanoseconds> changed_at_;  // since when it has been otherwise
+  std::optional<bool> pressed_;  // none before the first reading
 };
 
 ANGEN_REGISTER_SENSOR(

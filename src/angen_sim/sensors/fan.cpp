@@ -56,7 +56,7 @@ void mark_too_near(const View& view, RayBatch open, std::vector<rays::Hit> hits,
     }
     open.resize(left);
     hits.assign(left, {});
-    view.cast(open, hits, rays::kAll);
+    view.rays().cast(open, hits, rays::kAll);
   }
 }
 

@@ -43,13 +43,9 @@ struct Fan : RayGeometry {
 
   bool noisy() const { return noise_mean != 0.0 || noise_stddev > 0.0; }
 
-  /// with_noise() keeps noise within ±limit (m) of its mean at every ray where the first uniform()
-  /// of its random numbers is below this.
-  double no_event_probability(double limit) const { return no_event_probability(limit, size()); }
-
-  /// The same probability for a scan of `rays` rays.
-  double no_event_probability(double limit, std::size_t rays) const {
-    return noise_stddev > 0.0 ? chance_within(rays, limit / noise_stddev) : 1.0;
+  /// The noise of with_noise() that is within ±limit (m) of its mean at each of `rays` rays.
+  QuietNoise quiet_within(double limit, std::size_t rays) const {
+    return {noise_stddev > 0.0 ? chance_within(rays, limit / noise_stddev) : 1.0};
   }
 
  private:

@@ -17,109 +17,86 @@ struct Cell {
   double y = 0.0;
 };
 
-/// The result of all cells: the sum less the tare, and its center.
-class Sum {
- public:
-  Sum(double tare, double tare_x, double tare_y, double least)
-      : tare_(tare), tare_x_(tare_x), tare_y_(tare_y), least_(least) {}
+/// The cells while their loads stay: the sum less the tare, and its center.
+struct Scale : LazyReading {
+  double tare = 0.0;    // kg
+  double tare_x = 0.0;  // m
+  double tare_y = 0.0;  // m
+  double least = 0.0;   // kg that have a place
+  double stddev = 0.0;  // kg, of each cell's noise
+  std::vector<Cell> cells;
 
-  double weight(const std::vector<Cell>& cells) const {
-    double sum = -tare_;
+  double weight() const {
+    double sum = -tare;
     for (const Cell& cell : cells) sum += cell.load;
     return sum;
   }
 
-  void read(const std::vector<Cell>& cells, Reading& reading) const {
-    const double sum = weight(cells);
-    double x = -tare_ * tare_x_;
-    double y = -tare_ * tare_y_;
+  void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
+    write(draws(0), reading);
+  }
+
+  void write(Rng rng, Reading& reading) const {
+    double sum = -tare;
+    double x = -tare * tare_x;
+    double y = -tare * tare_y;
     std::vector<double> loads;
     for (const Cell& cell : cells) {
-      loads.push_back(cell.load);
-      x += cell.load * cell.x;
-      y += cell.load * cell.y;
+      loads.push_back(cell.load + stddev * rng.gaussian());
+      sum += loads.back();
+      x += loads.back() * cell.x;
+      y += loads.back() * cell.y;
     }
-    const bool says = sum >= least_;
+    const bool says = sum >= least;
     const double none = std::numeric_limits<double>::quiet_NaN();
     reading.set("weight", sum);
     reading.set("x", says ? x / sum : none);
     reading.set("y", says ? y / sum : none);
     reading.set("cells", std::move(loads));
   }
-
- private:
-  double tare_;    // kg
-  double tare_x_;  // m
-  double tare_y_;  // m
-  double least_;   // kg that have a place
-};
-
-std::vector<Cell> with_cell_noise(std::vector<Cell> cells, double stddev, Rng& rng) {
-  for (Cell& cell : cells) cell.load += stddev * rng.gaussian();
-  return cells;
-}
-
-/// The readings of cells whose loads stay.
-class StillCells : public LazyReading {
- public:
-  StillCells(Sum sum, std::vector<Cell> cells, double stddev)
-      : sum_(sum), cells_(std::move(cells)), stddev_(stddev) {}
-  void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
-    Rng rng = draws(0);
-    sum_.read(with_cell_noise(cells_, stddev_, rng), reading);
-  }
-
- private:
-  Sum sum_;
-  std::vector<Cell> cells_;
-  double stddev_;  // kg
 };
 
 }  // namespace
 
 /// Load cells under the feet of a table: each weighs the load of its foot. Together
 /// they give the weight on the table, and its center.
-class LoadCells : public Sensor, public NoisySensor {
+class LoadCells : public Sensor {
  public:
   Nanoseconds sample_period() const override { return sample_period_; }
 
   void configure(Params& params, Wiring& wiring) override {
-    const double tare =
+    scale_.tare =
         params.number("tare", 0.0, "kg", "of the table itself, which is subtracted", kNotNegative);
     const auto places = params.rows("tare_place", 2, "m", "x y of its center; 0 0");
     if (places.size() > 1) throw params.error("tare_place", "load cells have one <tare_place>");
-    const double x = places.empty() ? 0.0 : places[0][0];
-    const double y = places.empty() ? 0.0 : places[0][1];
-    const double least = params.number(
+    if (!places.empty()) {
+      scale_.tare_x = places[0][0];
+      scale_.tare_y = places[0][1];
+    }
+    scale_.least = params.number(
         "least", 0.05, "kg", "a smaller weight has no place: x and y are not numbers", kPositive);
     step_ = params.number("event_step", 0.1, "kg", "a change by more is an event", kPositive);
     capacity_ = params.number("capacity", 50.0, "kg", "of each cell; it shows no more", kPositive);
-    stddev_ = params.number("noise_stddev", 0.0, "kg", "of each cell", kNotNegative);
+    scale_.stddev = params.number("noise_stddev", 0.0, "kg", "of each cell", kNotNegative);
     const double sample_rate =
         params.number("sample_rate", 10.0, "Hz", "how often it samples", {1e-3, 1e6});
     sample_period_ = from_seconds(1.0 / sample_rate);
     collisions_ = read_watched(params, wiring, "a set of load cells");
-    sum_ = Sum(tare, x, y, least);
   }
 
   void read(const View& view, Hits, Rng& rng, Reading& reading) override {
-    cells_.clear();
-    for (const ContactRef collision : collisions_) cells_.push_back(cell(view, collision));
-    note_change(sum_.weight(cells_), reading);
-    sum_.read(with_cell_noise(cells_, stddev_, rng), reading);
+    scale_.cells.clear();
+    for (const ContactRef collision : collisions_) scale_.cells.push_back(cell(view, collision));
+    note_change(scale_.weight(), reading);
+    scale_.write(rng, reading);
   }
 
-  bool steady() const override { return settled_; }
-
-  bool varies() const override { return stddev_ > 0.0; }
-  double no_event_probability() const override {
-    return 1.0;
-  }  // events are of the loads before noise
-  int memory() const override { return 0; }
+  // Events are of the loads before noise.
+  Nanoseconds idle_until(const Ahead&) const override { return settled_ ? kForever : 0; }
   std::shared_ptr<const LazyReading> lazy_reading() const override {
-    return std::make_shared<StillCells>(sum_, cells_, stddev_);
+    if (scale_.stddev == 0.0) return nullptr;
+    return std::make_shared<Scale>(scale_);
   }
-  void resume(Nanoseconds, const Draws&) override {}
 
  private:
   Cell cell(const View& view, ContactRef collision) const {
@@ -155,9 +132,7 @@ class LoadCells : public Sensor, public NoisySensor {
   }
 
   std::vector<ContactRef> collisions_;
-  std::vector<Cell> cells_;
-  Sum sum_{0.0, 0.0, 0.0, 0.05};
-  double stddev_ = 0.0;    // kg
+  Scale scale_;
   double step_ = 0.0;      // kg
   double capacity_ = 0.0;  // kg
   Nanoseconds sample_period_ = kSecond / 10;

@@ -26,7 +26,7 @@ class Luminosity : public Sensor {
     note_change(sample.illuminance, reading);
   }
 
-  bool steady() const override { return true; }
+  Nanoseconds idle_until(const Ahead&) const override { return kForever; }
 
  private:
   static constexpr double kRelativeChange = 0.15;  // share of the last event's value, as CASAS

@@ -115,7 +115,7 @@ class Microphone : public Sensor {
     reading.set("loud", loud);
   }
 
-  bool steady() const override { return true; }
+  Nanoseconds idle_until(const Ahead&) const override { return kForever; }
 
  private:
   /// The room that the microphone is in, and what it has of the sound in each room of its plan; or

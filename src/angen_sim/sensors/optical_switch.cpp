@@ -46,7 +46,7 @@ struct Beam : LazyReading {
 }  // namespace
 
 /// A light barrier of two rays, closed while one of them is blocked.
-class OpticalSwitch : public Sensor, public NoisySensor {
+class OpticalSwitch : public Sensor {
  public:
   Nanoseconds sample_period() const override { return sample_period_; }
 
@@ -64,7 +64,7 @@ class OpticalSwitch : public Sensor, public NoisySensor {
                                  "to the detector, when nothing is "
                                  "between; <ray><range><max> unless given",
                                  {0.0, beam_.fan.max});
-    no_event_probability_ = beam_.fan.no_event_probability(beam_.threshold / 2.0);
+    quiet_ = beam_.fan.quiet_within(beam_.threshold / 2.0, directions_.size());
     const double sample_rate =
         params.number("sample_rate", 100.0, "Hz", "how often it samples", {1e-3, 1e6});
     sample_period_ = from_seconds(1.0 / sample_rate);
@@ -90,19 +90,19 @@ class OpticalSwitch : public Sensor, public NoisySensor {
     if (!beam_.fan.noisy()) {
       steady_ = !first && difference == 0.0 && !flipped;
     } else {
-      const bool loud = rng.uniform() >= no_event_probability_;
-      steady_ = !loud && !changed && !flipped && decided();
+      steady_ = quiet_.has(rng) && !changed && !flipped && decided();
     }
   }
 
-  bool steady() const override { return steady_; }
-  bool varies() const override { return beam_.fan.noisy(); }
-  double no_event_probability() const override { return no_event_probability_; }
-  int memory() const override { return 1; }
+  Nanoseconds idle_until(const Ahead& ahead) const override {
+    if (!steady_) return 0;
+    return beam_.fan.noisy() ? quiet_.until(ahead, 1) : kForever;
+  }
   std::shared_ptr<const LazyReading> lazy_reading() const override {
+    if (!beam_.fan.noisy()) return nullptr;
     return std::make_shared<Beam>(beam_);
   }
-  void resume(Nanoseconds, const Draws& draws) override {
+  void skip(Nanoseconds, const Draws& draws) override {
     previous_ = beam_.fan.with_noise(beam_.clean, draws(0));
   }
 
@@ -118,7 +118,7 @@ class OpticalSwitch : public Sensor, public NoisySensor {
 
   Beam beam_;
   std::vector<Vec3> directions_;
-  double no_event_probability_ = 0.0;
+  QuietNoise quiet_;
   Nanoseconds sample_period_ = kSecond / 100;
   Ranges previous_;
   bool closed_ = false;

@@ -1,10 +1,10 @@
 // libpressure_mat.so
 #include <algorithm>
-#include <optional>
 #include <sstream>
 
 #include "plugin/registration.h"
 #include "plugin/view.h"
+#include "sensors/debounce.h"
 #include "sensors/watched.h"
 
 namespace angen::sensors {
@@ -28,7 +28,7 @@ class PressureMat : public Sensor {
     const double sample_rate =
         params.number("sample_rate", 100.0, "Hz", "how often it samples", {1e-3, 1e6});
     sample_period_ = from_seconds(1.0 / sample_rate);
-    debounce_ = from_seconds(
+    debounce_.duration = from_seconds(
         params.number("debounce", 0.05, "s", "least duration of a load that counts", kNotNegative));
     noise_stddev_ = params.number("noise_stddev", 0.0, "kg", "of a load", kNotNegative);
     collisions_ = read_watched(params, wiring, "a pressure mat");
@@ -37,7 +37,8 @@ class PressureMat : public Sensor {
   void read(const View& view, Hits, Rng& rng, Reading& reading) override {
     const double load = load_on(view) + (noise_stddev_ > 0.0 ? noise_stddev_ * rng.gaussian() : 0);
     const bool loaded = pressed_ ? load > release_ : load > threshold_;
-    if (settled(loaded, view.time())) {
+    if (debounce_.changes(pressed_, loaded, view.time())) {
+      pressed_ = loaded;
       std::ostringstream detail;
       detail << "load " << load << " kg";
       reading.event = pressed_ ? "pressed" : "released";
@@ -49,23 +50,12 @@ class PressureMat : public Sensor {
     reading.set("threshold", threshold_);
   }
 
-  /// Not while noise may press it, or while it waits for the end of a debounce.
-  bool steady() const override { return noise_stddev_ == 0.0 && !changed_at_; }
-
- private:
-  // True when a change that began a debounce ago or earlier has lasted until now.
-  bool settled(bool loaded, Nanoseconds now) {
-    if (loaded == pressed_) {
-      changed_at_.reset();
-      return false;
-    }
-    if (!changed_at_) changed_at_ = now;
-    if (now - *changed_at_ < debounce_) return false;
-    changed_at_.reset();
-    pressed_ = loaded;
-    return true;
+  /// 0 while noise may press it, or it waits for the end of a debounce.
+  Nanoseconds idle_until(const Ahead&) const override {
+    return noise_stddev_ == 0.0 && !debounce_.waits() ? kForever : 0;
   }
 
+ private:
   // kg; a force upwards is not a load.
   double load_on(const View& view) const {
     const Vec3 down = view.pose().rotation * -Vec3::UnitZ();
@@ -83,8 +73,7 @@ class PressureMat : public Sensor {
   double release_ = 0.0;       // kg
   double noise_stddev_ = 0.0;  // kg
   Nanoseconds sample_period_ = kSecond / 100;
-  Nanoseconds debounce_ = 0;
-  std::optional<Nanoseconds> changed_at_;  // since when the load has been otherwise
+  Debounce debounce_;
   bool pressed_ = false;
 };
 

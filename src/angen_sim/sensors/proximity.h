@@ -14,7 +14,7 @@ class Proximity : public Sensor {
   int ray_set(const View&) override { return 0; }
   void aim(const View& view, RayBatch& rays) override { fan_.aim_scan(view, directions_, rays); }
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override;
-  bool steady() const override { return true; }
+  Nanoseconds idle_until(const Ahead&) const override { return kForever; }
 
  protected:
   /// Reads <ray> and the noise; the cone is as wide as its rays.

@@ -63,7 +63,9 @@ class RadioReceiver : public Sensor {
     reading.set("rssi", std::move(strengths));
   }
 
-  bool steady() const override { return silent_since_.empty() && !changes_.pending(); }
+  Nanoseconds idle_until(const Ahead&) const override {
+    return silent_since_.empty() && !changes_.pending() ? kForever : 0;
+  }
 
  private:
   // The ids that it receives, and those that were silent for less than `lost_after`.
@@ -91,7 +93,7 @@ class RadioReceiver : public Sensor {
     if (least < needed || distance <= 2.0 * kSkin) return least;
     const Vec3 ahead = way / distance;
     const Vec3 skin = kSkin * ahead;
-    const auto crossings = view.crossings(from + skin, view.pose().position - skin);
+    const auto crossings = view.rays().crossings(from + skin, view.pose().position - skin);
     return least - loss_of(obstacles_on(crossings, ahead), losses_);
   }
 

@@ -58,7 +58,7 @@ class Reed : public Sensor {
     reading.set("release_distance", release_);
   }
 
-  bool steady() const override { return true; }
+  Nanoseconds idle_until(const Ahead&) const override { return kForever; }
 
  private:
   LinkRef magnet_link_;

@@ -57,7 +57,7 @@ class RfidReader : public Sensor {
     reading.set("distances", std::move(distances));
   }
 
-  bool steady() const override { return !changes_.pending(); }
+  Nanoseconds idle_until(const Ahead&) const override { return changes_.pending() ? 0 : kForever; }
 
  private:
   struct Candidate {

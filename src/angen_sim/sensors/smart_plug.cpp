@@ -12,22 +12,16 @@ namespace {
 struct Metering : LazyReading {
   std::string load;  // KIND/NAME
   bool connected = false;
-  double power = 0.0;     // W, without noise
+  double power = 0.0;     // W
   double energy = 0.0;    // J, up to `since`
   Nanoseconds since = 0;  // the power's last change
-  double noise_stddev = 0.0;
 
   double energy_at(Nanoseconds time) const { return energy + power * to_seconds(time - since); }
 
-  void read(Nanoseconds time, const Draws& draws, Reading& reading) const override {
-    write(time, draws(0), reading);
-  }
-
-  void write(Nanoseconds time, Rng rng, Reading& reading) const {
-    const double noise = noise_stddev > 0.0 ? noise_stddev * rng.gaussian() : 0.0;
+  void read(Nanoseconds time, const Draws&, Reading& reading) const override {
     reading.set("load", load);
     reading.set("connected", connected);
-    reading.set("power", power + noise);
+    reading.set("power", power);
     reading.set("energy", energy_at(time));
   }
 };
@@ -35,7 +29,7 @@ struct Metering : LazyReading {
 }  // namespace
 
 /// A metering plug: the power of the device that it feeds, and the energy since its start.
-class SmartPlug : public Sensor, public NoisySensor {
+class SmartPlug : public Sensor {
  public:
   Nanoseconds sample_period() const override { return kSecond / 50; }
 
@@ -45,10 +39,10 @@ class SmartPlug : public Sensor, public NoisySensor {
     kind_ = metering_.load.substr(0, bar);
     if (bar != std::string::npos) name_ = metering_.load.substr(bar + 1);
     standby_ = params.number("standby", 0.0, "W", "up to which the load is off", kNotNegative);
-    metering_.noise_stddev = params.number("noise_stddev", 0.0, "W", "of a power", kNotNegative);
+    params.noise("power", "W", "of a power");
   }
 
-  void read(const View& view, Hits, Rng& rng, Reading& reading) override {
+  void read(const View& view, Hits, Rng&, Reading& reading) override {
     const Nanoseconds now = view.time();
     if (sampled_at_ < 0 || now < sampled_at_) {  // the first, or the clock was set back
       sampled_at_ = metering_.since = now;
@@ -66,17 +60,15 @@ class SmartPlug : public Sensor, public NoisySensor {
     // A change between two samples counts from the time of its state.
     if (power != metering_.power) set_power(power, std::clamp(changed, sampled_at_, now), reading);
     sampled_at_ = now;
-    metering_.write(now, rng, reading);
+    metering_.read(now, {}, reading);
   }
 
-  bool steady() const override { return true; }
-  bool varies() const override { return metering_.power > 0.0 || metering_.noise_stddev > 0.0; }
-  double no_event_probability() const override { return 1.0; }
-  int memory() const override { return 0; }
+  Nanoseconds idle_until(const Ahead&) const override { return kForever; }
   std::shared_ptr<const LazyReading> lazy_reading() const override {
+    if (metering_.power == 0.0) return nullptr;
     return std::make_shared<Metering>(metering_);
   }
-  void resume(Nanoseconds time, const Draws&) override { sampled_at_ = time; }
+  void skip(Nanoseconds time, const Draws&) override { sampled_at_ = time; }
 
  private:
   void set_power(double power, Nanoseconds at, Reading& reading) {

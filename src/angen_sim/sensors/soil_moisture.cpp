@@ -41,7 +41,7 @@ class SoilMoisture : public Sensor {
     reading.set("dry", dry);
   }
 
-  bool steady() const override { return true; }
+  Nanoseconds idle_until(const Ahead&) const override { return kForever; }
 
  private:
   double dry_below_ = 0.0;  // %

@@ -311,7 +311,8 @@ void Building::displace(const std::string& kind, const std::string& name, const 
     if (sensor.kind != kind || sensor.name != name) continue;
     sensor.pose = sensor.pose * by;
     sensor.forget_regions();
-    sensor.activity = {};
+    sensor.idle = sensor.up_to_date = false;
+    sensor.unchanged = 0;
   }
   note_change(number_of(*at->second));
 }

@@ -121,21 +121,19 @@ void DeviceSystem::execute_commands(Building& building, Clock clock, std::vector
   activate_all();
 }
 
-std::int64_t DeviceSystem::next_tick(Building& building, Clock clock, bool long_steps) {
+std::int64_t DeviceSystem::next_end(Building& building, Clock clock, bool moving) {
   if (outdated_) list(building);
   Nanoseconds first = kForever - clock.step;
   for (const std::uint32_t i : active_) {
-    if (long_steps && entries_[i].device->device->takes_long_steps()) continue;
-    if (!is_idle(*entries_[i].live, *entries_[i].device, clock)) return clock.time / clock.step;
+    if (moving && entries_[i].device->device->takes_long_steps()) continue;
+    if (!is_idle(*entries_[i].live, *entries_[i].device, clock)) return clock.time / clock.step + 1;
     first = std::min(first, entries_[i].device->idle_until);
   }
   if (!timers_.empty()) first = std::min(first, timers_.top().time);
-  std::int64_t tick = (first + clock.step - 1) / clock.step;
-  if (!to_report_.empty()) {  // the next report is at the end of the tick before
-    const Nanoseconds report = (clock.time / kReportPeriod + 1) * kReportPeriod;
-    tick = std::min(tick, (report + clock.step - 1) / clock.step - (long_steps ? 0 : 1));
-  }
-  return tick;
+  const std::int64_t end = (first + clock.step - 1) / clock.step + (moving ? 0 : 1);
+  if (to_report_.empty()) return end;
+  const Nanoseconds report = (clock.time / kReportPeriod + 1) * kReportPeriod;
+  return std::min(end, (report + clock.step - 1) / clock.step);
 }
 
 void DeviceSystem::place_limbs(Engines& engines, const LiveModel& live, DeviceInstance& device) {

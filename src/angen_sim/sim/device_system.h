@@ -27,9 +27,10 @@ class DeviceSystem {
   /// once, the others 50 times a second.
   void report(Building& building, Clock clock, Snapshot& next);
 
-  /// The tick that devices need next, while no body is awake; `long_steps`: while only bodies are
-  /// whose devices take these, which are left out.
-  std::int64_t next_tick(Building& building, Clock clock, bool long_steps = false);
+  /// The end of the next tick that devices need: of one that starts when a device acts, while no
+  /// body is awake. If some are `moving`, the devices that take long steps are left out, and a step
+  /// ends when another acts.
+  std::int64_t next_end(Building& building, Clock clock, bool moving);
 
   bool lights_changed() const { return lights_changed_; }
 

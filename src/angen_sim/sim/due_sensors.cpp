@@ -85,14 +85,25 @@ void DueSensors::list(Building& building, Nanoseconds now) {
       entries_.push_back({live.get(), &sensor});
     }
   }
-  checked_.assign(entries_.size(), kForever);
+  idle_until_.assign(entries_.size(), 0);
   scheduler_.assign(schedules, now);
 }
 
+/// Activates sensors near which something has changed, or whose next sample is not known to be
+/// without an event.
 void DueSensors::activate(const Engines& engines, SensorScheduler::Group& group, Clock clock) {
   if (group.idle.empty()) return;
   activate_changed(engines, group);
-  if (group.next_check <= clock.time) activate_for_events(group, clock);
+  if (group.idle_until <= clock.time) {
+    group.idle_until = kForever;
+    for (const std::uint32_t index : group.idle) {
+      if (is_idle(index, clock)) {
+        group.idle_until = std::min(group.idle_until, idle_until_[index]);
+      } else {
+        scheduler_.activate(index);
+      }
+    }
+  }
   scheduler_.update_lists(group);
 }
 
@@ -105,51 +116,53 @@ void DueSensors::activate_changed(const Engines& engines, const SensorScheduler:
   });
 }
 
-/// Activates sensors whose noise may cause an event now.
-void DueSensors::activate_for_events(SensorScheduler::Group& group, Clock clock) {
-  group.next_check = kForever;
-  for (const std::uint32_t index : group.idle) {
-    if (checked_[index] <= clock.time) {
-      SensorInstance& sensor = *entries_[index].sensor;
-      if (!has_no_event(sensor, clock)) {
-        scheduler_.activate(index);
-        continue;
-      }
-      checked_[index] = next_check(sensor, clock);
-    }
-    group.next_check = std::min(group.next_check, checked_[index]);
-  }
-}
-
-DueSensors::Visit DueSensors::visit(const Engines& engines, std::uint32_t index, Clock clock) {
+DueSensors::Visit DueSensors::visit(const Engines& engines, std::uint32_t index, Clock clock,
+                                    Snapshot& next) {
   SensorInstance& sensor = *entries_[index].sensor;
   if (!sensor.error.empty()) return Visit::kNothing;
-  if (sensor.activity.state() == SensorActivity::State::kActive && sensor.on_demand()) {
+  if (sensor.on_demand()) {
     return requested_.has(sensor.kind, sensor.name) ? Visit::kSample : Visit::kNothing;
   }
-  if (!unchanged(engines, entries_[index])) {
-    sensor.activity.note_changed();
-    return Visit::kSample;
-  }
-  sensor.activity.note_unchanged();
-  return needs_no_sample(sensor, clock) ? Visit::kPublish : Visit::kSample;
+  const bool changed = !unchanged(engines, entries_[index]);
+  sensor.unchanged = changed ? 0 : sensor.unchanged + 1;
+  if (!sensor.idle) idle_until_[index] = 0;  // it may depend on `unchanged`
+  if (changed || !is_idle(index, clock)) return Visit::kSample;
+  if (!sensor.idle && !begin_idle(index, sensor, next)) return Visit::kSample;
+  stop_visits(engines, index);
+  return Visit::kRepeat;
 }
 
-/// Whether a sensor for which nothing has changed can do without a sample.
-bool DueSensors::needs_no_sample(SensorInstance& sensor, Clock clock) const {
-  const SensorActivity& activity = sensor.activity;
-  if (activity.steady()) return true;
-  if (activity.state() == SensorActivity::State::kActive || !sensor.published.reading) return false;
-  if (!activity.lazy()) {
-    const NoisySensor* noisy = sensor.noisy;
-    if (!activity.settled(noisy != nullptr ? noisy->memory() : 0)) return false;
-    NoiseForecast& forecast = sensor.forecast;
-    const Nanoseconds event = noisy != nullptr ? noisy->next_event() : kForever;
-    if (event != forecast.next_event) forecast = {};
-    forecast.next_event = event;
-    forecast.no_event_probability = noisy != nullptr ? noisy->no_event_probability() : 1.0;
+/// Queries the sensor again when its last answer is over.
+bool DueSensors::is_idle(std::uint32_t index, Clock clock) {
+  if (idle_until_[index] <= clock.time) {
+    idle_until_[index] = idle_until(*entries_[index].sensor, clock.time - clock.step);
   }
-  return has_no_event(sensor, clock);
+  return idle_until_[index] > clock.time;
+}
+
+/// When a sample after the time `after` may next be another.
+Nanoseconds DueSensors::idle_until(SensorInstance& sensor, Nanoseconds after) const {
+  if (sensor.on_demand()) return 0;
+  return sensor.sensor->idle_until(SamplesAhead(sensor.unchanged, sensor.schedule, after, seed_,
+                                                sensor.key, sensor.known_noise));
+}
+
+bool DueSensors::note_sampled(std::uint32_t index, Clock clock) {
+  SensorInstance& sensor = *entries_[index].sensor;
+  idle_until_[index] = idle_until(sensor, clock.time);
+  return idle_until_[index] > clock.time;
+}
+
+/// From now on the sensor repeats its reading, if that is the last one, or makes it when it is
+/// read.
+bool DueSensors::begin_idle(std::uint32_t index, SensorInstance& sensor, Snapshot& next) {
+  std::shared_ptr<const LazyReading> lazy = sensor.lazy_reading();
+  if (lazy ? !sensor.published.reading : !sensor.up_to_date) return false;
+  sensor.idle = true;
+  if (!lazy) return true;
+  sensor.published.lazy = std::move(lazy);
+  next.sensors.set(index, sensor.published);
+  return true;
 }
 
 bool DueSensors::unchanged(const Engines& engines, const Entry& entry) {
@@ -164,11 +177,9 @@ bool DueSensors::unchanged(const Engines& engines, const Entry& entry) {
   });
 }
 
-/// A sensor that only changes in its watch regions, or of its model, can activate is not visited
-/// until then.
-void DueSensors::make_idle(const Engines& engines, std::uint32_t index, Clock clock) {
-  SensorInstance& sensor = *entries_[index].sensor;
-  if (!sensor.activity.skips() || !sensor.queried.only_in_regions(sensor.near != nullptr)) return;
+void DueSensors::stop_visits(const Engines& engines, std::uint32_t index) {
+  const SensorInstance& sensor = *entries_[index].sensor;
+  if (!sensor.queried.only_in_regions(sensor.near != nullptr)) return;
   const auto known = [](const auto& watched) {
     return watched && watched->region.number() != kNobody;
   };
@@ -179,8 +190,7 @@ void DueSensors::make_idle(const Engines& engines, std::uint32_t index, Clock cl
   if (sensor.near) owners_[sensor.near->region.number()] = index;
   scheduler_.make_idle(index);
   SensorScheduler::Group& group = scheduler_.group(scheduler_.group_of(index));
-  checked_[index] = sensor.activity.lazy() ? next_check(sensor, clock) : kForever;
-  group.next_check = std::min(group.next_check, checked_[index]);
+  group.idle_until = std::min(group.idle_until, idle_until_[index]);
 }
 
 void DueSensors::publish_idle(const Engines& engines, Clock clock, Snapshot& next) {
@@ -202,6 +212,50 @@ void DueSensors::note_moved(const LiveModel& live) {
   for (std::uint32_t i = 0; i < live.sensors.size(); ++i) {
     if (scheduler_.is_idle(live.first_sensor + i)) scheduler_.activate(live.first_sensor + i);
   }
+}
+
+std::int64_t DueSensors::next_end(Building& building, Clock clock, std::int64_t end) {
+  if (outdated_) list(building, clock.time);
+  const std::int64_t soonest = clock.time / clock.step + 1;
+  const Engines& engines = building.engines();
+  const auto stop_at = [&](Nanoseconds time) { end = std::min(end, time / clock.step); };
+  const auto stop_for = [&](const Schedule& schedule, Nanoseconds until) {
+    if (until / clock.step >= end) return;
+    stop_at(schedule.next_sample(std::max(clock.time, until - clock.step)));
+  };
+  stop_at(clock.time + SamplesAhead::kFarthest + clock.step);
+  stop_at(std::max(engines.next_light(), clock.time + clock.step));
+  for (const SensorScheduler::Group& group : scheduler_.groups()) {
+    if (end <= soonest) return soonest;
+    if (group.idle.empty()) continue;
+    activate_changed(engines, group);
+    stop_for(group.schedule, group.idle_until);
+  }
+  for (std::uint32_t index = 0; index < entries_.size() && end > soonest; ++index) {
+    const SensorInstance& sensor = *entries_[index].sensor;
+    if (!sensor.error.empty() || scheduler_.is_idle(index)) continue;
+    if (sensor.on_demand() && !requested_.has(sensor.kind, sensor.name)) continue;
+    const bool is_idle = sensor.idle && unchanged(engines, entries_[index]);
+    stop_for(sensor.schedule, is_idle ? idle_until_[index] : 0);
+  }
+  return end;
+}
+
+void DueSensors::skip_to(Clock clock, std::int64_t tick, Snapshot& next) {
+  const Nanoseconds to = tick * clock.step;
+  const Schedule* last = nullptr;
+  std::uint64_t each = 0;
+  for (const Entry& entry : entries_) {
+    const SensorInstance& sensor = *entry.sensor;
+    if (sensor.on_demand() || !sensor.error.empty()) continue;
+    if (last == nullptr || !(*last == sensor.schedule)) {  // mostly many have the same
+      last = &sensor.schedule;
+      each = static_cast<std::uint64_t>(last->publications(to) - last->publications(clock.time));
+    }
+    next.counts.readings += each;
+  }
+  next.new_readings.clear();
+  scheduler_.requeue(to);
 }
 
 }  // namespace angen::sim

@@ -89,7 +89,7 @@ Parts Engines::add(const desc::Model& model) {
       const desc::Visual visual = like < 0 ? desc::Visual{} : link.visuals[like];
       const rays::ShapeId shape = rays.add(collision.shape, pose * collision.pose, mobility,
                                            visual.material.diffuse.head<3>());
-      if (visual.temperature) rays.warm(shape, *visual.temperature);
+      if (visual.temperature) rays.warm(shape, Warming::constant(*visual.temperature));
       const int posture = Anatomy::find(link.anatomy.postures, collision.name);
       const std::string name = model.name + "::" + link.name + "::" + collision.name;
       parts.shapes.push_back({shape, i, collision.pose, like < 0 ? -1 : first_visual + like,

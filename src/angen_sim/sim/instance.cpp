@@ -46,17 +46,20 @@ std::set<std::string> fixed_to_world(const desc::Model& model) {
   return joined_to(std::move(fixed), model, true, is_fixed);
 }
 
-/// The reading of a sensor whose noise is declared, while its values before noise stay.
-class CleanWithNoise : public LazyReading {
+/// Adds declared noise to the readings of a lazy reading, or to one that stays.
+class LazyWithNoise : public LazyReading {
  public:
-  CleanWithNoise(Reading clean, std::vector<Noise> noise)
-      : clean_(std::move(clean)), noise_(std::move(noise)) {}
-  void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
-    reading.fields = with_noise(noise_, clean_, draws(0)).fields;
+  LazyWithNoise(std::shared_ptr<const LazyReading> clean, Reading last, std::vector<Noise> noise)
+      : clean_(std::move(clean)), last_(std::move(last)), noise_(std::move(noise)) {}
+  void read(Nanoseconds time, const Draws& draws, Reading& reading) const override {
+    reading.fields = last_.fields;
+    if (clean_) clean_->read(time, draws, reading);
+    reading.fields = with_noise(noise_, reading, draws(0)).fields;
   }
 
  private:
-  Reading clean_;
+  std::shared_ptr<const LazyReading> clean_;  // null: the last one
+  Reading last_;
   std::vector<Noise> noise_;
 };
 
@@ -91,12 +94,11 @@ std::size_t own_sensors(const desc::Model& model) {
 void CachedScan::measure(Engines& engines) {
   cache.measure(engines.rays);
   region.resize(cache.reach());
-  changed = true;
   settled_at = 0;
   settled = 0;
 }
 
-bool CachedScan::cast(const Engines& engines, MoverIndex::SplitMovers& scratch,
+void CachedScan::cast(const Engines& engines, MoverIndex::SplitMovers& scratch,
                       std::vector<rays::Hit>& hits) {
   const MoverIndex::Moment now = engines.movers.now();
   hits.resize(cache.size());
@@ -108,12 +110,8 @@ bool CachedScan::cast(const Engines& engines, MoverIndex::SplitMovers& scratch,
     region.split(settled_at, scratch);
     settled = scratch.still.size();
     cache.settle(engines.rays, scratch.still);
-    changed = true;
   }
-  const bool meets = cache.cast(engines.rays, scratch.moving, hits.data());
-  const bool same = !changed && !meets;
-  changed = meets;
-  return same;
+  cache.cast(engines.rays, scratch.moving, hits.data());
 }
 
 void SensorInstance::forget_regions() {
@@ -122,15 +120,11 @@ void SensorInstance::forget_regions() {
   near.reset();
 }
 
-bool SensorInstance::varies() const {
-  if (noisy != nullptr) return noisy->varies();
-  return std::any_of(noise.begin(), noise.end(),
-                     [&](const Noise& each) { return each.varies(clean); });
-}
-
 std::shared_ptr<const LazyReading> SensorInstance::lazy_reading() const {
-  if (noisy != nullptr) return noisy->lazy_reading();
-  return std::make_shared<CleanWithNoise>(clean, noise);
+  std::shared_ptr<const LazyReading> own = sensor->lazy_reading();
+  const auto varies = [&](const Noise& each) { return own || each.varies(clean); };
+  if (std::none_of(noise.begin(), noise.end(), varies)) return own;
+  return std::make_shared<LazyWithNoise>(std::move(own), clean, noise);
 }
 
 Numbering numbering_after(const LiveModel& live) {
@@ -206,7 +200,6 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
     }
     if (!instance.sensor) throw Error(described.plugin + " has no sensor");
     Params& params = *read;
-    instance.noisy = dynamic_cast<NoisySensor*>(instance.sensor.get());
     instance.kind = instance.plugin->kind().name;
     instance.name = name;
     instance.key = hash_bytes(instance.kind + "/" + name);

@@ -10,8 +10,8 @@
 #include "plugin/library.h"
 #include "rays/ray_cache.h"
 #include "sim/engines.h"
+#include "sim/samples_ahead.h"
 #include "sim/schedule.h"
-#include "sim/sensor_activity.h"
 #include "sim/snapshot.h"
 
 namespace angen::sim {
@@ -47,12 +47,11 @@ struct CachedScan {
   /// Casts against the static scene again, after static shapes came or went; the scene must be
   /// committed.
   void measure(Engines& engines);
-  /// The hits now. Returns whether they are surely equal to those of the last cast.
-  bool cast(const Engines& engines, MoverIndex::SplitMovers& scratch, std::vector<rays::Hit>& hits);
+  /// The hits now.
+  void cast(const Engines& engines, MoverIndex::SplitMovers& scratch, std::vector<rays::Hit>& hits);
 
   rays::RayCache cache;
   MoverIndex::WatchRegion region;
-  bool changed = true;                // since the last cast, or a mover was hit then
   MoverIndex::Moment settled_at = 0;  // movers that have not moved since are settled in the cache
   std::size_t settled = 0;            // how many
 };
@@ -97,14 +96,6 @@ struct Queried {
   }
 };
 
-/// Forecast of a lazy sensor's noise.
-struct NoiseForecast {
-  double no_event_probability = 0.0;  // see NoisySensor
-  Nanoseconds next_event = kForever;  // see NoisySensor
-  Nanoseconds no_event_until = 0;     // no sample up to then may have an event
-  Nanoseconds possible_event_at = 0;  // the next one that may; known when later than now
-};
-
 struct SensorInstance : SensorInfo {
   // Each due time reads these, and the schedule beside them: with many sensors they are not
   // in the CPU's cache.
@@ -112,12 +103,13 @@ struct SensorInstance : SensorInfo {
   std::unique_ptr<WatchedLight> light;             // null if light may come from anywhere
   std::unique_ptr<WatchedRays> near;               // null if all shapes matter
   MoverIndex::Moment seen = 0;                     // its last sample has all changes before
-  SensorActivity activity;
+  bool idle = false;        // its samples are replaced until something changes
+  bool up_to_date = false;  // the last published reading has the values of its last sample
+  int unchanged = 0;        // due times in a row at which all that it queries was
   Queried queried{false, false, false, true, 0, false, false, false};  // for its reading
   bool link_moves = true;  // false if its link is static
 
   std::unique_ptr<Sensor> sensor;
-  NoisySensor* noisy = nullptr;                // `sensor`, where it applies its noise itself
   std::vector<Noise> noise;                    // noise that is added to its readings
   std::uint32_t link = 0;                      // in its model
   std::vector<std::string> collisions;         // full names, by ContactRef
@@ -130,15 +122,13 @@ struct SensorInstance : SensorInfo {
   Pose seen_from;                   // at its last sample, if its link moves
   std::uint64_t contacts_seen = 0;  // their revisions at its last sample
   std::uint64_t light_seen = 0;     // light's revision at its last sample
-  NoiseForecast forecast;
+  KnownNoise known_noise;
   Nanoseconds cost = 0;  // CPU time that the meter counts
   std::string error;     // text of its exception; it is not called again
 
   /// Forgets the regions that it watches; they are found again with its next sample.
   void forget_regions();
-  /// Whether readings of a steady sensor differ from sample to sample.
-  bool varies() const;
-  /// Makes its readings while nothing changes.
+  /// Makes its readings while nothing changes; null if they are the last one.
   std::shared_ptr<const LazyReading> lazy_reading() const;
 };
 

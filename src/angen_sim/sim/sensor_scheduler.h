@@ -18,7 +18,7 @@ class SensorScheduler {
     Schedule schedule;                  // schedule of all its sensors
     std::vector<std::uint32_t> active;  // ascending
     std::vector<std::uint32_t> idle;    // idle sensors, ascending
-    Nanoseconds next_check = kForever;  // until then no idle one's noise may cause an event
+    Nanoseconds idle_until = kForever;  // until then none of these is to be queried
     MoverIndex::Moment checked = 0;     // idle ones were activated for all changes before
 
     bool publishes(Nanoseconds now) const {

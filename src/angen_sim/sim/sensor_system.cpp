@@ -33,8 +33,7 @@ bool stands_still(const Engines& engines, const LiveModel& live, SensorInstance&
 /// Whether the latest reading has nothing that the last published one has not.
 bool as_published(const SensorInstance& sensor) {
   const Reading& reading = sensor.latest;
-  return sensor.activity.published() && !reading.urgent &&
-         reading.event == sensor.published.reading->event &&
+  return sensor.up_to_date && !reading.urgent && reading.event == sensor.published.reading->event &&
          reading.same_values(*sensor.published.reading);
 }
 
@@ -61,36 +60,16 @@ void SensorSystem::sample(Building& building, Clock clock, std::int64_t tick, Sn
 }
 
 void SensorSystem::visit(Building& building, std::uint32_t index, Clock clock, Snapshot& next) {
-  switch (due_.visit(building.engines(), index, clock)) {
-    case DueSensors::Visit::kNothing:
-      return;
-    case DueSensors::Visit::kPublish:
-      publish_unsampled(index, clock, next);
-      due_.make_idle(building.engines(), index, clock);
-      return;
-    case DueSensors::Visit::kSample:
-      begin_sample(building, index, clock, next);
+  const DueSensors::Visit visit = due_.visit(building.engines(), index, clock, next);
+  if (visit == DueSensors::Visit::kSample) begin_sample(building, index, clock, next);
+  if (visit == DueSensors::Visit::kRepeat && publishes(*due_[index].sensor, clock)) {
+    repeat(index, next);
   }
-}
-
-/// Publishes for a sensor that needs no sample.
-void SensorSystem::publish_unsampled(std::uint32_t index, Clock clock, Snapshot& next) {
-  SensorInstance& sensor = *due_[index].sensor;
-  if (sensor.activity.steady()) {
-    if (publishes(sensor, clock)) publish(index, clock.time, next);
-    return;
-  }
-  if (!sensor.activity.lazy()) {
-    sensor.published.lazy = sensor.lazy_reading();
-    sensor.activity.become_lazy();
-    next.sensors.set(index, sensor.published);
-  }
-  if (publishes(sensor, clock)) repeat(index, next);
 }
 
 void SensorSystem::begin_sample(Building& building, std::uint32_t index, Clock clock,
                                 Snapshot& next) {
-  if (due_[index].sensor->activity.lazy()) resume(index, clock, next);
+  end_idle(index, clock, next);
   const std::size_t others = rays_.size();
   const std::string thrown = thrown_by([&] { aim(building, index, clock); });
   if (thrown.empty()) return;
@@ -139,10 +118,9 @@ void SensorSystem::cast(Engines& engines) {
   }
 }
 
-/// `same`: they are those of the last sample.
-Hits SensorSystem::hits_of(Engines& engines, const Sample& sample, bool& same) {
+Hits SensorSystem::hits_of(Engines& engines, const Sample& sample) {
   if (sample.scan == nullptr) return {hits_.data() + sample.first_ray, sample.ray_count};
-  same = sample.scan->cast(engines, split_, cached_hits_);
+  sample.scan->cast(engines, split_, cached_hits_);
   return {cached_hits_.data(), cached_hits_.size()};
 }
 
@@ -150,23 +128,20 @@ void SensorSystem::read(Building& building, const Sample& sample, Clock clock, s
                         Snapshot& next) {
   SensorInstance& sensor = *due_[sample.index].sensor;
   Engines& engines = building.engines();
-  bool same = false;
-  const Hits hits = hits_of(engines, sample, same);
+  const Hits hits = hits_of(engines, sample);
   sensor.seen = engines.movers.now() + 1;
-  if (!same || !sensor.activity.steady() || sensor.queried.any()) {
-    const std::string thrown = thrown_by(
-        [&] { note_sampled(engines, sample, measure(building, sample, hits, clock, tick)); });
-    if (!thrown.empty()) {
-      fail(sample.index, thrown, clock.time, next);
-      return;
-    }
-    const Reading& reading = sensor.latest;
-    if (!reading.event.empty()) {
-      next.events.push_back(
-          {clock.time, sensor.name, sensor.kind, reading.event, reading.event_detail});
-    }
+  const std::string thrown = thrown_by(
+      [&] { note_sampled(engines, sample, measure(building, sample, hits, clock, tick), clock); });
+  if (!thrown.empty()) {
+    fail(sample.index, thrown, clock.time, next);
+    return;
   }
-  if (publishes(sensor, clock) || (sensor.latest.urgent && !sensor.activity.published())) {
+  const Reading& reading = sensor.latest;
+  if (!reading.event.empty()) {
+    next.events.push_back(
+        {clock.time, sensor.name, sensor.kind, reading.event, reading.event_detail});
+  }
+  if (publishes(sensor, clock) || (reading.urgent && !sensor.up_to_date)) {
     publish(sample.index, clock.time, next);
   }
   sensor.cost += meter_.watch.lap();
@@ -193,10 +168,10 @@ Queried SensorSystem::measure(Building& building, const Sample& sample, Hits hit
 
 /// Notes on which values its next samples depend.
 void SensorSystem::note_sampled(const Engines& engines, const Sample& sample,
-                                const Queried& queried) {
+                                const Queried& queried, Clock clock) {
   SensorInstance& sensor = *due_[sample.index].sensor;
-  const bool steady = !sensor.on_demand() && sensor.sensor->steady();
-  sensor.activity.sampled(steady, steady && sensor.varies(), as_published(sensor));
+  sensor.up_to_date =
+      due_.note_sampled(sample.index, clock) && as_published(sensor) && !sensor.lazy_reading();
   sensor.queried = sample.queried | queried;
   const bool light_twice = sample.queried.light && queried.light;
   sensor.queried.other =
@@ -207,8 +182,8 @@ void SensorSystem::note_sampled(const Engines& engines, const Sample& sample,
 
 void SensorSystem::publish(std::uint32_t index, Nanoseconds now, Snapshot& next) {
   SensorInstance& sensor = *due_[index].sensor;
-  if (!sensor.activity.published()) {
-    sensor.activity.publish();
+  if (!sensor.up_to_date) {
+    sensor.up_to_date = true;
     sensor.latest.stamp = now;
     sensor.published = {std::make_shared<const Reading>(sensor.latest), nullptr};
     next.sensors.set(index, sensor.published);
@@ -221,14 +196,12 @@ void SensorSystem::repeat(std::uint32_t index, Snapshot& next) {
   ++next.counts.readings;
 }
 
-/// Ends the time in which the sensor's lazy reading replaced its samples.
-void SensorSystem::resume(std::uint32_t index, Clock clock, Snapshot& next) {
+/// Ends the time in which the sensor repeated its reading, or a lazy one replaced its samples.
+void SensorSystem::end_idle(std::uint32_t index, Clock clock, Snapshot& next) {
   SensorInstance& sensor = *due_[index].sensor;
-  sensor.activity.resume();
+  if (!std::exchange(sensor.idle, false) || !sensor.published.lazy) return;
   const Nanoseconds last = sensor.schedule.last_sample(clock.time - clock.step);
-  if (sensor.noisy != nullptr) {
-    sensor.noisy->resume(last, draws_at(sensor.schedule, last, seed_, sensor.key));
-  }
+  sensor.sensor->skip(last, draws_at(sensor.schedule, last, seed_, sensor.key));
   if (publishes(sensor, clock)) return;
   sensor.published = {next.reading(index), nullptr};  // it may be lazy again before the next
   next.sensors.set(index, sensor.published);
@@ -240,7 +213,7 @@ void SensorSystem::fail(std::uint32_t index, const std::string& error, Nanosecon
   SensorInstance& sensor = *due_[index].sensor;
   sensor.error = error;
   sensor.scans.clear();
-  if (sensor.activity.lazy()) sensor.activity.resume();
+  sensor.idle = false;
   sensor.latest.stamp = now;
   sensor.latest.set(kErrorField, error);
   sensor.published = {std::make_shared<const Reading>(sensor.latest), nullptr};

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/due_sensors.h"
+#include "sim/meter.h"
 
 namespace angen::sim {
 
@@ -13,7 +14,7 @@ namespace angen::sim {
 class SensorSystem {
  public:
   SensorSystem(std::uint64_t seed, const RequestedSensors& requested, Meter& meter)
-      : seed_(seed), meter_(meter), due_(seed, requested, meter) {}
+      : seed_(seed), meter_(meter), due_(seed, requested) {}
 
   /// The samples of a tick.
   void sample(Building& building, Clock clock, std::int64_t tick, Snapshot& next);
@@ -29,19 +30,19 @@ class SensorSystem {
   };
 
   void visit(Building& building, std::uint32_t index, Clock clock, Snapshot& next);
-  void publish_unsampled(std::uint32_t index, Clock clock, Snapshot& next);
   void begin_sample(Building& building, std::uint32_t index, Clock clock, Snapshot& next);
   void aim(Building& building, std::uint32_t index, Clock clock);
   void cast(Engines& engines);
-  Hits hits_of(Engines& engines, const Sample& sample, bool& same);
+  Hits hits_of(Engines& engines, const Sample& sample);
   void read(Building& building, const Sample& sample, Clock clock, std::int64_t tick,
             Snapshot& next);
   Queried measure(Building& building, const Sample& sample, Hits hits, Clock clock,
                   std::int64_t tick) const;
-  void note_sampled(const Engines& engines, const Sample& sample, const Queried& queried);
+  void note_sampled(const Engines& engines, const Sample& sample, const Queried& queried,
+                    Clock clock);
   void publish(std::uint32_t index, Nanoseconds now, Snapshot& next);
   static void repeat(std::uint32_t index, Snapshot& next);
-  void resume(std::uint32_t index, Clock clock, Snapshot& next);
+  void end_idle(std::uint32_t index, Clock clock, Snapshot& next);
   void fail(std::uint32_t index, const std::string& error, Nanoseconds now, Snapshot& next);
 
   std::uint64_t seed_;

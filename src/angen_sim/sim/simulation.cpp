@@ -70,47 +70,42 @@ struct Simulation::Impl {
             building.changed_models(), building.saved_lights()};
   }
 
-  void leap(Nanoseconds until) {
-    std::int64_t tick = until / next.step - 1;
-    if (tick <= next.tick || !next.events.empty()) return;
-    if (building.engines().physics.awake_count() > 0) return;
-    tick = std::min(tick, (building.engines().next_rest() - 1) / next.step);
-    tick = std::min(tick, devices.next_tick(building, clock()));
-    const Nanoseconds push = std::min(building.pushes().next(next.time), kForever - next.step);
-    tick = std::min(tick, (push + next.step - 1) / next.step);
-    tick = std::min(tick, fault_tick() - 1);
-    const std::int64_t most = commands.ticks_to_go() - 1;
-    if (most < tick - next.tick) tick = next.tick + most;
-    if (tick <= next.tick) return;
-    tick = sensors.due().next_tick(building, clock(), tick);
+  /// The tick that starts or ends at that time, or next after it.
+  std::int64_t tick_of(Nanoseconds time) const {
+    return (std::min(time, kForever - next.step) + next.step - 1) / next.step;
+  }
+
+  /// The end of the next tick, up to which time can pass at once: in a leap up to its start while
+  /// nothing moves, in one step while only people move. A device or a push needs a tick that starts
+  /// at its time; a sensor, a fault, or a body that comes to rest, one that ends then.
+  std::int64_t next_end(Nanoseconds until, bool long_steps) {
+    const Engines& engines = building.engines();
+    const bool moving = engines.physics.awake_count() > 0;
+    const std::int64_t soonest = next.tick + 1;
+    if (moving) {
+      if (!long_steps) return soonest;
+      const Nanoseconds longest = engines.physics.longest_step(kLongStep / next.step) * next.step;
+      until = std::min(until, (next.time / longest + 1) * longest);
+    }
+    if (until / next.step <= soonest || (!moving && !next.events.empty())) return soonest;
+    const std::int64_t end = std::min(
+        {until / next.step, tick_of(engines.next_rest()), tick_of(building.faults().next()),
+         tick_of(building.pushes().next(next.time)) + (moving ? 0 : 1)});
+    const std::int64_t steps = std::min(end - next.tick, commands.ticks_to_go());
+    if (steps <= 1) return soonest;
+    return std::max(soonest,
+                    sensors.due().next_end(
+                        building, clock(),
+                        std::min(next.tick + steps, devices.next_end(building, clock(), moving))));
+  }
+
+  /// Time passes without ticks.
+  void skip_to(std::int64_t tick) {
     if (tick <= next.tick) return;
     sensors.due().skip_to(clock(), tick, next);
-    commands.ticks_done(tick - next.tick);
     next.tick = tick;
     next.time = tick * next.step;
-  }
-
-  /// The tick at whose end a fault shows something that no sensor sends.
-  std::int64_t fault_tick() {
-    const Nanoseconds time = building.faults().next();
-    return time > kForever - next.step ? kForever : (time + next.step - 1) / next.step;
-  }
-
-  /// The end of the next tick. A longer one ends when a sensor needs one, or a device that takes no
-  /// long steps.
-  std::int64_t next_end(Nanoseconds until, bool long_steps) {
-    const std::int64_t here = next.tick;
-    const Engines& engines = building.engines();
-    if (!long_steps || engines.physics.awake_count() == 0) return here + 1;
-    const Nanoseconds longest = engines.physics.longest_step(kLongStep / next.step) * next.step;
-    if (longest <= next.step) return here + 1;
-    std::int64_t end = std::min((next.time / longest + 1) * longest, until) / next.step;
-    const Nanoseconds push = std::min(building.pushes().next(next.time), kForever - next.step);
-    end = std::min({end, engines.next_rest() / next.step, push / next.step, fault_tick(),
-                    devices.next_tick(building, clock(), true)});
-    if (commands.ticks_to_go() < end - here) end = here + commands.ticks_to_go();
-    if (end <= here + 1) return here + 1;
-    return sensors.due().next_tick(building, clock(), end - 1) + 1;
+    meter.rest.sensors += meter.watch.lap();
   }
 
   std::shared_ptr<const Snapshot> take_tick(Nanoseconds until, bool long_steps = false) {
@@ -118,15 +113,15 @@ struct Simulation::Impl {
     drain();
     meter.rest.commands += meter.watch.lap();
     if (commands.running()) {
-      const Nanoseconds from = next.time;
-      leap(until);
+      const std::int64_t first = next.tick;
       const std::int64_t end = next_end(until, long_steps);
+      if (building.engines().physics.awake_count() == 0) skip_to(end - 1);
       act();
       move(end);
       meter.rest.physics += meter.watch.lap();
       observe();
-      commands.ticks_done(last_ticks);
-      if (meter.on) meter.rest.simulated += next.time - from;
+      commands.ticks_done(end - first);
+      if (meter.on) meter.rest.simulated += (end - first) * next.step;
     }
     std::shared_ptr<const Snapshot> made = publish();
     meter.rest.snapshots += meter.watch.lap();
@@ -144,10 +139,7 @@ struct Simulation::Impl {
     const bool was_awake = engines.physics.awake_count() > 0;
     const bool was_crowded = engines.physics.crowded();
     last_ticks = end - next.tick;
-    if (last_ticks > 1) {
-      sensors.due().skip_to(clock(), end - 1, next);
-      next.tick = end - 1;
-    }
+    skip_to(end - 1);
     engines.physics.step(next.tick, last_ticks);
     if (was_awake || !engines.physics.moved().empty()) engines.note_change();
     ++next.tick;

@@ -10,12 +10,11 @@ void SurfaceTemperatures::set(rays::ShapeId shape, double temperature, double li
   remove(shape);
   note_changed(shape, moment).set = set_ = moment;
   ++times_set_;
-  if (!(time_constant > 0.0) || std::abs(temperature - limit) < Warming::kArrived) {
-    rays_.warm(shape, limit);
-    return;
-  }
-  rays_.warm(shape, temperature);
-  changing_.push_back({shape, {temperature, limit, time_constant, now}});
+  const bool changes = time_constant > 0.0 && std::abs(temperature - limit) >= Warming::kArrived;
+  const Warming course =
+      changes ? Warming{temperature, limit, time_constant, now} : Warming::constant(limit);
+  rays_.warm(shape, course);
+  if (changes) changing_.push_back({shape, course});
 }
 
 void SurfaceTemperatures::remove(rays::ShapeId shape) {
@@ -64,21 +63,14 @@ bool SurfaceTemperatures::set_since(Moment since, const Eigen::AlignedBox3d& wit
 
 void SurfaceTemperatures::advance(Nanoseconds now, Moment moment) {
   for (Changing& each : changing_) {
-    const double temperature = each.course.at(now);
-    rays_.warm(each.shape, temperature);
-    each.arrived = temperature == each.course.limit;
-    if (each.arrived) note_changed(each.shape, moment);
+    each.arrived = each.course.at(now) == each.course.limit;
+    if (!each.arrived) continue;
+    rays_.warm(each.shape, Warming::constant(each.course.limit));
+    note_changed(each.shape, moment);
   }
   changing_.erase(std::remove_if(changing_.begin(), changing_.end(),
                                  [](const Changing& each) { return each.arrived; }),
                   changing_.end());
-}
-
-Warming SurfaceTemperatures::warming(const rays::WarmShape& shape) const {
-  for (const Changing& each : changing_) {
-    if (each.shape.index == shape.shape) return each.course;
-  }
-  return {shape.temperature, shape.temperature, 0.0, 0};
 }
 
 }  // namespace angen::sim

@@ -22,10 +22,7 @@ class SurfaceTemperatures {
            Nanoseconds now, Moment moment);
   void remove(rays::ShapeId shape);
 
-  /// How the temperature of one of Scene::warm_shapes() changes until it is set again.
-  Warming warming(const rays::WarmShape& shape) const;
-
-  /// Gives the surfaces that change their temperatures at `now`.
+  /// Finds the surfaces that have come to their limits by `now`.
   void advance(Nanoseconds now, Moment moment);
 
   /// Whether one changes now, or was set or has come to its limit at `since` or later.

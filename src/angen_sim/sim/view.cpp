@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "plugin/view.h"
-#include "rays/shaft.h"
 
 namespace angen::sim {
 
@@ -74,12 +73,10 @@ const Home& InstanceView::home() const {
   return building_.home();
 }
 
-void InstanceView::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
-                        rays::Mobilities among) const {
+const rays::Scene& InstanceView::rays() const {
   queried_.other = queried_.other || !watches();
   engines_.rays.commit();
-  hits.resize(rays.size());
-  engines_.rays.cast(rays.data(), hits.data(), rays.size(), among);
+  return engines_.rays;
 }
 
 std::vector<std::uint32_t> InstanceView::own_shapes() const {
@@ -97,12 +94,6 @@ std::string InstanceView::model_of(std::uint32_t shape) const {
     }
   }
   return "";
-}
-
-rays::Shaft InstanceView::shaft(const Vec3& from, double near, std::uint32_t shape) const {
-  queried_.other = queried_.other || !watches();
-  engines_.rays.commit();
-  return engines_.rays.shaft(from, near, shape);
 }
 
 light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {
@@ -129,66 +120,30 @@ light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) c
 
 const std::vector<rays::WarmShape>& InstanceView::warm_shapes() const {
   queried_.heat = true;
-  queried_.other = queried_.other || !watches();
   engines_.surfaces.advance(clock_.time, engines_.movers.now());
-  engines_.rays.commit();
-  return engines_.rays.warm_shapes();
+  return rays().warm_shapes();
 }
 
-bool InstanceView::watches() const { return sensor_ != nullptr && sensor_->near != nullptr; }
-
-void InstanceView::watch(const std::function<std::vector<rays::Ray>()>& make) const {
-  if (sensor_ == nullptr || sensor_->link_moves) return;
-  std::unique_ptr<WatchedRays>& near = sensor_->near;
-  if (near != nullptr && !near->region.take_static_change()) return;
-  engines_.rays.commit();
-  Eigen::AlignedBox3d reach = rays::RayCache(make(), engines_.rays).reach();
-  reach.min().array() -= kBetweenRays;
-  reach.max().array() += kBetweenRays;
-  if (near == nullptr) {
-    near.reset(new WatchedRays{{engines_.movers, reach}, reach, 0});
-  } else {
-    near->region.resize(reach);
-    near->box = reach;
-  }
-  ++near->revision;
-}
-
-std::uint64_t InstanceView::scene_revision() const {
-  if (watches()) {
-    WatchedRays& near = *sensor_->near;
-    if (near.region.changed_since(sensor_->seen)) ++near.revision;
-    return near.revision;
-  }
-  queried_.other = true;
-  engines_.rays.commit();
-  return engines_.rays.revision();
-}
-
-Warming InstanceView::warming(const rays::WarmShape& shape) const {
-  return engines_.surfaces.warming(shape);
-}
-
-std::uint64_t InstanceView::surfaces_set() const {
+Revisions InstanceView::watch(const std::function<std::vector<rays::Ray>()>& make) const {
   queried_.heat_set = true;
-  return engines_.surfaces.times_set();
-}
-
-std::vector<rays::Crossing> InstanceView::crossings(const Vec3& from, const Vec3& to,
-                                                    rays::Mobilities among) const {
-  queried_.other = true;
-  engines_.rays.commit();
-  return engines_.rays.crossings(from, to, among);
-}
-
-Eigen::AlignedBox3d InstanceView::static_bounds() const {
-  queried_.other = true;
-  return engines_.rays.static_bounds();
-}
-
-std::uint64_t InstanceView::static_revision() const {
-  queried_.other = queried_.other || !watches();
-  return engines_.rays.static_revision();
+  const std::uint64_t temperatures = engines_.surfaces.times_set();
+  if (sensor_ == nullptr || sensor_->link_moves) return {rays().revision(), temperatures};
+  std::unique_ptr<WatchedRays>& near = sensor_->near;
+  if (near == nullptr || near->region.take_static_change()) {
+    engines_.rays.commit();
+    Eigen::AlignedBox3d reach = rays::RayCache(make(), engines_.rays).reach();
+    reach.min().array() -= kBetweenRays;
+    reach.max().array() += kBetweenRays;
+    if (near == nullptr) {
+      near.reset(new WatchedRays{{engines_.movers, reach}, reach, 0});
+    } else {
+      near->region.resize(reach);
+      near->box = reach;
+    }
+    ++near->revision;
+  }
+  if (near->region.changed_since(sensor_->seen)) ++near->revision;
+  return {near->revision, temperatures};
 }
 
 std::vector<std::uint8_t> InstanceView::colors(const render::PinholeCamera& lens,

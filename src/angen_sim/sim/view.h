@@ -36,30 +36,13 @@ class InstanceView : public View {
   std::vector<DeviceView> devices(const std::string& field,
                                   const Eigen::AlignedBox3d& within) const override;
   const Home& home() const override;
-  using View::cast;
-  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
-            rays::Mobilities among) const override;
-  rays::Hit cast_at(std::uint32_t shape, const rays::Ray& ray) const override {
-    return engines_.rays.cast_at(shape, ray);
-  }
+  const rays::Scene& rays() const override;
   std::vector<std::uint32_t> own_shapes() const override;
   std::string model_of(std::uint32_t shape) const override;
-  rays::Shaft shaft(const Vec3& from, double near, std::uint32_t shape) const override;
-  Eigen::Vector3f reflectance(std::uint32_t shape) const override {
-    return engines_.rays.reflectance(shape);
-  }
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override;
   double ambient_temperature() const override { return engines_.ambient_temperature; }
   const std::vector<rays::WarmShape>& warm_shapes() const override;
-  std::uint64_t scene_revision() const override;
-  void watch(const std::function<std::vector<rays::Ray>()>& make) const override;
-  Warming warming(const rays::WarmShape& shape) const override;
-  std::uint64_t surfaces_set() const override;
-  using View::crossings;
-  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
-                                        rays::Mobilities among) const override;
-  Eigen::AlignedBox3d static_bounds() const override;
-  std::uint64_t static_revision() const override;
+  Revisions watch(const std::function<std::vector<rays::Ray>()>& make) const override;
   std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                    const Pose& pose) const override;
   std::vector<float> depths(const render::PinholeCamera& lens, const Pose& pose) const override;
@@ -67,7 +50,7 @@ class InstanceView : public View {
   const Queried& queried() const { return queried_; }
 
  private:
-  bool watches() const;
+  bool watches() const { return sensor_ != nullptr && sensor_->near != nullptr; }
 
   Building& building_;
   Engines& engines_;

@@ -11,12 +11,17 @@ namespace {
 const FloorMap::Vec2 kGoal(2.0, 1.0);
 
 TEST(StoreyMaps, AreThoseOfStaticShapesAsTheyAre) {
+  rays::Scene scene;
   test::FakeWorld world;
+  world.scene = &scene;
   StoreyMaps maps;
   const auto first = maps.find(world, Vec3::Zero(), kGoal);
   EXPECT_EQ(maps.find(world, Vec3::Zero(), kGoal), first);
   EXPECT_EQ(maps.find(world, {0.0, 0.0, 0.004}, kGoal), first);
-  ++world.revision;
+  Shape wall;
+  wall.type = Shape::Type::kBox;
+  scene.add(wall, Pose{}, rays::Mobility::kStatic, Eigen::Vector3f::Zero());
+  scene.commit();
   EXPECT_NE(maps.find(world, Vec3::Zero(), kGoal), first);
 }
 

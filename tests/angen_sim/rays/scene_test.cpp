@@ -69,15 +69,15 @@ TEST(Scene, TellsWhereWarmShapesAre) {
   add(scene, box(1, 1, 1));
   const ShapeId body = add(scene, box(1, 1, 2), at(3, 0, 0), Mobility::kMoving);
   const ShapeId stove = add(scene, box(1, 1, 1), at(0, 5, 0));
-  scene.warm(body, 307.0);
-  scene.warm(stove, 350.0);
-  scene.warm(add(scene, Shape{}), 300.0);  // nowhere
+  scene.warm(body, Warming::constant(307.0));
+  scene.warm(stove, Warming::constant(350.0));
+  scene.warm(add(scene, Shape{}), Warming::constant(300.0));  // nowhere
   scene.commit();
   ASSERT_EQ(scene.warm_shapes().size(), 2U);
   scene.move(body, at(4, 0, 0));
   scene.commit();
   EXPECT_EQ(scene.warm_shapes()[0].shape, body.index);
-  EXPECT_EQ(scene.warm_shapes()[0].temperature, 307.0);
+  EXPECT_EQ(scene.warm_shapes()[0].course.limit, 307.0);
   EXPECT_TRUE(scene.warm_shapes()[0].box.isApprox({Vec3(3.5, -0.5, -1), Vec3(4.5, 0.5, 1)}));
   scene.remove(body);
   scene.commit();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <climits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -53,14 +54,13 @@ class Bench {
   }
 
   rays::ShapeId add(const Shape& shape, const Pose& pose) {
-    return scene.add(shape, pose, rays::Mobility::kMoving, Eigen::Vector3f::Constant(0.7F));
+    return scene.add(shape, pose, rays::Mobility::kMoving, albedo);
   }
 
   /// Samples once at world.now, then lets `period` pass.
   Reading sample(Nanoseconds period = 100'000'000) {
     scene.commit();
-    if (!own_warmth) world.warm = scene.warm_shapes();
-    world.revision = scene.revision() + moves;
+    world.revisions.shapes = scene.revision() + moves;
     world.scene = &scene;
     RayBatch batch;
     sensor_->ray_set(world);
@@ -80,14 +80,22 @@ class Bench {
   }
 
   const Sensor& sensor() const { return *sensor_; }
+  /// When a sample may next be another; none has noise that matters.
+  Nanoseconds idle_until() const {
+    struct Silent : Ahead {
+      int unchanged() const override { return INT_MAX; }
+      Nanoseconds first_loud(double) const override { return kForever; }
+    };
+    return sensor_->idle_until(Silent{});
+  }
   const Kind& kind() const { return plugin_->kind(); }
 
   FakeWorld world;
   rays::Scene scene;
   RayBatch rays_cast;  // of the last sample
   std::uint64_t seed = 1;
-  bool own_warmth = false;  // world.warm is the test's
-  std::uint64_t moves = 0;  // of which the scene does not know
+  std::uint64_t moves = 0;                                   // of which the scene does not know
+  Eigen::Vector3f albedo = Eigen::Vector3f::Constant(0.7F);  // of the shapes to add
 
  private:
   static std::shared_ptr<const Plugin> plugin_of(const std::string& library) {

@@ -30,8 +30,8 @@ Element fan(double noise = 0.0) {
 TEST(Cloud, MeasuresAFlatWallInAllItsRows) {
   for (const char* library : {kBlock, kVelodyne}) {
     Bench bench(library, plugin_element({}), fan());
+    bench.albedo = {0.2F, 0.4F, 0.6F};
     bench.add(box(1, 30, 30), at(3.5));  // its face is 3 m away
-    bench.world.albedo = {0.2F, 0.4F, 0.6F};
     const Reading reading = bench.sample();
     const auto ranges = reading.get<Numbers>("ranges");
     const auto intensities = reading.get<Numbers>("intensities");

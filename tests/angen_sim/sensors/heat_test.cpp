@@ -52,7 +52,7 @@ TEST(Heat, APersonAsWarmAsTheAirSendsNothing) {
   bench.world.ambient = 299.0;
   add_warm(bench, person(), at(3, -1), 299.0);
   EXPECT_EQ(bench.sample(kSample).get<double>("flux", -1.0), 0.0);
-  EXPECT_EQ(bench.world.shafts, 0);
+  EXPECT_EQ(bench.world.ray_queries, 0);
 }
 
 TEST(Heat, TapedZonesSeeNothing) {

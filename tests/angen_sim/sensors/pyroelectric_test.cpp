@@ -12,16 +12,14 @@ namespace {
 double measured_gain(double frequency) {
   Bench bench(kPir, pyroelectric({kWidePair, {"signal_threshold", "1000"}}));
   const auto id = add_warm(bench, sphere(0.1), at(3, -1), 310.0);
-  bench.own_warmth = true;
-  bench.scene.commit();
   double flux_high = -1.0, flux_low = 1.0, high = 0.0;
   const int turns = std::max(8, static_cast<int>(20 * frequency));
   const int samples = static_cast<int>(100.0 * turns / frequency);
   for (int i = 0; i < samples; ++i) {
     const double temperature = 310.0 + 0.5 * std::sin(2.0 * M_PI * frequency * i / 100.0);
-    bench.world.warm = {{id.index, temperature, bench.scene.warm_shapes()[0].box}};
+    bench.scene.warm(id, Warming::constant(temperature));
     ++bench.moves;
-    ++bench.world.set;
+    ++bench.world.revisions.temperatures;
     const Reading reading = bench.sample(kSample);
     if (i < samples / 2) continue;
     flux_high = std::max(flux_high, reading.get<double>("flux"));
@@ -52,10 +50,10 @@ TEST(Pyroelectric, SleepsWithoutShaftsOrNoiseOnceAllIsStill) {
   bench.sample(kSample);
   bench.scene.move(id, at(4, 0.1, -1.3));
   bench.sample(kSample);
-  const int shafts = bench.world.shafts;
-  EXPECT_GT(shafts, 0);
+  const int queries = bench.world.ray_queries;
+  EXPECT_GT(queries, 0);
   EXPECT_NE(bench.sample(kSample).get<double>("signal"), 0.0);
-  EXPECT_EQ(bench.world.shafts, shafts);
+  EXPECT_EQ(bench.world.ray_queries, queries);
   for (int i = 0; i < 3000; ++i) bench.sample(kSample);
   for (int i = 0; i < 100; ++i) EXPECT_EQ(bench.sample(kSample).get<double>("signal", -1.0), 0.0);
 }
@@ -66,18 +64,15 @@ TEST(Pyroelectric, ComputesWhatItWouldSampleWhileASurfaceWarms) {
   Bench other(kPir, plugin);  // its surface is set again before each sample
   const Warming course{300.0, 340.0, 5.0, 0};
   const auto id = add_warm(bench, sphere(0.1), at(3, -1), 300.0);
-  add_warm(other, sphere(0.1), at(3, -1), 300.0);
-  bench.world.courses[id.index] = course;
-  other.own_warmth = true;
-  other.scene.commit();
+  const auto same = add_warm(other, sphere(0.1), at(3, -1), 300.0);
+  bench.scene.warm(id, course);
   std::shared_ptr<const LazyReading> lazy;
   Nanoseconds quiet_until = 0;
   for (Nanoseconds now = 0; now < 100 * kSecond; now += kSample) {
-    other.world.warm = {{id.index, course.at(now), other.scene.warm_shapes()[0].box}};
-    ++other.world.set;
+    other.scene.warm(same, Warming::constant(course.at(now)));
+    ++other.world.revisions.temperatures;
     const Reading sampled = other.sample(kSample);
     const Reading known = bench.sample(kSample);
-    const auto& noisy = dynamic_cast<const NoisySensor&>(bench.sensor());
     for (const char* field : {"signal", "flux"}) {
       ASSERT_EQ(known.get<double>(field), sampled.get<double>(field)) << field << " at " << now;
       if (!lazy || now % (37 * kSample) != 0) continue;
@@ -87,9 +82,9 @@ TEST(Pyroelectric, ComputesWhatItWouldSampleWhileASurfaceWarms) {
       ASSERT_EQ(computed.get<double>(field), known.get<double>(field)) << field << " at " << now;
     }
     ASSERT_TRUE(now >= quiet_until || known.event.empty()) << now;
-    if (!bench.sensor().steady()) continue;
-    quiet_until = noisy.next_event();
-    if (!known.get<bool>("motion") && !lazy) lazy = noisy.lazy_reading();
+    if (bench.idle_until() <= now) continue;
+    quiet_until = bench.idle_until();
+    if (!known.get<bool>("motion") && !lazy) lazy = bench.sensor().lazy_reading();
   }
   EXPECT_NE(lazy, nullptr);
   EXPECT_EQ(quiet_until, INT64_MAX);  // the surface is as warm as it will be

@@ -52,7 +52,7 @@ inline Shape person() {
 inline rays::ShapeId add_warm(Bench& bench, const Shape& shape, const Pose& pose,
                               double temperature) {
   const rays::ShapeId id = bench.add(shape, pose);
-  bench.scene.warm(id, temperature);
+  bench.scene.warm(id, Warming::constant(temperature));
   return id;
 }
 

@@ -21,7 +21,7 @@ class CountingLink : public Sensor {
     reading.set("height", view.link(link_).pose.position.z());
     reading.set("samples", ++samples_);
   }
-  bool steady() const override { return true; }
+  Nanoseconds idle_until(const Ahead&) const override { return kForever; }
 
  private:
   LinkRef link_;

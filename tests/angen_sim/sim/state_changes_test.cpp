@@ -93,7 +93,7 @@ class Counting : public Sensor {
     reading.set("devices", static_cast<std::int64_t>(view.devices(field_).size()));
     reading.set("samples", ++samples_);
   }
-  bool steady() const override { return true; }
+  Nanoseconds idle_until(const Ahead&) const override { return kForever; }
 
  private:
   std::string field_;

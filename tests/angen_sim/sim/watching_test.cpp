@@ -8,7 +8,6 @@
 
 #include "angen_sim/sim/household.h"
 #include "plugin/view.h"
-#include "rays/shaft.h"
 
 namespace angen::sim {
 namespace {
@@ -36,36 +35,17 @@ class Forgetful : public View {
     return view_.devices(field, within);
   }
   const Home& home() const override { return view_.home(); }
-  using View::cast;
-  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
-            rays::Mobilities among) const override {
-    view_.cast(rays, hits, among);
-  }
-  rays::Hit cast_at(std::uint32_t shape, const rays::Ray& ray) const override {
-    return view_.cast_at(shape, ray);
-  }
+  const rays::Scene& rays() const override { return view_.rays(); }
   std::vector<std::uint32_t> own_shapes() const override { return view_.own_shapes(); }
-  rays::Shaft shaft(const Vec3& from, double near, std::uint32_t shape) const override {
-    return view_.shaft(from, near, shape);
-  }
-  Eigen::Vector3f reflectance(std::uint32_t shape) const override {
-    return view_.reflectance(shape);
-  }
   light::Sample illuminance(light::Probe&, const Pose& pose) const override {
     light::Probe fresh;
     return view_.illuminance(fresh, pose);
   }
   double ambient_temperature() const override { return view_.ambient_temperature(); }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return view_.warm_shapes(); }
-  std::uint64_t scene_revision() const override { return view_.scene_revision(); }
-  Warming warming(const rays::WarmShape& shape) const override { return view_.warming(shape); }
-  std::uint64_t surfaces_set() const override { return view_.surfaces_set(); }
-  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
-                                        rays::Mobilities among) const override {
-    return view_.crossings(from, to, among);
+  Revisions watch(const std::function<std::vector<rays::Ray>()>&) const override {
+    return {view_.rays().revision(), view_.watch([] { return RayBatch{}; }).temperatures};
   }
-  Eigen::AlignedBox3d static_bounds() const override { return view_.static_bounds(); }
-  std::uint64_t static_revision() const override { return view_.static_revision(); }
   std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                    const Pose& pose) const override {
     return view_.colors(lens, pose);
@@ -78,7 +58,7 @@ class Forgetful : public View {
   const View& view_;
 };
 
-/// Hides a sensor's ray sets and whether it is steady: it aims and reads at each due time.
+/// Hides a sensor's ray sets and until when it is idle: it aims and reads at each due time.
 class Restless : public Sensor {
  public:
   explicit Restless(std::unique_ptr<Sensor> sensor) : sensor_(std::move(sensor)) {}
@@ -306,7 +286,7 @@ class TwoPlaces : public Sensor {
     reading.set("beyond", view.illuminance(probes_[0], beyond).illuminance);
     reading.set("here", view.illuminance(probes_[1], view.pose()).illuminance);
   }
-  bool steady() const override { return true; }
+  Nanoseconds idle_until(const Ahead&) const override { return kForever; }
 
  private:
   light::Probe probes_[2];

@@ -110,10 +110,9 @@ bool HeatSources::constant(Nanoseconds time) const {
 
 void Heat::sample(const View& view) {
   const Pose pose = view.pose();
-  view.watch([&] { return all_rays(pose); });
-  const bool still = view.scene_revision() == revision_ && pose == pose_;
-  const std::uint64_t set = view.surfaces_set();
-  const bool was_set = std::exchange(surfaces_set_, set) != set;
+  const Revisions now = view.watch([&] { return all_rays(pose); });
+  const bool still = now.shapes == revisions_.shapes && pose == pose_;
+  const bool was_set = std::exchange(revisions_.temperatures, now.temperatures) != now.temperatures;
   if (still && rests_ && !was_set) return;
   rests_ = false;
   if (still) {
@@ -123,7 +122,7 @@ void Heat::sample(const View& view) {
   pending_ = waits(view.time());
   if (pending_) return;
   follow_air(view);
-  revision_ = view.scene_revision();
+  revisions_.shapes = now.shapes;
   if (!(pose == pose_)) scans_.clear();
   pose_ = pose;
   rotation_ = pose.rotation.toRotationMatrix();
@@ -131,15 +130,15 @@ void Heat::sample(const View& view) {
   radiating_.all.clear();
   near_ = false;
   for (const rays::WarmShape& shape : view.warm_shapes()) {
-    if (!radiates(shape, view)) continue;
+    if (!radiates(shape, view.time())) continue;
     shapes_.push_back(shape.shape);
-    radiating_.all.push_back({factor_of(shape, view), view.warming(shape)});
+    radiating_.all.push_back({factor_of(shape, view), shape.course});
   }
   publish_sources();
 }
 
-bool Heat::radiates(const rays::WarmShape& shape, const View& view) const {
-  return shape.temperature != air_ || view.warming(shape).limit != air_;
+bool Heat::radiates(const rays::WarmShape& shape, Nanoseconds now) const {
+  return shape.course.at(now) != air_ || shape.course.limit != air_;
 }
 
 // While only temperatures change, hits stay the same. False where a surface radiates
@@ -148,8 +147,8 @@ bool Heat::reheat(const View& view) {
   std::size_t next = 0;
   for (const rays::WarmShape& shape : view.warm_shapes()) {  // shapes_ has some, in this order
     if (next < shapes_.size() && shapes_[next] == shape.shape) {
-      radiating_.all[next++].course = view.warming(shape);
-    } else if (radiates(shape, view)) {
+      radiating_.all[next++].course = shape.course;
+    } else if (radiates(shape, view.time())) {
       return false;
     }
   }
@@ -218,7 +217,7 @@ double Heat::factor_of(const rays::WarmShape& shape, const View& view) {
   Scan& found = scan_of(shape);
   if (found.windows.empty()) return 0.0;
   near_ = true;
-  const rays::Shaft shaft = view.shaft(pose_.position, kHousing, shape.shape);
+  const rays::Shaft shaft = view.rays().shaft(pose_.position, kHousing, shape.shape);
   const std::uint64_t blockers = shaft.fingerprint();
   if (!found.is_known || found.blockers != blockers) {
     found.factor = seen_factor(shaft, found);

@@ -59,7 +59,7 @@ class Heat {
   bool pending() const { return pending_; }
 
   /// Samples all surfaces at the next sample().
-  void forget() { revision_ = UINT64_MAX; }
+  void forget() { revisions_.shapes = UINT64_MAX; }
 
  private:
   /// The solid angle of one ray.
@@ -91,7 +91,7 @@ class Heat {
   double visible(const std::vector<Cell>& cells, const rays::Shaft& shaft) const;
   rays::Ray ray_to(const Cell& cell) const;
   bool waits(Nanoseconds now) const;
-  bool radiates(const rays::WarmShape& shape, const View& view) const;
+  bool radiates(const rays::WarmShape& shape, Nanoseconds now) const;
   bool reheat(const View& view);
   bool follow_air(const View& view);
   void publish_sources();
@@ -105,7 +105,7 @@ class Heat {
   std::vector<std::uint32_t> shapes_;  // shapes that radiate more or less than the air …
   HeatSources radiating_;              // … and how they do
   std::shared_ptr<const HeatSources> sources_ = std::make_shared<HeatSources>();  // a copy of that
-  std::uint64_t revision_ = UINT64_MAX;
+  Revisions revisions_{UINT64_MAX, UINT64_MAX};  // of the surfaces that were sampled last
   Pose pose_;
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();  // rotation of pose_
   bool near_ = false;                              // whether a surface is where the lens looks
@@ -115,8 +115,7 @@ class Heat {
   double air_ = 0.0;  // K
   double drift_ = 0.0;
   bool rests_ = false;
-  std::uint64_t surfaces_set_ = UINT64_MAX;  // at the last sample()
-  Nanoseconds felt_at_ = -1;                 // when that air was felt, in whole seconds
+  Nanoseconds felt_at_ = -1;  // when that air was felt, in whole seconds
 };
 
 }  // namespace angen::sensors

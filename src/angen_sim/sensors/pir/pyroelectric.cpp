@@ -198,15 +198,15 @@ void Pyroelectric::read(const View& view, Hits, Rng& rng, Reading& reading) {
   reading.event_detail = detail.str();
 }
 
-bool Pyroelectric::steady() const {
-  return quiet_until_ > state_.time && !heat_.pending() && false_alarm_rate_ == 0.0;
+Nanoseconds Pyroelectric::idle_until(const Ahead&) const {
+  if (heat_.pending() || false_alarm_rate_ > 0.0) return 0;
+  return std::min(trigger_.off_at(), quiet_until_);
 }
 
 std::shared_ptr<const LazyReading> Pyroelectric::lazy_reading() const {
+  if (state_.signal.asleep && !state_.motion) return nullptr;
   return std::make_shared<Decay>(state_);
 }
-
-void Pyroelectric::resume(Nanoseconds time, const Draws&) { state_.advance(time); }
 
 bool Pyroelectric::false_alarm(Rng& rng) const {
   if (false_alarm_rate_ == 0.0) return false;

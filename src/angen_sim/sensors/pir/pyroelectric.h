@@ -30,20 +30,16 @@ struct PirSignal {
 /// A motion detector as they are built: the heat of two elements behind a Fresnel lens, filtered,
 /// compared with a threshold. Its samples are computed when they are read while nothing warm moves
 /// in its view.
-class Pyroelectric : public Sensor, public NoisySensor {
+class Pyroelectric : public Sensor {
  public:
   void configure(Params& params, Wiring& wiring) override;
   std::optional<RayGeometry> rays() const override { return rays_; }
   Nanoseconds sample_period() const override { return state_.period; }
   void aim(const View& view, RayBatch& rays) override;
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override;
-  bool steady() const override;
-  bool varies() const override { return !state_.signal.asleep || state_.motion; }
-  double no_event_probability() const override { return 1.0; }
-  Nanoseconds next_event() const override { return std::min(trigger_.off_at(), quiet_until_); }
-  int memory() const override { return 0; }
+  Nanoseconds idle_until(const Ahead& ahead) const override;
   std::shared_ptr<const LazyReading> lazy_reading() const override;
-  void resume(Nanoseconds time, const Draws& draws) override;
+  void skip(Nanoseconds time, const Draws&) override { state_.advance(time); }
 
  private:
   /// Its state after a sample, and with that its readings until something moves.

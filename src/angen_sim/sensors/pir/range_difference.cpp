@@ -76,8 +76,7 @@ void RangeDifference::configure(Params& params, Wiring&) {
     const std::vector<Vec3> next = fan_.directions(fan_.tilts[(k + 1) % nod_.phases]);
     directions_.back().insert(directions_.back().end(), next.begin(), next.end());
   }
-  // Two scans that are both within half the threshold do not differ by more than it.
-  no_event_probability_ = fan_.no_event_probability(threshold_ / 2.0, directions_[0].size());
+  quiet_ = fan_.quiet_within(threshold_ / 2.0, directions_[0].size());
   previous_.resize(nod_.phases);
   clean_.resize(nod_.phases);
 }
@@ -132,16 +131,18 @@ void RangeDifference::read(const View& view, Hits hits, Rng& rng, Reading& readi
   reading.set("departure", departure);
   if (motion != was_on) announce_range(motion, difference, reading);
   changes_ = difference > 0.0 || motion;
-  const bool loud = rng.uniform() >= no_event_probability_;  // with_noise() drew from a copy
-  const bool quiet = !loud && !motion && !departure && difference <= threshold_;
+  const bool quiet = quiet_.has(rng) && !motion && !departure && difference <= threshold_;
   quiet_scans_ = quiet ? quiet_scans_ + 1 : 0;
 }
 
-bool RangeDifference::steady() const {
-  return varies() ? quiet_scans_ >= previous_.size() : !changes_;
+Nanoseconds RangeDifference::idle_until(const Ahead& ahead) const {
+  if (!varies()) return changes_ ? 0 : kForever;
+  if (quiet_scans_ < nod_.phases) return 0;
+  return quiet_.until(ahead, static_cast<int>(nod_.phases));
 }
 
 std::shared_ptr<const LazyReading> RangeDifference::lazy_reading() const {
+  if (!varies()) return nullptr;
   auto scans = std::make_shared<Scans>();
   scans->fan = fan_;
   scans->nod = nod_;
@@ -150,7 +151,7 @@ std::shared_ptr<const LazyReading> RangeDifference::lazy_reading() const {
   return scans;
 }
 
-void RangeDifference::resume(Nanoseconds time, const Draws& draws) {
+void RangeDifference::skip(Nanoseconds time, const Draws& draws) {
   for (std::size_t ago = nod_.phases; ago-- > 0;) {
     const std::size_t phase = (nod_.phase(time) + nod_.phases - ago) % nod_.phases;
     Scan scan = scan_of(fan_, clean_[phase], draws(static_cast<int>(ago)));

@@ -10,19 +10,16 @@ namespace angen::sensors {
 
 /// A motion detector that compares successive range scans. One that nods scans two tilts at a time,
 /// its own and that of its next scan, so that the next has something to be compared with.
-class RangeDifference : public Sensor, public NoisySensor {
+class RangeDifference : public Sensor {
  public:
   void configure(Params& params, Wiring& wiring) override;
   std::optional<RayGeometry> rays() const override { return fan_; }
   int ray_set(const View& view) override;
   void aim(const View& view, RayBatch& rays) override;
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override;
-  bool steady() const override;
-  bool varies() const override { return previous_.size() > 1 || fan_.noisy(); }
-  double no_event_probability() const override { return no_event_probability_; }
-  int memory() const override { return static_cast<int>(previous_.size()); }
+  Nanoseconds idle_until(const Ahead& ahead) const override;
   std::shared_ptr<const LazyReading> lazy_reading() const override;
-  void resume(Nanoseconds time, const Draws& draws) override;
+  void skip(Nanoseconds time, const Draws& draws) override;
 
  private:
   /// When it takes which of its scans.
@@ -42,6 +39,7 @@ class RangeDifference : public Sensor, public NoisySensor {
   };
   struct Scans;  // its lazy reading
 
+  bool varies() const { return nod_.phases > 1 || fan_.noisy(); }
   std::size_t count_phases(const Params& params, double nod_period) const;
   static Scan scan_of(const Fan& fan, const Ranges& clean, const Rng& rng);
   static void write(Ranges ranges, double difference, double threshold, Reading& reading);
@@ -49,7 +47,7 @@ class RangeDifference : public Sensor, public NoisySensor {
   Fan fan_;
   Nod nod_;
   double threshold_ = 0.0;
-  double no_event_probability_ = 0.0;
+  QuietNoise quiet_;  // two scans with it do not differ by more than the threshold
   Trigger::Times times_;
   Trigger trigger_;
   std::vector<std::vector<Vec3>> directions_;  // by phase of the nod: its tilt's, the next tilt's
