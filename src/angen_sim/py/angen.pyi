@@ -58,6 +58,9 @@ class Params:
     def number(self, path: str, default: float, unit: str = '', doc: str = '', min: float = -float('inf'), max: float = float('inf')) -> float:
         ...
 
+    def noise(self, field: str, unit: str = '', doc: str = '', relative: bool = False) -> float:
+        """Reads <noise_stddev>, of Gaussian noise that is added to this key of read()."""
+
     def flag(self, path: str, default: bool, doc: str = '') -> bool:
         ...
 
@@ -172,9 +175,12 @@ class Rng:
 class Sensor:
     """A sensor in Python. Override configure(params, wiring), aim(view) -> (n, 8) rows of
     origin, direction, min, max (m, world frame) or None, and read(view, ranges, rng) -> dict.
-    `fields` declares the keys of that dict, as {'range': 'number m', 'hit': 'flag'}: type and
-    unit; types are flag, integer, number, text, numbers and texts. None are declared: any are
-    taken. describe(kind) (static) declares them with docs and words, see Kind."""
+    After read(), idle_until(view) says when (s) it may next return other values, as long as
+    its pose and all that it queried stay the same: math.inf without a memory, 0 for the next
+    time. `fields` declares the keys of that dict, as {'range': 'number m', 'hit': 'flag'}:
+    type and unit; types are flag, integer, number, text, numbers and texts. None are
+    declared: any are taken. describe(kind) (static) declares them with docs and words, see
+    Kind."""
 
     fields: dict[str, str]
 
@@ -193,6 +199,9 @@ class Sensor:
         ...
 
     def read(self, view: View, ranges: numpy.typing.NDArray[numpy.float64], rng: Rng) -> dict[str, typing.Any]:
+        ...
+
+    def idle_until(self, view: View) -> float:
         ...
 
 

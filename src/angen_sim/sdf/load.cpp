@@ -107,16 +107,23 @@ desc::Model model(const std::string& what, const std::string& name, const Pose& 
                   const SearchPaths& paths, bool gazebo) {
   if (!name.empty()) check_name(name, "the model", {});
   if (const std::string problem = pose_problem(pose); !problem.empty()) throw Error(problem);
-  Session session{paths};
   if (is_text(what)) check_text_size(what);
   Element element = is_text(what) ? parse_xml(what, kText) : model_from_file(what);
-  session.dialect = &dialect_of(marked_in(element), paths, gazebo);
-  if (is_text(what)) element = model_from_text(std::move(element), session);
-  session.dialect = &dialect_of(element, paths, gazebo);  // a URDF says it when it is converted
-  if (session.dialect != &own_dialect()) set_attribute(element, kStrict, "false");
+  std::optional<Session> read_by(Session{paths, &dialect_of(marked_in(element), paths, gazebo)});
+  if (is_text(what)) element = model_from_text(std::move(element), *read_by);
+  const Dialect& dialect = dialect_of(element, paths, gazebo);
+  read_by->dialect = &dialect;
+  if (&dialect != &own_dialect()) set_attribute(element, kStrict, "false");
   give_name(element, name);
   set_child(element, "pose", pose_text(pose));
-  std::vector<Entry> entries = {expand_entry(element, session)};
+  std::vector<Entry> entries = {expand_entry(element, *read_by)};
+  // A URDF says its dialect when it is converted: that of a file is known only now.
+  if (&dialect == &own_dialect() && marked_strict(entries.front().expanded) == false) {
+    set_attribute(element, kStrict, "false");
+    read_by.emplace(Session{paths, &gazebo_dialect(element)});
+    entries = {expand_entry(element, *read_by)};
+  }
+  Session& session = *read_by;
   Entry& entry = entries.front();
   check_name(name_of(entry.expanded), "<" + entry.expanded.name + ">", element.source);
   if (element.name == "include" && name.empty()) {

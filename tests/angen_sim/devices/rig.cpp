@@ -37,17 +37,9 @@ void Bench::move_shapes() {
   rays_.commit();
 }
 
-void Bench::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
-                 rays::Mobilities among) {
+const rays::Scene& Bench::rays() {
   move_shapes();
-  hits.resize(rays.size());
-  rays_.cast(rays.data(), hits.data(), rays.size(), among);
-}
-
-std::vector<rays::Crossing> Bench::crossings(const Vec3& from, const Vec3& to,
-                                             rays::Mobilities among) {
-  move_shapes();
-  return rays_.crossings(from, to, among);
+  return rays_;
 }
 
 Rig& Bench::add(const desc::Model& model, const std::string& library, const std::string& kind,

@@ -31,9 +31,7 @@ class Bench {
 
   /// Makes rays hit a model.
   void show(const desc::Model& model, physics::ModelId id);
-  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
-            rays::Mobilities among);
-  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to, rays::Mobilities among);
+  const rays::Scene& rays();
 
   void tick();
   /// Ticks for that many seconds; `each` is called after every tick.
@@ -95,15 +93,7 @@ class Rig : public FakeWorld {
   JointView joint(JointRef joint) const override;
   JointWrench wrench(JointRef joint) const override;
   LinkView link(LinkRef link) const override;
-  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
-            rays::Mobilities among) const override {
-    bench_.cast(rays, hits, among);
-  }
-  using View::crossings;
-  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
-                                        rays::Mobilities among) const override {
-    return bench_.crossings(from, to, among);
-  }
+  const rays::Scene& rays() const override { return bench_.rays(); }
   void force(JointRef joint, double force) override;
   void motor(JointRef joint, double velocity, double max_force) override;
   void latch(JointRef joint, double break_force) override;

@@ -5,7 +5,7 @@
 namespace angen::sim {
 namespace {
 
-constexpr Nanoseconds kMs = 1'000'000;
+constexpr Nanoseconds kMillisecond = 1'000'000;
 constexpr std::uint64_t kSeed = 7, kKey = 11;
 
 struct Samples : ::testing::Test {
@@ -13,8 +13,8 @@ struct Samples : ::testing::Test {
   KnownNoise known;
 
   Samples() {
-    schedule.start = 3 * kMs;
-    schedule.sample = 10 * kMs;
+    schedule.start = 3 * kMillisecond;
+    schedule.sample = 10 * kMillisecond;
   }
   Nanoseconds first_loud(double quiet, Nanoseconds after) {
     return SamplesAhead(0, schedule, after, kSeed, kKey, known).first_loud(quiet);
@@ -29,7 +29,7 @@ struct Samples : ::testing::Test {
 
 TEST_F(Samples, TheNextLoudOneIsThatOfASearch) {
   for (const double quiet : {0.5, 0.98}) {
-    for (Nanoseconds after = 0; after < 2 * kSecond; after += 37 * kMs) {
+    for (Nanoseconds after = 0; after < 2 * kSecond; after += 37 * kMillisecond) {
       ASSERT_EQ(first_loud(quiet, after), searched(quiet, after)) << quiet << " " << after;
     }
   }
@@ -39,9 +39,9 @@ TEST_F(Samples, WithoutLoudOnesThereIsNone) { EXPECT_EQ(first_loud(1.0, 0), kFor
 
 TEST_F(Samples, NoiseIsKnownTenSecondsAhead) {
   const double rare = 1.0 - 1e-9;
-  EXPECT_EQ(first_loud(rare, 0), 10 * kSecond + 3 * kMs);
-  EXPECT_EQ(first_loud(rare, 5 * kSecond), 10 * kSecond + 3 * kMs);
-  EXPECT_EQ(first_loud(rare, 10 * kSecond + 2 * kMs), 20 * kSecond + 3 * kMs);
+  EXPECT_EQ(first_loud(rare, 0), 10 * kSecond + 3 * kMillisecond);
+  EXPECT_EQ(first_loud(rare, 5 * kSecond), 10 * kSecond + 3 * kMillisecond);
+  EXPECT_EQ(first_loud(rare, 10 * kSecond + 2 * kMillisecond), 20 * kSecond + 3 * kMillisecond);
 }
 
 }  // namespace
