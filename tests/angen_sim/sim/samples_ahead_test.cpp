@@ -22,7 +22,9 @@ struct Samples : ::testing::Test {
   /// As first_loud(), of each sample by itself.
   Nanoseconds searched(double quiet, Nanoseconds after) const {
     Nanoseconds at = schedule.next_sample(after);
-    while (Rng(kSeed, kKey, at / schedule.step).uniform() < quiet) at = schedule.next_sample(at);
+    while (Rng(kSeed, kKey, at / schedule.step).uniform() < quiet) {
+      at = schedule.next_sample(std::max(at, schedule.start + 1));  // the first is at its start
+    }
     return at;
   }
 };
