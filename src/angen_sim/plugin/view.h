@@ -54,8 +54,8 @@ class View {
   /// Contacts now, and the last ones of those that touched at any time in the last `period` (ns).
   virtual std::vector<ContactPair> contacts_within(ContactRef collision,
                                                    Nanoseconds period) const = 0;
-  /// The devices whose state has a field of that name and whose place() is in `within` (world, m),
-  /// in the order in which they came into the world.
+  /// The devices whose state has a field of that name and whose place(), or whose model's origin,
+  /// is in `within` (world, m), in the order in which they came into the world.
   virtual std::vector<DeviceView> devices(const std::string& field,
                                           const Eigen::AlignedBox3d& within) const = 0;
   /// Devices with that field anywhere in the world.

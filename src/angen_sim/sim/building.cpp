@@ -81,6 +81,12 @@ Pose Building::pose_of(const LiveModel& live) const {
   return first * live.desc->links.front().pose.inverse();
 }
 
+Building::FoundDevice Building::found(const LiveModel& live, const DeviceInstance& device,
+                                      std::size_t order) const {
+  const Pose pose = pose_of(live);
+  return {&live, &device, pose, DeviceView::place_of(pose, *device.last), order};
+}
+
 const Building::DevicesByField& Building::devices_by_field(const std::string& field) const {
   const auto [at, is_new] = by_field_.try_emplace(field);
   DevicesByField& all = at->second;
@@ -90,46 +96,43 @@ const Building::DevicesByField& Building::devices_by_field(const std::string& fi
     const bool fixed = engines_->physics.mass(live->parts.links.at(0)) == 0.0;
     for (const DeviceInstance& device : live->devices) {
       if (!device.last || !device.last->find(field)) continue;
-      const Pose pose = pose_of(*live);
-      (fixed ? all.fixed : all.movable)
-          .push_back(
-              {live.get(), &device, pose, DeviceView::place_of(pose, *device.last), order++});
+      (fixed ? all.fixed : all.movable).push_back(found(*live, device, order++));
     }
   }
   std::stable_sort(
       all.fixed.begin(), all.fixed.end(),
-      [](const FoundDevice& a, const FoundDevice& b) { return a.place.z() < b.place.z(); });
+      [](const FoundDevice& a, const FoundDevice& b) { return a.heights().low < b.heights().low; });
+  for (const FoundDevice& each : all.fixed) {
+    all.tallest = std::max(all.tallest, each.heights().high - each.heights().low);
+  }
   return all;
 }
 
 std::vector<Building::FoundDevice> Building::find_devices(const std::string& field,
                                                           const Eigen::AlignedBox3d& within) const {
   const DevicesByField& all = devices_by_field(field);
-  std::vector<FoundDevice> found;
+  std::vector<FoundDevice> in_box;
   const auto add = [&](const FoundDevice& device) {
-    if (within.contains(device.place)) found.push_back(device);
+    if (within.contains(device.pose.position) || within.contains(device.place)) {
+      in_box.push_back(device);
+    }
   };
   const auto lower =
-      std::lower_bound(all.fixed.begin(), all.fixed.end(), within.min().z(),
-                       [](const FoundDevice& t, double z) { return t.place.z() < z; });
-  for (auto at = lower; at != all.fixed.end() && at->place.z() <= within.max().z(); ++at) {
+      std::lower_bound(all.fixed.begin(), all.fixed.end(), within.min().z() - all.tallest,
+                       [](const FoundDevice& t, double z) { return t.heights().low < z; });
+  for (auto at = lower; at != all.fixed.end() && at->heights().low <= within.max().z(); ++at) {
     add(*at);
   }
-  for (FoundDevice device : all.movable) {
-    device.pose = pose_of(*device.live);
-    device.place = DeviceView::place_of(device.pose, *device.device->last);
-    add(device);
-  }
-  std::sort(found.begin(), found.end(),
+  for (const FoundDevice& each : all.movable) add(found(*each.live, *each.device, each.order));
+  std::sort(in_box.begin(), in_box.end(),
             [](const FoundDevice& a, const FoundDevice& b) { return a.order < b.order; });
-  return found;
+  return in_box;
 }
 
 void Building::note_state(const LiveModel& live, DeviceInstance& device,
                           MoverIndex::Moment when) const {
   if (!device.last || live.is_light) return;  // queries do not find the world's own lights
-  const Vec3 place = DeviceView::place_of(pose_of(live), *device.last);
-  engines_->states.note(*device.last, place.z(), device.changes, when);
+  engines_->states.note(*device.last, found(live, device, 0).heights(), device.changes, when);
 }
 
 std::vector<Building::Target> Building::devices_named(const std::string& kind,

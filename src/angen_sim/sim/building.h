@@ -49,12 +49,16 @@ class Building {
   struct FoundDevice {
     const LiveModel* live;
     const DeviceInstance* device;
-    Pose pose;   // of its model
+    Pose pose;   // pose of its model
     Vec3 place;  // see DeviceView::place()
     std::size_t order;
+
+    Heights heights() const {
+      return Heights{pose.position.z(), pose.position.z()} | Heights{place.z(), place.z()};
+    }
   };
-  /// The devices whose last state has a field of that name and that are in `within`, in the order
-  /// of the models.
+  /// The devices whose last state has a field of that name and that are in `within`, or whose
+  /// models are, in the order of the models.
   std::vector<FoundDevice> find_devices(const std::string& field,
                                         const Eigen::AlignedBox3d& within) const;
   /// To be called when a device reports another state, or has moved.
@@ -202,10 +206,12 @@ class Building {
   std::vector<Storey> storeys_;  // result of storeys_of()
   struct DevicesByField {
     std::vector<FoundDevice>
-        fixed;  // by height: a storey's are found without going through a tower
+        fixed;             // by height: a storey's are found without going through a tower
+    double tallest = 0.0;  // m, the largest span of heights() of these
     std::vector<FoundDevice> movable;
   };
   const DevicesByField& devices_by_field(const std::string& field) const;
+  FoundDevice found(const LiveModel& live, const DeviceInstance& device, std::size_t order) const;
   // The queried fields since the last change of the structure.
   mutable std::unordered_map<std::string, DevicesByField> by_field_;
 };

@@ -36,7 +36,7 @@ class DueSensors {
   Visit visit(const Engines& engines, std::uint32_t index, Clock clock, Snapshot& next);
   /// The sensor has sampled. Whether its next sample would be the same, but for noise.
   bool note_sampled(std::uint32_t index, Clock clock);
-  /// Those that were not visited and are due publish their last readings again; ends what
+  /// Sensors that are due and were not visited publish their last readings again; ends what
   /// collect() began.
   void publish_idle(const Engines& engines, Clock clock, Snapshot& next);
 

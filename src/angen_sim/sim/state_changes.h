@@ -13,7 +13,7 @@
 
 namespace angen::sim {
 
-/// The heights (m, world) at which devices matter to a query.
+/// Heights (m, world) at which a device is, or at which devices matter to a query.
 struct Heights {
   double low = std::numeric_limits<double>::infinity();  // above `high`: none
   double high = -std::numeric_limits<double>::infinity();
@@ -30,13 +30,20 @@ class StateChanges {
   using Moment = MoverIndex::Moment;
   using Fields = std::uint64_t;  // a bit a field
 
+  struct Layers {
+    int low = 0;
+    int high = -1;  // below `low`: none
+
+    bool operator!=(const Layers& o) const { return low != o.low || high != o.high; }
+  };
+
   /// What is known of a device from its last change.
   class Device {
    private:
     friend class StateChanges;
     Fields fields = 0;      // the queried fields that it has
     std::size_t known = 0;  // how many fields were queried then
-    int layer = 0;          // where it was
+    Layers layers;          // where it was
   };
 
   /// The bit of a field; from now on changes of devices that have it are noted. The fields that
@@ -46,15 +53,13 @@ class StateChanges {
     return Fields{1} << numbers_.try_emplace(field, next).first->second;
   }
 
-  /// A device at the height `z` reports another state, with the same fields as before, or has moved
-  /// there.
-  void note(const Reading& state, double z, Device& device, Moment now) {
-    const bool is_first = device.known == 0;
+  /// A device reports another state, with the same fields as before, or has moved; `where`: now.
+  void note(const Reading& state, const Heights& where, Device& device, Moment now) {
     if (device.known != numbers_.size() + 1) list_fields(state, device);
-    const int before = device.layer;
-    device.layer = layer_of(z);
-    note(device.fields, device.layer, now);
-    if (!is_first && before != device.layer) note(device.fields, before, now);
+    const Layers before = device.layers;
+    device.layers = {layer_of(where.low), layer_of(where.high)};
+    note(device.fields, device.layers, now);
+    if (before != device.layers) note(device.fields, before, now);
   }
 
   /// A device came, went, or has other fields than before.
@@ -74,11 +79,12 @@ class StateChanges {
 
  private:
   static constexpr unsigned kAny = 63;
-  static constexpr double kLayer = 4.0;      // m
-  static constexpr double kManyLayers = 16;  // more are not looked at one by one
+  static constexpr double kLayer = 4.0;   // m
+  static constexpr int kManyLayers = 16;  // more are not looked at one by one
 
   struct Changes {
     Moment latest = 0;
+    Moment everywhere = 0;  // of devices in many layers
     std::unordered_map<int, Moment> layers;
   };
 
@@ -97,18 +103,25 @@ class StateChanges {
     device.known = numbers_.size() + 1;
   }
 
-  void note(Fields fields, int layer, Moment now) {
+  void note(Fields fields, const Layers& at, Moment now) {
     for (unsigned number = 0; fields != 0; ++number, fields >>= 1) {
       if ((fields & 1) == 0) continue;
-      mark(changed_[number].latest, now);
-      mark(changed_[number].layers[layer], now);
+      Changes& changes = changed_[number];
+      mark(changes.latest, now);
+      if (at.high - at.low >= kManyLayers) {
+        mark(changes.everywhere, now);
+        continue;
+      }
+      for (int layer = at.low; layer <= at.high; ++layer) mark(changes.layers[layer], now);
     }
   }
 
   static bool changed_since(const Changes& changes, const Heights& within, Moment since) {
-    if (changes.latest < since) return false;
-    if (!(within.high - within.low < kManyLayers * kLayer)) return true;
-    for (int layer = layer_of(within.low); layer <= layer_of(within.high); ++layer) {
+    if (changes.latest < since || within.low > within.high) return false;
+    if (changes.everywhere >= since) return true;
+    const Layers at{layer_of(within.low), layer_of(within.high)};
+    if (at.high - at.low >= kManyLayers) return true;
+    for (int layer = at.low; layer <= at.high; ++layer) {
       const auto at = changes.layers.find(layer);
       if (at != changes.layers.end() && at->second >= since) return true;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "angen_sim/sdf/texts.h"
 #include "document/xml.h"
 #include "sdf/load.h"
 
@@ -65,6 +66,21 @@ TEST(GazeboModel, AFixedJointThatIsMeasuredStays) {
   EXPECT_NEAR(joint(arm, "wrist")->anchor.z(), 0.5, 1e-9);
   EXPECT_EQ(joint(arm, "plate"), nullptr) << "its links are one";
   EXPECT_EQ(arm.links.size(), 2U);
+}
+
+TEST(GazeboModel, AJointMayHaveTheNameOfALinkInAFileAsInText) {
+  const std::string robot = "<robot name='r'>" + link("body") + link("neck") +
+                            "<joint name='neck' type='revolute'><parent link='body'/><child "
+                            "link='neck'/><origin xyz='0 0 0.2'/><axis xyz='0 0 1'/><limit "
+                            "lower='-1' upper='1' effort='5' velocity='2'/></joint></robot>";
+  const Folder folder;
+  for (const std::string& what : {robot, folder.write("r.urdf", robot)}) {
+    const desc::Model read = model(what, "r", {}, folder.paths(), false);
+    ASSERT_EQ(read.links.size(), 2U) << what;
+    ASSERT_EQ(read.joints.size(), 1U) << what;
+    EXPECT_NEAR(read.links[1].pose.position.z(), 0.2, 1e-9) << what;
+    EXPECT_EQ(read.joints[0].axes.at(0).upper, 1.0) << what;
+  }
 }
 
 }  // namespace

@@ -216,7 +216,7 @@ class Recorder:
             return (sits.name, sits.item.activity, 'seat') if sits else ('', '', 'noise')
         moving = [r for away, _, r in near if self._moves(r, time) and (
             sensor.kind == 'area' or away < CLOSE or r.room == sensor.room)]
-        if sensor.kind == 'motion' and moving:  # of a cell: who moves in it, or else stands there
+        if sensor.kind == 'motion' and moving:  # a cell sees who moves in it, or else stands there
             inside = [r for away, _, r in near if away < NEAR]
             moving = [r for r in inside if r in moving] or inside or moving
         if sensor.kind == 'area' and len(moving) > 1:  # it sees through doorways
