@@ -181,6 +181,13 @@ class Mover:
             yield from self._walk(nearest, self.storey)
             self.arrived = False
 
+    def _leave_swings(self) -> Process:
+        """Steps out of the swings of the doors around, which others may need."""
+        for door in self.household.home.doors:
+            x, y, z, _ = door.pose
+            if door.kind == 'door' and self.household.home.storey_at(z) == self.storey:
+                yield from self._out_of_swing(x, y)
+
     def _waits_for_lift(self) -> Generator[float, None, bool]:
         """Takes the elevator, which one uses at a time; returns whether it may."""
         until = self.now + LIFT_WAIT

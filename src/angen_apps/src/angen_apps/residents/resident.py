@@ -285,6 +285,7 @@ class Resident(User):
             if other.waits_for is self:  # who comes second makes way
                 yield from self.go(*self._elsewhere())
             else:
+                yield from self._leave_swings()
                 self.waits_for = other
             self._note('waits', name)
             at, pause = other.at, self.now
