@@ -303,6 +303,21 @@ void keep_mimics(const Element& robot, Element& model) {
   }
 }
 
+// The conversion places a link at its joint. If a link has the joint's name too, that name means
+// the link: then this one is placed where its joint is.
+void place_links_of_shared_names(const Index& index, Element& model) {
+  for (Element& link : model.children) {
+    Element* pose = link.name == "link" ? find_child(link, "pose") : nullptr;
+    const std::string* at = pose == nullptr ? nullptr : pose->attribute("relative_to");
+    if (at == nullptr || index.own.count({"link", *at}) == 0) continue;
+    for (const Element& joint : model.children) {
+      if (joint.name != "joint" || name_of(joint) != *at) continue;
+      if (const Element* place = joint.child("pose")) *pose = Element(*place);
+      break;
+    }
+  }
+}
+
 // The elements that the conversion writes, and those of <gazebo> elements.
 std::set<std::string> names_in(const Element& robot) {
   std::istringstream words(
@@ -342,8 +357,10 @@ Element Gazebo::convert_urdf(Element robot, Session& session) const {
     keep_gravity(index, *model);
     keep_transmissions(robot, *model);
     keep_mimics(robot, *model);
-    // SDF gives joints no names of their own
-    if (shares_names(index)) set_attribute(*model, kStrict, "false");
+    if (shares_names(index)) {  // SDF gives joints no names of their own
+      place_links_of_shared_names(index, *model);
+      set_attribute(*model, kStrict, "false");
+    }
   }
   return root;
 }

@@ -84,7 +84,7 @@ class StateChanges {
 
   struct Changes {
     Moment latest = 0;
-    Moment everywhere = 0;  // of devices in many layers
+    Moment everywhere = 0;  // a device in many layers
     std::unordered_map<int, Moment> layers;
   };
 

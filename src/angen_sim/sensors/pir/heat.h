@@ -105,7 +105,7 @@ class Heat {
   std::vector<std::uint32_t> shapes_;  // shapes that radiate more or less than the air …
   HeatSources radiating_;              // … and how they do
   std::shared_ptr<const HeatSources> sources_ = std::make_shared<HeatSources>();  // a copy of that
-  Revisions revisions_{UINT64_MAX, UINT64_MAX};  // those that were sampled last
+  Revisions revisions_{UINT64_MAX, UINT64_MAX};  // the surfaces at its last sample
   Pose pose_;
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();  // rotation of pose_
   bool near_ = false;                              // whether a surface is where the lens looks
