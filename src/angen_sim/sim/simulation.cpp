@@ -76,8 +76,9 @@ struct Simulation::Impl {
   }
 
   /// The end of the next tick, up to which time can pass at once: in a leap up to its start while
-  /// nothing moves, in one step while only people and free leaves move. A device or a push needs a tick that starts
-  /// at its time; a sensor, a fault, or a body that comes to rest, one that ends then.
+  /// nothing moves, in one step while only people and free leaves move. A device or a push needs a
+  /// tick that starts at its time; a sensor, a fault, or a body that comes to rest, one that ends
+  /// then.
   std::int64_t next_end(Nanoseconds until, bool long_steps) {
     const Engines& engines = building.engines();
     const bool moving = engines.physics.awake_count() > 0;
