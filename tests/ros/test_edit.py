@@ -356,7 +356,7 @@ def test_all_of_it_is_german_on_a_phone_too(tmp_path: Path) -> None:
                      'angen.select(["movers/0"]); angen.dayPlan.open("movers/0")'):
             page.run(show)
             assert english(page) <= {'Kind'}, show  # a child, in German
-        assert '06:37 aufstehen' in page.text('#day') and 'Berufstätig' in page.text('#card')
+        assert '06:37 Aufstehen' in page.text('#day') and 'Berufstätig' in page.text('#card')
         page.run('angen.select([])')
         page.run('angen.shelf.search("Kühl")')
         assert page.run('''return [...document.querySelectorAll("#panel .shelf button")].filter(

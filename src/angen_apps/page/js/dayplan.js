@@ -12,6 +12,8 @@ const BOUNDS = ['wake', 'sleep']; // they begin and end the day, and stay
 
 /** @param {string} activity */
 const doing = (activity) => t(activity.replaceAll('_', ' '));
+/** @param {string} text */
+const capital = (text) => text[0].toUpperCase() + text.slice(1);
 
 export class DayPlan {
   /** @param {import('./edit.js').Editor} editor */
@@ -63,7 +65,7 @@ export class DayPlan {
     const button = (/** @type {string} */ text, /** @type {any} */ more) => el('button', { type: 'button', ...more }, text);
     const kinds = [['weekday', t('Mon – Fri')], ['weekend', t('Sat, Sun')]].map(([kind, text]) => button(text, { 'aria-pressed': String(kind === this.kind), onclick: () => { this.kind = kind; this.show(); } }));
     const adds = el('select', { 'aria-label': t('Add an activity'), onchange: () => this.set([...this.day, { do: [adds.value], low: 43200, high: 45000, days: this.kind }], this.day.length) },
-      el('option', { value: '' }, t('Add …')), ...Object.keys(editor.durations).filter((name) => name !== 'sleep').map((name) => el('option', { value: name }, doing(name))));
+      el('option', { value: '' }, t('Add …')), ...Object.keys(editor.durations).filter((name) => name !== 'sleep').map((name) => el('option', { value: name }, capital(doing(name)))));
     const reset = person.day ? button(t('As usual'), { title: t('The day of the profile {name}', { name: words(person.habits) }), onclick: () => { const { day, ...rest } = person; editor.do({ change: { [key]: rest } }, [key]); } }) : null;
     element.replaceChildren(el('header', {}, el('h2', {}, t('The day of {name}', { name: person.name })), ...kinds, adds, reset, el('button', { class: 'icon', type: 'button', 'aria-label': t('Close'), onclick: () => this.open('') }, '×')),
       el('div', { class: 'scroll' }, this.track()));
@@ -91,7 +93,7 @@ export class DayPlan {
 
   /** @param {number} index @param {Planned} part @param {number} begin @param {number} long @param {number} lane */
   block(index, part, begin, long, lane) {
-    const bound = BOUNDS.includes(part.do[0]), name = part.do.map((each) => doing(each)).join(', '), at = clockText(begin).slice(0, 5), share = Math.round((part.chance ?? 1) * 100);
+    const bound = BOUNDS.includes(part.do[0]), name = capital(part.do.map(doing).join(', ')), at = clockText(begin).slice(0, 5), share = Math.round((part.chance ?? 1) * 100);
     const text = share < 100 ? t('{what} at {time}, on {share} % of days', { what: name, time: at, share }) : t('{what} at {time}', { what: name, time: at });
     return el('button', { type: 'button', class: `block${bound ? ' bound' : ''}`, 'data-index': index, title: `${text}. ${bound ? t('Drag it, or use arrow keys') : t('Drag it, or use arrow keys; Delete removes it')}`, 'aria-label': text,
       style: `left: ${(begin / DAY) * 100}%; width: ${(Math.min(long, DAY - begin) / DAY) * 100}%; top: ${TOP + lane * LANE}px`,
