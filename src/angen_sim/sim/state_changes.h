@@ -95,15 +95,19 @@ class StateChanges {
   }
 
   void list_fields(const Reading& state, Device& device) {
-    device.fields = Fields{1} << kAny;
+    device.fields = 0;
     for (const auto& [name, value] : state.fields) {
       const auto number = numbers_.find(name);
-      if (number != numbers_.end()) device.fields |= Fields{1} << number->second;
+      if (number != numbers_.end() && number->second != kAny) {
+        device.fields |= Fields{1} << number->second;
+      }
     }
     device.known = numbers_.size() + 1;
   }
 
   void note(Fields fields, const Layers& at, Moment now) {
+    mark(changed_[kAny].latest, now);
+    mark(changed_[kAny].everywhere, now);
     for (unsigned number = 0; fields != 0; ++number, fields >>= 1) {
       if ((fields & 1) == 0) continue;
       Changes& changes = changed_[number];
