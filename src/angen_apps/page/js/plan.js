@@ -280,7 +280,7 @@ export class Plan {
 
   update() {
     if (this.hidden || !this.root || this.stale) return;
-    const { home } = this, number = this.number(), taken = new Taken(), high = 0.4 * this.text;
+    const { home } = this, number = this.number(), taken = new Taken(), letter = 0.4 * this.text, high = 1.2 * letter; // half of a line of names
     if ([...this.drawnAt].some(([link, [x, y]]) => Math.hypot(home.pose(link)[0] - x, home.pose(link)[1] - y) > PUSHED)) {
       this.stale = true;
       this.draw();
@@ -303,9 +303,9 @@ export class Plan {
       else item.setAttribute('transform', `translate(${pose[0]} ${-pose[1]})`);
       if (moves) {
         item.querySelector('path').setAttribute('transform', `rotate(${(-yawOf(pose) * 180) / Math.PI})`);
-        const wide = high * LETTER * e.name.length, shifts = around(this.half(e), wide, high);
+        const wide = letter * LETTER * e.name.length, shifts = around(this.half(e), wide, high);
         const [dx, dy] = (item.style.display ? null : taken.put([pose[0], pose[1], wide, high], shifts)) ?? shifts[0];
-        item.querySelector('text').setAttribute('transform', `translate(${dx} ${0.7 * high - dy})`);
+        item.querySelector('text').setAttribute('transform', `translate(${dx} ${0.7 * letter - dy})`);
       }
       item.classList.toggle('on', home.isOn(row));
       item.classList.toggle('alarm', Boolean(row?.alarm));
