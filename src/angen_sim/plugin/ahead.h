@@ -35,8 +35,8 @@ class Ahead {
   virtual Nanoseconds first_loud(double quiet) const = 0;
 };
 
-/// Noise so small that by it a sensor decides as without. It is recognized by the first uniform()
-/// of a sample's random numbers, as Rng::gaussians() draws them.
+/// Noise so small that a sensor decides by it as without. The first uniform() of the random numbers
+/// in a sample, as Rng::gaussians() draws them, shows it.
 struct QuietNoise {
   double probability = 0.0;
 

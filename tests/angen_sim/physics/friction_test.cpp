@@ -188,7 +188,7 @@ TEST(Friction, OfAPersonWhoStandsIsTheSameInEachDirection) {
 struct Runners {
   double uphill;       // coefficients of friction
   double downhill;     // across the slope
-  double height;       // of the center of mass, in distances of the runners
+  double height;       // height of the center of mass, in distances of the runners
   bool laden = false;  // a small box, of 1 % of its mass, lies on it
 };
 

@@ -106,7 +106,7 @@ TEST(Groups, OfAWindowHaveTheSideOfTheWallThatItIsIn) {
   EXPECT_EQ(group_of(structure, first), "windows south 1");
   EXPECT_EQ(group_of(structure, first + 1), "windows north 1");
   EXPECT_EQ(group_of(structure, first + 2), "windows 1");
-  EXPECT_EQ(group_of(structure, first + 3), "windows 0");  // of no building
+  EXPECT_EQ(group_of(structure, first + 3), "windows 0");  // it belongs to no building
 }
 
 TEST(Storey, OfAModelIsByTheStoreysThatTheWorldDescribes) {
