@@ -74,14 +74,6 @@ def test_two_sent_people_pass_each_other_in_a_corridor(world, width):
     assert nearest > 0.5
 
 
-def test_two_people_on_their_paths_pass_each_other_in_a_corridor(world):
-    w = world(corridor(1.2) + walker('ann', '0 -4 0', '8 4 0')
-              + walker('bob', '0 4 0.05', '9 -4 0.05'))
-    w.run(20.0)
-    assert w.device('person', 'ann')['x'] == pytest.approx(4, abs=0.1)
-    assert w.device('person', 'bob')['x'] == pytest.approx(-4, abs=0.1)
-
-
 RAMP, LENGTH = 6 * pi / 180, 6.0
 
 

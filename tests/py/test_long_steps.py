@@ -8,7 +8,7 @@ from typing import Callable
 import pytest
 
 import angen
-from sdf_text import box, include, person, sdf_world
+from sdf_text import WORLDS, box, include, person, sdf_world
 
 World = Callable[..., angen.World]
 
@@ -41,6 +41,23 @@ def test_events_are_equal_to_a_sample_and_places_to_a_centimeter(world: World) -
         pairs = zip(*([at for at, source, _ in events if source == name]
                       for events in (fast, exact)))
         assert all(abs(a - b) <= SAMPLE + 1e-6 for a, b in pairs)
+
+
+def test_a_sensor_that_sees_someone_move_samples_within_a_long_step(world: World) -> None:
+    """A rangefinder at 100 Hz: each second of its samples ends no step of 20 ms."""
+    eye = (WORLDS / 'models/proximity/model.sdf').read_text()
+    eye = eye[eye.index('<model'):eye.index('</sdf>')]
+    eye = eye.replace('<update_rate>10<', '<update_rate>100<')
+    eye = eye.replace('<stddev>0.002<', '<stddev>0<')
+    eye = eye.replace('</static>', f'</static><pose>3.5 0 1 0 0 {math.pi}</pose>')
+    runs = []
+    for long_steps in (True, False):
+        w = world(ANN + eye)
+        w.command('person', 'ann', 'GoTo 3 0')
+        w.run(1.2155, long_steps=long_steps)  # the last sample was at 1.21
+        runs.append(w.sensor('proximity', 'proximity')['range'])
+    assert 1.0 < runs[1] < 3.0
+    assert runs[0] == pytest.approx(runs[1], abs=2e-3)
 
 
 def test_the_same_walk_has_the_same_bytes(world: World) -> None:

@@ -7,7 +7,7 @@ from typing import Any, Callable
 import pytest
 
 import angen
-from sdf_text import box, person
+from sdf_text import air, box, include, person
 
 World = Callable[..., angen.World]
 
@@ -64,6 +64,39 @@ def test_who_appears_can_sit_at_once(world: World) -> None:
     w.command('person', 'ann', 'Sit')
     w.run(1.0)
     assert state(w)['z'] == pytest.approx(0.4, abs=0.02)
+
+
+@pytest.mark.parametrize('order', ['', 'Lie', 'Lie 4 0'])
+@pytest.mark.parametrize('side', [-1, 1])
+def test_who_appears_in_bed_gets_up_to_the_floor_beside_it(world: World, side: int, order: str
+                                                           ) -> None:
+    """The bed is at a wall, behind which a place on the floor is nearer than before it."""
+    wall = box('wall', f'{4 + 0.5 * side} 0 1.2 0 0 0', '0.1 6 2.4', True)
+    w = world(BED + wall + person(f'{4 + 0.3 * side} 0 0.5 0 0 1.57', '<posture>lie</posture>'))
+    if order:  # before its first step
+        w.command('person', 'ann', order)
+    w.run(1.0)
+    assert state(w)['mode'] == 'LYING' and state(w)['z'] == pytest.approx(0.5, abs=0.02)
+    w.command('person', 'ann', 'Stand')
+    w.run(0.3)
+    assert (state(w)['x'] - 4) * side < -0.6 and abs(state(w)['z']) < 0.01
+    w.command('person', 'ann', f'GoTo {4 - 3 * side} 0')
+    w.run(6.0)
+    assert abs(state(w)['x'] - 4 + 3 * side) < 0.1 and not state(w)['unreachable']
+
+
+@pytest.mark.parametrize('posture', ['stand', 'sit', 'lie'])
+def test_no_pir_sees_who_appears_come_to_the_warmth_of_the_room(world: World, posture: str) -> None:
+    """The climate says only after the first step that its air is not as warm as the world's."""
+    w = world(air('-4 -4 0 4 4 2.5', extra='<temperature>18</temperature>'
+                  '<heat_capacity>1000</heat_capacity>')
+              + include('pir_pyroelectric', 'eye', '0 0 2.2 0 0 0')
+              + person('3 0.4 0 0 0 0', f'<posture>{posture}</posture>'))
+    w.run(1.0)
+    first = state(w)['heat']
+    w.run(300.0)
+    assert abs(state(w)['heat'] - first) > 0.5  # W: it feels the room
+    assert [event for _, source, _, event, _ in w.events() if source == 'eye'] == []
 
 
 def test_the_body_of_its_posture_is_what_rays_hit(world: World) -> None:

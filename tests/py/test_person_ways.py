@@ -140,6 +140,17 @@ def test_a_person_opens_a_shut_door_by_hand(world, start, goal, closes):
     assert events.get('closes', []) == (['kitchen0'] if closes else [])
 
 
+@pytest.mark.parametrize('side', [-1, 1])
+def test_a_person_walks_straight_up_to_a_shut_door(world, side):
+    """From 3 m, where it sees the leaf, to 2 m, where it uses the door, the leaf is no obstacle."""
+    w = world(WALL + DOOR + person(f'0.5 {4 * side} 0 0 0 0'), DOORS)
+    w.run(0.5)
+    w.command('person', 'ann', f'GoTo 0.5 {-4 * side}')
+    aside = [abs(now['x'] - 0.5) for now in watch(w, 16.0) if now['y'] * side > 2.0]
+    assert len(aside) > 15 and max(aside) < 0.05
+    assert np.linalg.norm(place(w) - (0.5, -4 * side)) < 0.1
+
+
 def test_a_person_in_a_narrow_corridor_is_not_in_the_way_of_the_door_that_it_pulls(world):
     corridor = box('corridor', '0 -1.1 1.2 0 0 0', '12 0.1 2.4', True)  # 1.05 m wide
     w = world(WALL + DOOR + corridor + person('2.5 -0.6 0 0 0 0'), DOORS)

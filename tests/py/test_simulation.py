@@ -4,7 +4,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import angen
@@ -20,14 +19,6 @@ def test_a_summary_has_the_words_of_the_dict(world):
         w.summary('door', 'p1')
 
 
-def test_spawned_model_is_there_and_deleted_one_is_not(world):
-    w = world('')
-    w.spawn(box('crate', '0 0 0 0 0 0', '1 1 1'), pose=[1, 2, 0.5, 0, 0, 0])
-    assert np.allclose(w.link_poses[w.links.index('crate::link'), :3], [1, 2, 0.5])
-    w.delete('crate')
-    assert 'crate' not in w.models and 'crate::link' not in w.links
-
-
 def test_deleted_name_is_free_at_once(world):
     w = world('')
     for _ in range(3):
@@ -36,13 +27,6 @@ def test_deleted_name_is_free_at_once(world):
         assert w.sensor('pir', 'p1')['motion'] is False
         w.delete('p1')
     assert w.sensors() == []
-
-
-def test_name_that_is_taken_is_rejected_and_changes_nothing(world):
-    w = world(box('crate', '0 0 0.5 0 0 0', '1 1 1'))
-    with pytest.raises(angen.Error, match="'crate' exists already"):
-        w.spawn(box('crate', '0 0 0 0 0 0', '1 1 1'), pose=[3, 0, 1, 0, 0, 0])
-    assert w.models == ['floor', 'crate']
 
 
 def test_an_unknown_name_is_answered_with_the_nearest(world):
@@ -70,14 +54,6 @@ def test_sensor_on_an_unknown_link_is_rejected(world):
     sensor = pir('', '0 0 0 0 0 0').split('<link name="link">')[1].split('</link>')[0]
     with pytest.raises(angen.Error, match="no link 'roof'; known are link"):
         w.spawn(sensor, 'eye', on='floor::roof')
-
-
-def test_reset_brings_everything_back(world):
-    w = world(box('ball', '0 0 3 0 0 0', '0.1 0.1 0.1'))
-    before = w.link_poses
-    w.run(0.4)
-    w.reset()
-    assert w.time == 0.0 and np.array_equal(w.link_poses, before)
 
 
 RESETS = """import angen

@@ -1,29 +1,15 @@
-"""Textures in a camera's picture: of meshes' files, and of material scripts."""
+"""The texture of a mesh's file in a camera's picture."""
 from __future__ import annotations
 
 from pathlib import Path
 
 import numpy as np
-import pytest
 from PIL import Image
 
 import angen
 
 WHITE = 77  # of sRGB: what 2.5 lx of ambient light make of white
 
-OBJ = '''mtllib sheet.mtl
-v 0 1 -1
-v 0 -1 -1
-v 0 -1 1
-v 0 1 1
-vt 0 0
-vt 1 0
-vt 1 1
-vt 0 1
-usemtl painted
-f 1/1 4/4 3/3
-f 1/1 3/3 2/2
-'''
 DAE = '''<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema"
  version="1.4.1"><asset><unit name="m" meter="1"/><up_axis>Z_UP</up_axis></asset>
 <library_images><image id="i"><init_from>four%20colors.png</init_from></image></library_images>
@@ -48,33 +34,19 @@ DAE = '''<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COL
  <bind_vertex_input semantic="UV" input_semantic="TEXCOORD" input_set="0"/></instance_material>
  </technique_common></bind_material></instance_geometry></node></visual_scene>
 </library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>'''
-SCRIPT = 'material Four/Colors { technique { pass { texture_unit { texture four.jpg } } } }'
 
 
-@pytest.fixture
-def model(tmp_path: Path) -> Path:
-    """A model's folder with a picture: red and green above blue and white."""
-    folder = tmp_path / 'models/sheet'
-    for name in ('meshes', 'materials/scripts', 'materials/textures'):
-        (folder / name).mkdir(parents=True)
+def test_a_mesh_has_the_texture_of_its_file(tmp_path: Path) -> None:
+    """A picture, red and green above blue and white, 2 m ahead under ambient light alone."""
     colors = np.array([[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [255, 255, 255]]], np.uint8)
-    picture = Image.fromarray(colors.repeat(64, axis=0).repeat(64, axis=1))
-    picture.save(folder / 'meshes/four colors.png')
-    picture.save(folder / 'materials/textures/four.jpg', quality=95)
-    (folder / 'meshes/sheet.obj').write_text(OBJ)
-    (folder / 'meshes/sheet.mtl').write_text('newmtl painted\nmap_Kd four.jpg\n')
-    (folder / 'meshes/sheet.dae').write_text(DAE)
-    (folder / 'materials/scripts/four.material').write_text(SCRIPT)
-    return folder
-
-
-def picture_of(model: Path, visual: str) -> np.ndarray:
-    """A camera's picture of it 2 m ahead, under ambient light alone."""
-    world = model.parents[1] / 'w.world'
-    world.write_text(f'''<sdf version="1.6"><world name="w"><scene><ambient>1 1 1 1</ambient>
+    Image.fromarray(colors.repeat(64, axis=0).repeat(64, axis=1)).save(
+        tmp_path / 'four colors.png')
+    (tmp_path / 'sheet.dae').write_text(DAE)
+    world = tmp_path / 'w.world'
+    world.write_text('''<sdf version="1.6"><world name="w"><scene><ambient>1 1 1 1</ambient>
   <background>0 0 0 1</background></scene>
-  <model name="sheet"><static>true</static><pose>2 0 0 0 0 0</pose><link name="l">
-    <visual name="v">{visual}</visual></link></model>
+  <model name="sheet"><static>true</static><pose>2 0 0 0 0 0</pose><link name="l"><visual name="v">
+    <geometry><mesh><uri>sheet.dae</uri></mesh></geometry></visual></link></model>
   <model name="eye"><static>true</static><link name="link"><sensor name="c" type="camera">
     <camera><horizontal_fov>1.4</horizontal_fov><image><width>64</width><height>64</height></image>
     <clip><near>0.05</near><far>20</far></clip></camera>
@@ -83,25 +55,7 @@ def picture_of(model: Path, visual: str) -> np.ndarray:
     w = angen.World(str(world))
     w.request('camera', 'eye')
     w.step(1)
-    image: np.ndarray = w.sensor('camera', 'eye')['image']
-    return image
-
-
-def expect_four_colors(image: np.ndarray) -> None:
-    places = image[[[16], [48]], [[16, 48]]].astype(int)
+    places = w.sensor('camera', 'eye')['image'][[[16], [48]], [[16, 48]]].astype(int)
     expected = np.array([[[1, 0, 0], [0, 1, 0]], [[0, 0, 1], [1, 1, 1]]]) * places[1, 1, 0]
     assert abs(places[1, 1, 0] - WHITE) < 15
     np.testing.assert_allclose(places, expected, atol=4)
-
-
-@pytest.mark.parametrize('mesh', ['obj', 'dae'])
-def test_a_mesh_has_the_texture_of_its_file(model: Path, mesh: str) -> None:
-    expect_four_colors(picture_of(
-        model, f'<geometry><mesh><uri>model://sheet/meshes/sheet.{mesh}</uri></mesh></geometry>'))
-
-
-def test_an_ogre_script_paints_a_box(model: Path) -> None:
-    expect_four_colors(picture_of(model, '''<pose>0.05 0 0 0 0 0</pose>
-  <geometry><box><size>0.1 2 2</size></box></geometry><material><script>
-  <uri>model://sheet/materials/scripts</uri><uri>model://sheet/materials/textures</uri>
-  <name>Four/Colors</name></script></material>'''))

@@ -10,6 +10,8 @@
 #include <mutex>
 #include <utility>
 
+#include "core/lists.h"
+#include "core/named.h"
 #include "ros/kinds/joint_states.h"
 #include "ros/topics.h"
 #include "ros/wire.h"
@@ -57,12 +59,6 @@ std::unique_ptr<JointControl> make_control(const desc::Model& model,
     ROS_WARN("%s runs without its controllers: %s", model.name.c_str(), error.what());
     return nullptr;
   }
-}
-
-template <class Entry, class Condition>
-std::uint32_t index_where(const sim::SharedArray<Entry>& entries, const Condition& condition) {
-  const auto found = std::find_if(entries.begin(), entries.end(), condition);
-  return found == entries.end() ? kNowhere : static_cast<std::uint32_t>(found - entries.begin());
 }
 
 // One line for each model that has come whose joints have no controllers.
@@ -135,9 +131,7 @@ std::vector<ControlledJoint> driven_joints(const Element& plugin) {
   std::vector<ControlledJoint> joints;
   for (const Element& transmission : plugin.children) {
     const std::string name = transmission.child_text("joint");
-    const bool again = std::any_of(joints.begin(), joints.end(),
-                                   [&](const ControlledJoint& each) { return each.name == name; });
-    if (transmission.name != "transmission" || again) continue;
+    if (transmission.name != "transmission" || index_in(joints, name)) continue;
     const std::string words = transmission.child_text("hardwareInterface");
     joints.emplace_back();
     joints.back().name = name;
@@ -155,16 +149,15 @@ void JointControls::find_parts(const sim::Structure& structure, Robot& robot) {
   robot.devices.clear();
   std::vector<ControlledJoint> found;
   for (ControlledJoint& joint : robot.joints) {
-    const std::uint32_t entry = index_where(structure.joints, [&](const sim::JointEntry& each) {
-      return each.model == robot.model && model.joints[each.joint].name == joint.name;
-    });
-    const std::uint32_t device = index_where(structure.devices, [&](const sim::DeviceEntry& each) {
-      return each.model == robot.model && each.kind == kCommanded &&
-             each.name == model.name + "_" + joint.name;
-    });
-    if (entry == kNowhere || device == kNowhere) continue;
-    robot.entries.push_back(entry);
-    robot.devices.push_back(device);
+    const auto entry = index_in(structure.joints, model.name + "::" + joint.name);
+    const auto device = std::find_if(
+        structure.devices.begin(), structure.devices.end(), [&](const sim::DeviceEntry& each) {
+          return each.model == robot.model && each.kind == kCommanded &&
+                 each.name == model.name + "_" + joint.name;
+        });
+    if (!entry || device == structure.devices.end()) continue;
+    robot.entries.push_back(*entry);
+    robot.devices.push_back(static_cast<std::uint32_t>(device - structure.devices.begin()));
     found.push_back(std::move(joint));
   }
   robot.joints = std::move(found);
@@ -191,9 +184,7 @@ void JointControls::on_structure(const sim::Structure& structure, const Changes&
     if (robot.control == nullptr)
       robot.control = make_control(*structure.models[robot.model], robot.joints);
   }
-  robots_.erase(std::remove_if(robots_.begin(), robots_.end(),
-                               [](const Robot& robot) { return robot.control == nullptr; }),
-                robots_.end());
+  erase_if(robots_, [](const Robot& robot) { return robot.control == nullptr; });
 }
 
 void JointControls::post_changes(const sim::Structure& structure, const Robot& robot,

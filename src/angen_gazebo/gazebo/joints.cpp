@@ -1,5 +1,3 @@
-#include "gazebo/joints.h"
-
 #include <gazebo_msgs/ApplyJointEffort.h>
 #include <gazebo_msgs/GetJointProperties.h>
 #include <gazebo_msgs/JointRequest.h>
@@ -8,7 +6,7 @@
 #include <cmath>
 
 #include "gazebo/names.h"
-#include "gazebo/push_time.h"
+#include "gazebo/services.h"
 
 namespace angen::node::gazebo {
 
@@ -40,8 +38,8 @@ std::uint8_t type_of(const desc::Joint& joint) {
 
 std::string get(Inbox& inbox, const std::string& name, Answer& response) {
   const auto structure = structure_of(inbox);
-  const sim::JointEntry& entry = structure->joints[joint_named(*structure, name, kNoJoint)];
-  const desc::Joint& joint = structure->models[entry.model]->joints[entry.joint];
+  const sim::JointEntry& entry = joint_named(*structure, name, kNoJoint);
+  const desc::Joint& joint = structure->described(entry);
   response.type = type_of(joint);
   for (const desc::JointAxis& axis : joint.axes) response.damping.push_back(axis.damping);
   if (joint.axes.empty()) return "GetJointProperties: got properties";
@@ -65,7 +63,7 @@ std::string set(Inbox& inbox, const gazebo_msgs::SetJointProperties::Request& re
   const auto structure = structure_of(inbox);
   const gazebo_msgs::ODEJointProperties& properties = request.ode_joint_config;
   sim::SetJointProperties to;
-  to.joint = structure->joints[joint_named(*structure, request.joint_name, kNoJoint)].name;
+  to.joint = joint_named(*structure, request.joint_name, kNoJoint).name;
   check_unused(properties);
   to.damping = properties.damping;
   to.upper = properties.hiStop;
@@ -80,9 +78,8 @@ std::string set(Inbox& inbox, const gazebo_msgs::SetJointProperties::Request& re
 
 std::string apply_effort(Inbox& inbox, const gazebo_msgs::ApplyJointEffort::Request& request) {
   const auto structure = structure_of(inbox);
-  const std::uint32_t joint = joint_named(*structure, request.joint_name, kNoJoint);
-  edit(inbox, sim::PushJoint{structure->joints[joint].name, request.effort,
-                             push_time(request.start_time, request.duration)});
+  edit(inbox, sim::PushJoint{joint_named(*structure, request.joint_name, kNoJoint).name,
+                             request.effort, push_time(request.start_time, request.duration)});
   return "ApplyJointEffort: effort set";
 }
 
@@ -102,8 +99,7 @@ void serve_joints(Server& server, Inbox& inbox) {
   server.serve_silently<JointRequest>(
       "clear_joint_forces", "ClearJointForces", [&](const auto& request) {
         const auto structure = structure_of(inbox);
-        const auto joint = joint_named(*structure, request.joint_name, kNoJoint);
-        edit(inbox, sim::ClearPushes{structure->joints[joint].name});
+        edit(inbox, sim::ClearPushes{joint_named(*structure, request.joint_name, kNoJoint).name});
       });
 }
 

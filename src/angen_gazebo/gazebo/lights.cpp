@@ -50,7 +50,7 @@ std::string text_with(const sim::Structure& structure, const sim::LightEntry& li
 const sim::LightEntry& light_in(const sim::Structure& structure, const std::string& name,
                                 const char* title) {
   try {
-    return structure.lights[light_named(structure, name)];
+    return light_named(structure, name);
   } catch (const NotFound& missing) {
     throw Failed(std::string(title) + ": " + missing.text());
   }

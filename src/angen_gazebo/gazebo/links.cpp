@@ -1,5 +1,3 @@
-#include "gazebo/links.h"
-
 #include <gazebo_msgs/ApplyBodyWrench.h>
 #include <gazebo_msgs/BodyRequest.h>
 #include <gazebo_msgs/GetLinkProperties.h>
@@ -8,7 +6,7 @@
 #include <gazebo_msgs/SetLinkState.h>
 
 #include "gazebo/names.h"
-#include "gazebo/push_time.h"
+#include "gazebo/services.h"
 #include "gazebo/states.h"
 #include "ros/convert.h"
 
@@ -21,8 +19,7 @@ constexpr const char* kNoLink = "link not found, did you forget to scope the lin
 std::string get_state(Inbox& inbox, const gazebo_msgs::GetLinkState::Request& request,
                       gazebo_msgs::GetLinkState::Response& response) {
   const auto structure = structure_of(inbox);
-  const std::string& link =
-      structure->links[link_named(*structure, request.link_name, kNoLink)].name;
+  const std::string& link = link_named(*structure, request.link_name, kNoLink).name;
   const std::string frame = frame_named(
       *structure, request.reference_frame,
       "reference reference_frame not found, did you forget to scope the link by model name?");
@@ -38,9 +35,7 @@ std::string get_state(Inbox& inbox, const gazebo_msgs::GetLinkState::Request& re
 std::string get_properties(Inbox& inbox, const gazebo_msgs::GetLinkProperties::Request& request,
                            gazebo_msgs::GetLinkProperties::Response& response) {
   const auto structure = structure_of(inbox);
-  const sim::LinkEntry& entry =
-      structure->links[link_named(*structure, request.link_name, kNoLink)];
-  const desc::Link& link = structure->models[entry.model]->links[entry.link];
+  const desc::Link& link = structure->described(link_named(*structure, request.link_name, kNoLink));
   const Eigen::Matrix3d& moment = link.inertial.moment;
   response.com = to_ros(link.inertial.pose);
   response.gravity_mode = static_cast<unsigned char>(link.gravity);
@@ -57,7 +52,7 @@ std::string get_properties(Inbox& inbox, const gazebo_msgs::GetLinkProperties::R
 std::string set_properties(Inbox& inbox, const gazebo_msgs::SetLinkProperties::Request& request) {
   const auto structure = structure_of(inbox);
   sim::SetLinkProperties to;
-  to.link = structure->links[link_named(*structure, request.link_name, kNoLink)].name;
+  to.link = link_named(*structure, request.link_name, kNoLink).name;
   to.gravity = request.gravity_mode != 0;
   to.inertial.pose = pose_of(request.com);
   to.inertial.mass = request.mass;
@@ -71,8 +66,7 @@ std::string set_properties(Inbox& inbox, const gazebo_msgs::SetLinkProperties::R
 std::string apply_wrench(Inbox& inbox, const gazebo_msgs::ApplyBodyWrench::Request& request) {
   const auto structure = structure_of(inbox);
   sim::PushLink push;
-  push.link =
-      structure->links[link_named(*structure, request.body_name, "body does not exist")].name;
+  push.link = link_named(*structure, request.body_name, "body does not exist").name;
   push.frame = frame_named(*structure, request.reference_frame, "reference_frame not found");
   push.point = vector_of(request.reference_point);
   push.force = vector_of(request.wrench.force);
@@ -85,9 +79,8 @@ std::string apply_wrench(Inbox& inbox, const gazebo_msgs::ApplyBodyWrench::Reque
 }  // namespace
 
 sim::Edit edit_of(const sim::Structure& structure, const gazebo_msgs::LinkState& state) {
-  const std::uint32_t link = link_named(structure, state.link_name, "link does not exist");
   return sim::SetLinkState{
-      structure.links[link].name,
+      link_named(structure, state.link_name, "link does not exist").name,
       {frame_named(structure, state.reference_frame, "failed"), pose_of(state.pose),
        vector_of(state.twist.linear), vector_of(state.twist.angular)}};
 }
@@ -114,8 +107,8 @@ void serve_links(Server& server, Inbox& inbox) {
   server.serve_silently<BodyRequest>(
       "clear_body_wrenches", "ClearBodyWrenches", [&](const auto& request) {
         const auto structure = structure_of(inbox);
-        const auto link = link_named(*structure, request.body_name, "body does not exist");
-        edit(inbox, sim::ClearPushes{structure->links[link].name});
+        edit(inbox, sim::ClearPushes{
+                        link_named(*structure, request.body_name, "body does not exist").name});
       });
 }
 

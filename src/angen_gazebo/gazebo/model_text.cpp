@@ -30,8 +30,7 @@ bool take_out_of_world(Element& sdf) {
 // All others take none for "/", and keep their lines in the text.
 bool needs_namespace(const Element& plugin, const std::string& robot_namespace) {
   if (plugin.child(kNamespace) != nullptr) return false;
-  const std::string* file = plugin.attribute("filename");
-  return robot_namespace != "/" || (file != nullptr && *file == "libgazebo_ros_control.so");
+  return robot_namespace != "/" || plugin.attribute_text("filename") == "libgazebo_ros_control.so";
 }
 
 bool give_namespace(Element& element, const std::string& robot_namespace) {

@@ -1,5 +1,3 @@
-#include "gazebo/models.h"
-
 #include <gazebo_msgs/DeleteModel.h>
 #include <gazebo_msgs/GetModelProperties.h>
 #include <gazebo_msgs/GetModelState.h>
@@ -8,12 +6,14 @@
 #include <gazebo_msgs/SetModelState.h>
 #include <ros/console.h>
 
-#include <algorithm>
 #include <map>
 #include <mutex>
 
+#include "core/lists.h"
+#include "core/named.h"
 #include "core/text.h"
 #include "gazebo/names.h"
+#include "gazebo/services.h"
 #include "gazebo/states.h"
 #include "ros/convert.h"
 
@@ -60,10 +60,10 @@ void list_parts(const desc::Model& model, gazebo_msgs::GetModelProperties::Respo
     }
     const std::string child = link.name.substr(0, link.name.find("::"));
     std::vector<std::string>& children = response.child_model_names;
-    const bool known = std::find(children.begin(), children.end(), child) != children.end();
+    const bool known = is_in(child, children);
     if (child != link.name && !known) children.push_back(child);
   }
-  for (const desc::Joint& joint : model.joints) response.joint_names.push_back(joint.name);
+  response.joint_names = names_in(model.joints);
   if (!model.links.empty()) response.canonical_body_name = model.links.front().name;
   response.is_static = static_cast<unsigned char>(model.is_static);
 }
@@ -71,9 +71,7 @@ void list_parts(const desc::Model& model, gazebo_msgs::GetModelProperties::Respo
 std::string get_world(Inbox& inbox, gazebo_msgs::GetWorldProperties::Response& response) {
   const auto snapshot = inbox.simulation().snapshot();
   response.sim_time = to_seconds(snapshot->time);
-  for (const auto& model : snapshot->structure->models) {
-    response.model_names.push_back(model->name);
-  }
+  response.model_names = names_in(snapshot->structure->models);
   response.rendering_enabled = 1;
   return "GetWorldProperties: got properties";
 }
@@ -95,9 +93,7 @@ std::string configure(Inbox& inbox, const gazebo_msgs::SetModelConfiguration::Re
   std::vector<std::string> unknown;
   for (std::size_t i = 0; i < request.joint_names.size(); ++i) {
     const std::string name = within(request.model_name, request.joint_names[i]);
-    const bool known = std::any_of(model.joints.begin(), model.joints.end(),
-                                   [&](const auto& joint) { return joint.name == name; });
-    if (!known) {
+    if (!index_in(model.joints, name)) {
       unknown.push_back(printable(name));
       continue;
     }
@@ -117,8 +113,7 @@ std::string configure(Inbox& inbox, const gazebo_msgs::SetModelConfiguration::Re
 
 std::string erase(Inbox& inbox, const gazebo_msgs::DeleteModel::Request& request) {
   model_named(*structure_of(inbox), request.model_name);
-  const sim::Outcome outcome = inbox.call(sim::Delete{request.model_name});
-  if (!outcome.ok) throw Error(outcome.message);
+  carry_out(inbox, sim::Delete{request.model_name});
   return "DeleteModel: successfully deleted model";
 }
 

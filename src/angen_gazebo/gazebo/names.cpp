@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/named.h"
 #include "core/nearest.h"
 #include "core/text.h"
 #include "gazebo/server.h"
@@ -12,14 +13,6 @@ namespace angen::node::gazebo {
 namespace {
 
 constexpr const char* kScope = "::";
-
-template <class Entry>
-std::vector<std::string> names_in(const sim::SharedArray<Entry>& entries) {
-  std::vector<std::string> names;
-  names.reserve(entries.size());
-  for (const Entry& entry : entries) names.push_back(entry.name);
-  return names;
-}
 
 NotFound not_found(const std::string& text, const char* what, const std::string& name,
                    const std::vector<std::string>& known) {
@@ -45,8 +38,7 @@ std::optional<std::uint32_t> find_scoped(const sim::SharedArray<Entry>& entries,
 std::optional<std::string> collision_named(const sim::Structure& structure,
                                            const std::string& name) {
   for (const sim::LinkEntry& link : structure.links) {
-    for (const desc::Collision& collision :
-         structure.models[link.model]->links[link.link].collisions) {
+    for (const desc::Collision& collision : structure.described(link).collisions) {
       const std::string full = link.name + kScope + collision.name;
       if (full == name || collision.name == name) return full;
     }
@@ -68,47 +60,40 @@ std::optional<std::uint32_t> find_light(const sim::Structure& structure, const s
 
 std::uint32_t model_named(const sim::Structure& structure, const std::string& name,
                           const std::string& missing) {
-  for (std::uint32_t i = 0; i < structure.models.size(); ++i) {
-    if (structure.models[i]->name == name) return i;
-  }
-  std::vector<std::string> known;
-  for (const auto& model : structure.models) known.push_back(model->name);
-  throw not_found(missing, "model", name, known);
+  if (const auto index = index_in(structure.models, name)) return *index;
+  throw not_found(missing, "model", name, names_in(structure.models));
 }
 
-std::uint32_t link_named(const sim::Structure& structure, const std::string& name,
-                         const std::string& missing) {
-  if (const auto found = find_scoped(structure.links, name)) return *found;
+const sim::LinkEntry& link_named(const sim::Structure& structure, const std::string& name,
+                                 const std::string& missing) {
+  if (const auto found = find_scoped(structure.links, name)) return structure.links[*found];
   throw not_found(missing, "link", name, names_in(structure.links));
 }
 
-std::uint32_t joint_named(const sim::Structure& structure, const std::string& name,
-                          const std::string& missing) {
-  if (const auto found = find_scoped(structure.joints, name)) return *found;
+const sim::JointEntry& joint_named(const sim::Structure& structure, const std::string& name,
+                                   const std::string& missing) {
+  if (const auto found = find_scoped(structure.joints, name)) return structure.joints[*found];
   throw not_found(missing, "joint", name, names_in(structure.joints));
 }
 
 bool has_light(const sim::Structure& structure, const std::string& name) {
-  return std::any_of(structure.lights.begin(), structure.lights.end(),
-                     [&](const sim::LightEntry& light) { return light.name == name; });
+  return index_in(structure.lights, name).has_value();
 }
 
-std::uint32_t light_named(const sim::Structure& structure, const std::string& name) {
-  if (const auto found = find_light(structure, name)) return *found;
+const sim::LightEntry& light_named(const sim::Structure& structure, const std::string& name) {
+  if (const auto found = find_light(structure, name)) return structure.lights[*found];
   throw not_found("Requested light " + printable(name) + " not found!", "light", name,
                   names_in(structure.lights));
 }
 
 std::string frame_named(const sim::Structure& structure, const std::string& name,
                         const std::string& missing) {
-  for (const auto& model : structure.models) {
-    if (model->name == name) return name;
-  }
+  if (index_in(structure.models, name)) return name;
   if (const auto link = find_scoped(structure.links, name)) return structure.links[*link].name;
   if (const auto collision = collision_named(structure, name)) return *collision;
   if (name.empty() || name == "world" || name == "map" || name == "/map") return "";
   std::vector<std::string> known = names_in(structure.links);
-  for (const auto& model : structure.models) known.push_back(model->name);
+  for (const std::string& model : names_in(structure.models)) known.push_back(model);
   throw not_found(missing, "frame", name, known);
 }
 
@@ -128,15 +113,15 @@ std::shared_ptr<const sim::Structure> structure_of(Inbox& inbox) {
   return inbox.simulation().snapshot()->structure;
 }
 
-void edit(Inbox& inbox, sim::Edit edit) {
-  const sim::Outcome outcome = inbox.call(std::move(edit));
+std::string carry_out(Inbox& inbox, sim::Action action) {
+  const sim::Outcome outcome = inbox.call(std::move(action));
   if (!outcome.ok) throw Error(outcome.message);
+  return outcome.message;
 }
 
 sim::Observed observe(Inbox& inbox, sim::Observation what) {
   const auto observed = std::make_shared<sim::Observed>();
-  const sim::Outcome outcome = inbox.call(sim::Observe{std::move(what), observed});
-  if (!outcome.ok) throw Error(outcome.message);
+  carry_out(inbox, sim::Observe{std::move(what), observed});
   return *observed;
 }
 

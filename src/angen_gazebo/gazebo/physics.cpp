@@ -1,7 +1,11 @@
 #include "gazebo/physics.h"
 
+#include <dynamic_reconfigure/ConfigDescription.h>
+#include <ros/console.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "core/limits.h"
 #include "core/text.h"
@@ -96,6 +100,176 @@ std::string PhysicsProperties::set(const gazebo_msgs::SetPhysicsProperties::Requ
   // Clients that set gravity alone leave it at 0.
   if (!is_other_step(request.time_step, step)) return "";
   return "; time_step stays the " + number_text(step) + " s of the world's <max_step_size>";
+}
+
+namespace {
+
+using dynamic_reconfigure::Config;
+
+struct Parameter {
+  const char* name;
+  const char* type;  // "double", "int", "bool"
+  const char* description;
+  double low;
+  double high;
+};
+
+// Names, types and ranges are those of gazebo_ros.
+constexpr Parameter kParameters[] = {
+    {"time_step", "double", "Step, s; fixed while the world runs", 0, 10},
+    {"max_update_rate", "double", "Steps per wall second; 0: no limit", -1, 1000},
+    {"gravity_x", "double", "Gravity along x, m/s^2", -100, 100},
+    {"gravity_y", "double", "Gravity along y, m/s^2", -100, 100},
+    {"gravity_z", "double", "Gravity along z, m/s^2", -100, 100},
+    {"auto_disable_bodies", "bool", "Kept only: bodies at rest always fall asleep", 0, 1},
+    {"sor_pgs_precon_iters", "int", "Kept only", 0, 10000},
+    {"sor_pgs_iters", "int", "Iterations of the solver that repeats failed steps", 0, 10000},
+    {"sor_pgs_w", "double", "Kept only", 0, 5},
+    {"sor_pgs_rms_error_tol", "double", "Kept only", -1, 10000},
+    {"cfm", "double", "Constraint force mixing of contacts and joints", 0, 10},
+    {"erp", "double", "Error reduction of contacts", 0, 10},
+    {"contact_surface_layer", "double", "Depth that is left to contacts, m", 0, 10},
+    {"contact_max_correcting_vel", "double", "Speed at which contacts part, m/s", 0, 10000000},
+    {"max_contacts", "int", "Kept only", 0, 10000000},
+};
+
+using Request = gazebo_msgs::SetPhysicsProperties::Request;
+
+// Reads or writes the member that a parameter names; `set` is null to read.
+template <class T>
+double access(T& member, const double* set) {
+  if (set != nullptr) member = static_cast<T>(*set);
+  return static_cast<double>(member);
+}
+
+double value_of(Request& r, const std::string& name, const double* set = nullptr) {
+  gazebo_msgs::ODEPhysics& ode = r.ode_config;
+  if (name == "time_step") return access(r.time_step, set);
+  if (name == "max_update_rate") return access(r.max_update_rate, set);
+  if (name == "gravity_x") return access(r.gravity.x, set);
+  if (name == "gravity_y") return access(r.gravity.y, set);
+  if (name == "gravity_z") return access(r.gravity.z, set);
+  if (name == "auto_disable_bodies") return access(ode.auto_disable_bodies, set);
+  if (name == "sor_pgs_precon_iters") return access(ode.sor_pgs_precon_iters, set);
+  if (name == "sor_pgs_iters") return access(ode.sor_pgs_iters, set);
+  if (name == "sor_pgs_w") return access(ode.sor_pgs_w, set);
+  if (name == "sor_pgs_rms_error_tol") return access(ode.sor_pgs_rms_error_tol, set);
+  if (name == "cfm") return access(ode.cfm, set);
+  if (name == "erp") return access(ode.erp, set);
+  if (name == "contact_surface_layer") return access(ode.contact_surface_layer, set);
+  if (name == "contact_max_correcting_vel") return access(ode.contact_max_correcting_vel, set);
+  return access(ode.max_contacts, set);
+}
+
+void add(Config& config, const Parameter& parameter, double value) {
+  const std::string type = parameter.type;
+  if (type == "bool") {
+    config.bools.emplace_back();
+    config.bools.back().name = parameter.name;
+    config.bools.back().value = static_cast<unsigned char>(value != 0.0);
+  } else if (type == "int") {
+    config.ints.emplace_back();
+    config.ints.back().name = parameter.name;
+    config.ints.back().value = static_cast<std::int32_t>(std::min(value, 2147483647.0));
+  } else {
+    config.doubles.emplace_back();
+    config.doubles.back().name = parameter.name;
+    config.doubles.back().value = value;
+  }
+}
+
+template <class F>
+Config config_of(F&& value) {
+  Config config;
+  for (const Parameter& parameter : kParameters) add(config, parameter, value(parameter));
+  dynamic_reconfigure::GroupState group;
+  group.name = "Default";
+  group.state = 1;
+  config.groups.push_back(group);
+  return config;
+}
+
+Request request_of(const gazebo_msgs::GetPhysicsProperties::Response& now) {
+  Request request;
+  request.time_step = now.time_step;
+  request.max_update_rate = now.max_update_rate;
+  request.gravity = now.gravity;
+  request.ode_config = now.ode_config;
+  return request;
+}
+
+Config config_of_now(PhysicsProperties& physics) {
+  Request now = request_of(physics.get());
+  return config_of([&](const Parameter& parameter) { return value_of(now, parameter.name); });
+}
+
+dynamic_reconfigure::ConfigDescription description_of(PhysicsProperties& physics) {
+  dynamic_reconfigure::ConfigDescription description;
+  dynamic_reconfigure::Group group;
+  group.name = "Default";
+  for (const Parameter& parameter : kParameters) {
+    dynamic_reconfigure::ParamDescription one;
+    one.name = parameter.name;
+    one.type = parameter.type;
+    one.level = 1;
+    one.description = parameter.description;
+    group.parameters.push_back(std::move(one));
+  }
+  description.groups.push_back(std::move(group));
+  description.min = config_of([](const Parameter& parameter) { return parameter.low; });
+  description.max = config_of([](const Parameter& parameter) { return parameter.high; });
+  description.dflt = config_of_now(physics);
+  return description;
+}
+
+// Throws Error for a name that is not a parameter of that type.
+void set_in(Request& request, const std::string& name, const std::string& type, double value) {
+  const auto* found =
+      std::find_if(std::begin(kParameters), std::end(kParameters),
+                   [&](const Parameter& p) { return name == p.name && type == p.type; });
+  if (found == std::end(kParameters)) {
+    throw Error("there is no parameter '" + printable(name) + "' of type " + type);
+  }
+  if (std::isnan(value)) throw Error("the parameter " + name + " is not a number");
+  const double bounded = std::clamp(value, found->low, found->high);
+  value_of(request, name, &bounded);
+}
+
+}  // namespace
+
+Reconfigure::Reconfigure(ros::NodeHandle node, PhysicsProperties& physics) : physics_(physics) {
+  descriptions_ = node.advertise<dynamic_reconfigure::ConfigDescription>(
+      "gazebo/parameter_descriptions", 1, true);
+  descriptions_.publish(description_of(physics));
+  updates_ = node.advertise<Config>("gazebo/parameter_updates", 1, true);
+  publish();
+  physics.on_change([this] { publish(); });
+  server_ = node.advertiseService("gazebo/set_parameters", &Reconfigure::set, this);
+}
+
+void Reconfigure::publish() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  updates_.publish(config_of_now(physics_));
+}
+
+// Missing parameters keep their values. The reply type has no field for an error message: roscpp
+// logs exceptions, and sends its text to the client.
+bool Reconfigure::set(Call::Request& request, Call::Response& response) {
+  try {
+    Request changed = request_of(physics_.get());
+    for (const auto& p : request.config.bools)
+      set_in(changed, p.name, "bool", p.value != 0 ? 1 : 0);
+    for (const auto& p : request.config.ints) set_in(changed, p.name, "int", p.value);
+    for (const auto& p : request.config.doubles) set_in(changed, p.name, "double", p.value);
+    if (!request.config.strs.empty()) {
+      throw Error("there is no parameter '" + printable(request.config.strs[0].name) + "'");
+    }
+    physics_.set(changed);
+    response.config = config_of_now(physics_);
+  } catch (const std::exception& problem) {
+    throw Error("/gazebo/set_parameters: " + printable(problem.what(), 2000));
+  }
+  return true;
 }
 
 }  // namespace angen::node::gazebo

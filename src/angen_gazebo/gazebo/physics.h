@@ -1,7 +1,10 @@
 #pragma once
 
+#include <dynamic_reconfigure/Config.h>
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <gazebo_msgs/GetPhysicsProperties.h>
 #include <gazebo_msgs/SetPhysicsProperties.h>
+#include <ros/node_handle.h>
 
 #include <atomic>
 #include <functional>
@@ -39,6 +42,25 @@ class PhysicsProperties {
   std::mutex mutex_;  // guards unused_
   Unused unused_;
   std::function<void()> changed_;
+};
+
+/// The physics properties as parameters of dynamic_reconfigure: parameter_descriptions and
+/// parameter_updates, latched, and set_parameters.
+class Reconfigure {
+ public:
+  Reconfigure(ros::NodeHandle node, PhysicsProperties& physics);
+
+ private:
+  using Call = dynamic_reconfigure::Reconfigure;
+
+  bool set(Call::Request& request, Call::Response& response);
+  void publish();
+
+  PhysicsProperties& physics_;
+  std::mutex mutex_;  // the last update published is of the last change
+  ros::Publisher descriptions_;
+  ros::Publisher updates_;
+  ros::ServiceServer server_;
 };
 
 }  // namespace angen::node::gazebo

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/named.h"
 #include "core/names.h"
 #include "core/text.h"
 #include "document/packages.h"
@@ -66,23 +67,21 @@ Spawner::Spawner(Server& server, Inbox& inbox, const load::SearchPaths& paths, T
               frame_named(*structure, request.reference_frame,
                           "reference reference_frame not found, did you forget to scope the link "
                           "by model name?");
-          const auto taken = [&](const auto& model) { return model->name == request.model_name; };
           const std::string included = load::included_light(request.model_xml, paths_);
           const std::string& xml = included.empty() ? request.model_xml : included;
           const bool light = load::is_light(xml);
           if (light ? has_light(*structure, request.model_name)
-                    : std::any_of(structure->models.begin(), structure->models.end(), taken)) {
+                    : index_in(structure->models, request.model_name).has_value()) {
             throw Failed(kExists);
           }
           const ModelText text = model_text(xml, request.robot_namespace);
           const Pose given = pose_of(request.initial_pose);
           const Pose at = frame.empty() ? Pose() : observe(inbox_, {{frame}, {}}).entities[0].pose;
-          const sim::Outcome outcome =
-              inbox_.call(action_of(text.xml, request.model_name, at * given * text.own_pose));
-          if (!outcome.ok) throw Error(outcome.message);
+          const std::string said = carry_out(
+              inbox_, action_of(text.xml, request.model_name, at * given * text.own_pose));
           if (light) lights_.note_spawned(request.model_name, text.xml);
-          const std::size_t warnings = std::min(outcome.message.find('\n'), outcome.message.size());
-          return "SpawnModel: Successfully spawned entity" + outcome.message.substr(warnings);
+          const std::size_t warnings = std::min(said.find('\n'), said.size());
+          return "SpawnModel: Successfully spawned entity" + said.substr(warnings);
         });
   }
 }

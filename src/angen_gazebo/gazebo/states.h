@@ -10,6 +10,7 @@
 #include "ros/inbox.h"
 #include "ros/lazy_publisher.h"
 #include "ros/pacer.h"
+#include "sim/simulation.h"
 
 namespace angen::node::gazebo {
 
@@ -47,6 +48,21 @@ class StateTopics {
   Pacer::Clock::time_point sent_{};
   ros::Subscriber set_model_;
   ros::Subscriber set_link_;
+};
+
+/// performance_metrics, once a second of wall time while subscribed: how often each sensor
+/// published.
+class Performance {
+ public:
+  Performance(ros::NodeHandle node, const sim::Simulation& simulation);
+  /// The thread that ticks.
+  void publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
+
+ private:
+  const sim::Simulation& simulation_;
+  LazyPublisher publisher_;
+  Pacer::Clock::time_point sent_ = Pacer::Clock::now();
+  Nanoseconds sent_time_ = 0;
 };
 
 }  // namespace angen::node::gazebo

@@ -10,6 +10,10 @@ constexpr char kFtSensor[] = "libgazebo_ros_ft_sensor.so";
 /// The joint, without its model's name, that the <plugin> of a force-torque sensor measures.
 std::string measured_joint(const Element& plugin, const std::string& model);
 
+/// Throws Error for a URDF <robot> whose links, joints or numbers are not as they must be, and for
+/// one so large or deep that libsdformat would take minutes.
+void check_robot(const Element& robot);
+
 /// The dialect of documents made for Gazebo; one file for each group of its questions.
 class Gazebo : public GazeboDialect {
  public:

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/plain_file.h"
+#include "core/files.h"
 #include "core/text.h"
 #include "document/search.h"
 #include "document/xml.h"

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -14,7 +13,6 @@
 #include "document/xml.h"
 #include "import/gazebo.h"
 #include "import/libsdformat.h"
-#include "import/urdf_check.h"
 #include "sdf/describe.h"
 
 namespace angen::load {
@@ -119,9 +117,7 @@ Pose pose_in(const Element* origin) {
   Pose pose;
   if (origin == nullptr) return pose;
   const auto vector = [&](const char* name) {
-    const std::string* text = origin->attribute(name);
-    const std::vector<double> v =
-        text == nullptr ? std::vector<double>{} : numbers_in(*text).values;
+    const std::vector<double> v = numbers_in(origin->attribute_text(name)).values;
     return v.size() == 3 ? Vec3(v[0], v[1], v[2]) : Vec3(Vec3::Zero());
   };
   const Vec3 rpy = vector("rpy");
@@ -242,8 +238,8 @@ void keep_transmissions(const Element& robot, Element& model) {
   }
   std::size_t kept = 0;
   for (Element& plugin : model.children) {
-    const std::string* file = plugin.attribute("filename");
-    if (plugin.name != "plugin" || file == nullptr || *file != "libgazebo_ros_control.so") continue;
+    if (plugin.name != "plugin") continue;
+    if (plugin.attribute_text("filename") != "libgazebo_ros_control.so") continue;
     kept += all.size();
     check_model_size(kept, robot.source);
     plugin.children.insert(plugin.children.end(), all.begin(), all.end());
@@ -255,12 +251,10 @@ std::string with_measured_joints(const Element& robot, const Index& index) {
   Element kept = robot;
   for (const Element& extension : robot.children) {
     const Element* plugin = extension.name == "gazebo" ? extension.child("plugin") : nullptr;
-    const std::string* file = plugin == nullptr ? nullptr : plugin->attribute("filename");
-    if (file == nullptr || *file != kFtSensor) continue;
+    if (plugin == nullptr || plugin->attribute_text("filename") != kFtSensor) continue;
     const std::string name = measured_joint(*plugin, name_of(robot));
     const Element* joint = part_in(index.own, {"joint", name});
-    const std::string* type = joint == nullptr ? nullptr : joint->attribute("type");
-    if (type == nullptr || *type != "fixed") continue;
+    if (joint == nullptr || joint->attribute_text("type") != "fixed") continue;
     Element preserve = text_element("gazebo", "", joint->source);
     preserve.attributes = {{"reference", name}};
     preserve.children = {text_element("preserveFixedJoint", "true", joint->source)};

@@ -1,5 +1,3 @@
-#include "import/urdf_check.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +7,7 @@
 #include "core/text.h"
 #include "document/values.h"
 #include "document/xml.h"
+#include "import/gazebo.h"
 
 namespace angen::load {
 
@@ -90,8 +89,7 @@ void check_chains(const Element& robot, std::size_t links) {
 void check_lumped(const Element& robot) {
   std::size_t joints = 0, parts = 0;
   for (const Element& child : robot.children) {
-    const std::string* type = child.name == "joint" ? child.attribute("type") : nullptr;
-    if (type != nullptr && *type == "fixed") ++joints;
+    if (child.name == "joint" && child.attribute_text("type") == "fixed") ++joints;
     if (child.name == "gazebo") parts += child.children.size();
   }
   if (joints * parts <= kMaxLumped) return;

@@ -103,9 +103,7 @@ Kind inertia_kind(std::string name, std::string doc, double rate) {
 }
 
 void InertialUnit::configure(Params& params, Wiring& wiring) {
-  const double stddev =
-      params.number("gaussianNoise", 0.0, "", "standard deviation of each number", kNotNegative);
-  add_noise(params, {"angular_velocity", "acceleration"}, stddev);
+  const double stddev = read_noise(params, {"angular_velocity", "acceleration"});
   const Vec3 all = Vec3::Constant(stddev);
   set_deviations(Vec3::Constant(kExact), all, all);
   inertia_.configure(wiring.link(""));
@@ -119,14 +117,15 @@ void InertialUnit::set_deviations(const Vec3& orientation, const Vec3& turning,
   }
 }
 
-void InertialUnit::add_noise(Params& params, std::initializer_list<const char*> fields,
-                             double stddev) {
+double read_noise(Params& params, std::initializer_list<const char*> fields) {
   Noise noise;
-  noise.stddev = stddev;
+  noise.stddev =
+      params.number("gaussianNoise", 0.0, "", "standard deviation of each number", kNotNegative);
   for (const char* field : fields) {
     noise.field = field;
     params.noise(noise);
   }
+  return noise.stddev;
 }
 
 Vec3 three_numbers(Params& params, const char* path, const std::string& unit, const char* doc) {

@@ -96,8 +96,6 @@ class InertialUnit : public Sensor {
   /// Errors of the orientation (rad), turn rate (rad/s) and acceleration (m/s^2), about or along x,
   /// y, z.
   void set_deviations(const Vec3& orientation, const Vec3& turning, const Vec3& acceleration);
-  /// Noise of that standard deviation in those fields.
-  static void add_noise(Params& params, std::initializer_list<const char*> fields, double stddev);
 
  private:
   Inertia inertia_;
@@ -125,6 +123,10 @@ class ModelSensorPlugin : public BodySensorPlugin<Type> {
  public:
   std::optional<std::string> link_of(Params&) const override { return ""; }
 };
+
+/// Reads <gaussianNoise>, the standard deviation of each number in these fields, and gives them
+/// such noise.
+double read_noise(Params& params, std::initializer_list<const char*> fields);
 
 /// Numbers of which there may be one for all three axes, as hector's plug-ins take them.
 Vec3 three_numbers(Params& params, const char* path, const std::string& unit, const char* doc);

@@ -47,6 +47,9 @@ using DiffDrivePlugin = WheelsPlugin<read_wheels, diff_drive_kind>;
 /// The pose of its base, by the world or by its wheels.
 class DiffDriveOdometry : public Sensor {
  public:
+  static Kind describe() {
+    return odometry_kind("odometry", "Odometry of a differential drive.", 100.0);
+  }
   void configure(Params& params, Wiring& wiring) override {
     const Settings s = read_settings(params);
     base_.configure(params, wiring);
@@ -72,42 +75,30 @@ class DiffDriveOdometry : public Sensor {
   WheelOdometry wheels_;
 };
 
-class DiffDriveOdometryPlugin : public Plugin {
+class DiffDriveOdometryPlugin : public BodySensorPlugin<DiffDriveOdometry> {
  public:
-  const Kind& kind() const override {
-    static const Kind kind = odometry_kind("odometry", "Odometry of a differential drive.", 100.0);
-    return kind;
-  }
   std::optional<std::string> link_of(Params& params) const override {
     return params.flag("publishTf", true, "odometry is published") ? std::make_optional("")
                                                                    : std::nullopt;
-  }
-  std::unique_ptr<Sensor> make_sensor(Params&) const override {
-    return std::make_unique<DiffDriveOdometry>();
   }
 };
 
 /// The angles of its wheels.
 class DiffDriveJoints : public JointStates {
  public:
+  static Kind describe() {
+    return joint_states_kind("wheel_states", "The wheels of a differential drive.");
+  }
   void configure(Params& params, Wiring& wiring) override {
     const Settings s = read_settings(params);
     set_up({s.left.front(), s.right.front()}, wiring);
   }
 };
 
-class DiffDriveJointsPlugin : public Plugin {
+class DiffDriveJointsPlugin : public BodySensorPlugin<DiffDriveJoints> {
  public:
-  const Kind& kind() const override {
-    static const Kind kind =
-        joint_states_kind("wheel_states", "The wheels of a differential drive.");
-    return kind;
-  }
   std::optional<std::string> link_of(Params& params) const override {
     return read_settings(params).publishes_joints ? std::make_optional("") : std::nullopt;
-  }
-  std::unique_ptr<Sensor> make_sensor(Params&) const override {
-    return std::make_unique<DiffDriveJoints>();
   }
 };
 

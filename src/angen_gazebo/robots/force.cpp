@@ -18,9 +18,7 @@ class Force : public Device {
   }
 
   Verdict command(const Command& command, const View&) override {
-    std::vector<double> v = command.values;
-    if (command.verb == "Stop") v.assign(6, 0.0);
-    return Verdict::accept([this, v] {
+    return Verdict::accept([this, v = command.values] {
       force_ = {v[0], v[1], v[2]};
       torque_ = {v[3], v[4], v[5]};
     });

@@ -27,13 +27,7 @@ class FtSensor : public Sensor {
     joint_ = wiring.joint(name);
     frame_ = wiring.child_of(joint_);
     child_ = wiring.link(frame_);
-    Noise noise;
-    noise.stddev =
-        params.number("gaussianNoise", 0.0, "", "standard deviation of each number", kNotNegative);
-    for (const char* field : {"force", "torque"}) {
-      noise.field = field;
-      params.noise(noise);
-    }
+    read_noise(params, {"force", "torque"});
   }
 
   void read(const View& view, Hits, Rng&, Reading& reading) override {

@@ -19,13 +19,7 @@ class P3d : public Sensor {
         .numbers("angular_velocity", "rad/s", "about x, y, z");
   }
   void configure(Params& params, Wiring& wiring) override {
-    Noise noise;
-    noise.stddev =
-        params.number("gaussianNoise", 0.0, "", "standard deviation of each number", kNotNegative);
-    for (const char* field : {"position", "velocity", "angular_velocity"}) {
-      noise.field = field;
-      params.noise(noise);
-    }
+    read_noise(params, {"position", "velocity", "angular_velocity"});
     link_ = wiring.link("");
   }
   void read(const View& view, Hits, Rng&, Reading& reading) override {

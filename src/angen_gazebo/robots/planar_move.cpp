@@ -55,9 +55,7 @@ class PlanarMove : public Device {
   }
 
   Verdict command(const Command& command, const View& view) override {
-    std::vector<double> values = command.values;
-    if (command.verb == "Stop") values = {0.0, 0.0, 0.0};
-    return Verdict::accept([this, values, now = view.time()] {
+    return Verdict::accept([this, values = command.values, now = view.time()] {
       velocity_ = {limited(values[0], most_.x()), limited(values[1], most_.y()), 0.0};
       turn_ = limited(values[2], most_.z());
       commanded_at_ = now;
@@ -97,24 +95,16 @@ class PlanarMove : public Device {
   bool released_ = false;         // at rest, held by its brake
 };
 
-class PlanarMovePlugin : public Plugin {
- public:
-  const Kind& kind() const override {
-    static const Kind kind =
-        Kind("planar_move", "A robot that moves over the floor in any direction.")
-            .verb("Stop", "stops")
-            .value_units({"m/s", "m/s", "rad/s"})
-            .number("forward", "m/s", "as commanded")
-            .shown(2)
-            .number("left", "m/s", "as commanded")
-            .shown(2)
-            .number("turn", "rad/s", "to the left, as commanded")
-            .shown(2);
-    return kind;
-  }
-  bool serves(const ModelInfo&) const override { return true; }
-  std::unique_ptr<Device> make_device() const override { return std::make_unique<PlanarMove>(); }
-};
+ANGEN_REGISTER_DEVICE(PlanarMove,
+                      Kind("planar_move", "A robot that moves over the floor in any direction.")
+                          .verb("Stop", "stops")
+                          .value_units({"m/s", "m/s", "rad/s"})
+                          .number("forward", "m/s", "as commanded")
+                          .shown(2)
+                          .number("left", "m/s", "as commanded")
+                          .shown(2)
+                          .number("turn", "rad/s", "to the left, as commanded")
+                          .shown(2))
 
 class PlanarOdometry : public TrueOdometry<Planar, read_planar> {
  public:
@@ -126,5 +116,4 @@ class PlanarOdometry : public TrueOdometry<Planar, read_planar> {
 
 }  // namespace angen::robots
 
-ANGEN_REGISTER_PLUGIN(angen::robots::PlanarMovePlugin)
 ANGEN_REGISTER_PLUGIN(angen::robots::ModelSensorPlugin<angen::robots::PlanarOdometry>)

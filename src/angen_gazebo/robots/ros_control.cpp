@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/lists.h"
+#include "core/named.h"
 #include "plugin/outputs.h"
 #include "plugin/registration.h"
 #include "plugin/view.h"
@@ -154,9 +156,7 @@ class JointCommandPlugin : public Plugin {
     for (const Transmission& each : read_transmissions(params)) {
       if (model.joint(each.joint) == nullptr) continue;
       const Mount mount{part_name(model.name, each.joint), each.joint};
-      const bool known = std::any_of(mounts.begin(), mounts.end(),
-                                     [&](const Mount& other) { return other.name == mount.name; });
-      if (!known) mounts.push_back(mount);
+      if (!index_in(mounts, mount.name)) mounts.push_back(mount);
     }
     return mounts;
   }
@@ -172,10 +172,13 @@ class JointCommandPlugin : public Plugin {
 /// The states of these joints.
 class ControlledJoints : public JointStates {
  public:
+  static Kind describe() {
+    return joint_states_kind("controlled_joints", "States of the joints that take commands.");
+  }
   void configure(Params& params, Wiring& wiring) override {
     std::vector<std::string> names;
     for (const Transmission& each : read_transmissions(params)) {
-      const bool again = std::find(names.begin(), names.end(), each.joint) != names.end();
+      const bool again = is_in(each.joint, names);
       if (wiring.has_joint(each.joint) && !again) names.push_back(each.joint);
     }
     read_others(params);
@@ -183,18 +186,10 @@ class ControlledJoints : public JointStates {
   }
 };
 
-class ControlledJointsPlugin : public Plugin {
+class ControlledJointsPlugin : public BodySensorPlugin<ControlledJoints> {
  public:
-  const Kind& kind() const override {
-    static const Kind kind =
-        joint_states_kind("controlled_joints", "States of the joints that take commands.");
-    return kind;
-  }
   std::optional<std::string> link_of(Params& params) const override {
     return read_transmissions(params).empty() ? std::nullopt : std::make_optional("");
-  }
-  std::unique_ptr<Sensor> make_sensor(Params&) const override {
-    return std::make_unique<ControlledJoints>();
   }
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "plugin/outputs.h"
 #include "plugin/view.h"
@@ -18,11 +17,10 @@ void Wheels::set_up(WheelSettings settings, Wiring& wiring) {
 }
 
 Verdict Wheels::command(const Command& command, const View& view) {
-  std::vector<double> values = command.values;
-  if (command.verb == "Stop") values = {0.0, 0.0};
   const Nanoseconds until =
       settings_.timeout == kForever ? kForever : view.time() + settings_.timeout;
-  return Verdict::accept([this, v = values[0], w = values[1], until] { roll(v, w, until); });
+  return Verdict::accept(
+      [this, v = command.values[0], w = command.values[1], until] { roll(v, w, until); });
 }
 
 void Wheels::roll(double v, double w, Nanoseconds until) {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "assets/png.h"
+#include "assets/mesh.h"
 #include "assets/serialize.h"
 
 /// The program angen_mesh, which alone runs assimp and reads pictures: its arguments and what it

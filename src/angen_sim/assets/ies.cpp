@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/diagnostics.h"
+#include "core/lists.h"
 #include "core/text.h"
 #include "document/values.h"
 
@@ -88,9 +89,7 @@ class IesNumbers {
   std::size_t count_ = 0;
 };
 
-bool one_of(double value, const std::vector<double>& known) {
-  return std::find(known.begin(), known.end(), value) != known.end();
-}
+bool one_of(double value, const std::vector<double>& known) { return is_in(value, known); }
 
 /// Planes from 90 to 270 degrees are one half of a luminaire that is symmetric about their plane:
 /// makes all planes from 0 to 360 degrees of them.

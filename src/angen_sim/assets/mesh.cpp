@@ -77,6 +77,16 @@ Texture import_texture(const std::string& path) {
   }
 }
 
+HeightGrid read_grid(const std::string& path, const Vec3& size, const Source& at) {
+  const GrayImage image = read_png(path, "heightmap", 2, at);
+  HeightGrid grid{image.width, image.height, size.x(), size.y(), {}};
+  grid.heights.reserve(image.values.size());
+  for (const double value : image.values) {
+    grid.heights.push_back(static_cast<float>(size.z() * value));
+  }
+  return grid;
+}
+
 std::string changed_at(const std::string& path) {
   std::error_code failed;
   return std::to_string(fs::last_write_time(path, failed).time_since_epoch().count());
@@ -106,6 +116,23 @@ std::shared_ptr<const Texture> read_texture(const std::string& path) {
   static Kept<std::string, const Texture> kept;
   return kept.get(path + "|" + changed_at(path),
                   [&] { return std::make_shared<Texture>(import_texture(path)); });
+}
+
+GrayImage read_png(const std::string& path, const std::string& what, unsigned least,
+                   const Source& at) {
+  const std::string bytes = read_file(path);
+  try {
+    return decode_gray(convert_gray(mesh_program(), bytes, least));
+  } catch (const Error& problem) {
+    throw Error(at, what + " " + path + " " + problem.what());
+  }
+}
+
+std::shared_ptr<const HeightGrid> read_heightmap(const std::string& path, const Vec3& size,
+                                                 const Source& at) {
+  static Kept<std::string, const HeightGrid> kept;
+  return kept.get(path + "|" + changed_at(path) + "|" + scale_text(size),
+                  [&] { return std::make_shared<HeightGrid>(read_grid(path, size, at)); });
 }
 
 }  // namespace angen::load

@@ -2,9 +2,10 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/diagnostics.h"
-#include "core/mesh_look.h"
+#include "core/height_grid.h"
 #include "core/shape.h"
 #include "core/texture.h"
 
@@ -31,5 +32,25 @@ std::string materials_of(const std::string& path);
 
 /// A PNG or JPEG file. Shared as meshes are. Throws Error.
 std::shared_ptr<const Texture> read_texture(const std::string& path);
+
+/// Samples as the file holds them, row by row from the image's top: gray values from 0 to 1, the
+/// mean of a color image's. They are quantities: gAMA, sRGB and iCCP chunks do not change them.
+struct GrayImage {
+  unsigned width = 0;
+  unsigned height = 0;
+  std::vector<double> values;
+};
+
+constexpr unsigned kMaxPngSide = 2049;
+
+/// A PNG of `least` to kMaxPngSide pixels a side; `what` names it in messages. Throws Error at
+/// `at`.
+GrayImage read_png(const std::string& path, const std::string& what, unsigned least,
+                   const Source& at);
+
+/// A grayscale PNG as a surface of size x, y and height z, centered on the origin. Kept
+/// and shared as meshes are.
+std::shared_ptr<const HeightGrid> read_heightmap(const std::string& path, const Vec3& size,
+                                                 const Source& at);
 
 }  // namespace angen::load

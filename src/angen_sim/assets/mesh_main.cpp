@@ -13,7 +13,6 @@
 #include <array>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
-#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>

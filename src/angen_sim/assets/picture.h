@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "assets/png.h"
+#include "assets/mesh.h"
 #include "core/texture.h"
 
 namespace angen::load {

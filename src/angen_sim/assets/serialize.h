@@ -2,11 +2,9 @@
 
 #include <cereal/types/string.hpp>
 #include <cereal/types/vector.hpp>
-#include <sstream>
 #include <type_traits>
 
 #include "assets/bounded_input.h"
-#include "core/mesh_look.h"
 #include "core/shape.h"
 #include "core/texture.h"
 

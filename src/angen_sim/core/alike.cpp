@@ -6,11 +6,14 @@
 #include <map>
 #include <utility>
 
+#include "core/lists.h"
+
 namespace angen {
 
 namespace {
 
 constexpr std::size_t kFewMessages = 3;
+constexpr std::size_t kFewNames = 10;
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
@@ -29,6 +32,27 @@ std::string reason_of(const std::string& message) {
     }
   }
   return reason;
+}
+
+// The first quoted part, with its quotes; empty if there is none.
+std::string name_in(const std::string& message) {
+  const std::size_t begin = message.find_first_of("'\"");
+  if (begin == std::string::npos) return {};
+  return message.substr(begin, message.find(message[begin], begin + 1) - begin + 1);
+}
+
+// Names in these messages, each once, but for that of the first.
+std::string other_names(const std::vector<const Diagnostic*>& group) {
+  std::vector<std::string> names{name_in(group.front()->message)};
+  for (const Diagnostic* each : group) {
+    const std::string name = name_in(each->message);
+    if (!is_in(name, names)) names.push_back(name);
+  }
+  std::string text;
+  for (std::size_t i = 1; i < std::min(names.size(), kFewNames + 1); ++i) {
+    text += (i == 1 ? ": " : ", ") + names[i];
+  }
+  return names.size() > kFewNames + 1 ? text + ", …" : text;
 }
 
 // FILE:LINE: MESSAGE; a text of another form has no file.
@@ -64,7 +88,8 @@ std::vector<Diagnostic> merge_alike(const std::vector<Diagnostic>& all) {
       for (const Diagnostic* other : group) last = std::max(last, other->source.line);
       merged.push_back(each);
       merged.back().message += " (and " + std::to_string(group.size() - 1) +
-                               " more like it, up to line " + std::to_string(last) + ")";
+                               " more like it, up to line " + std::to_string(last) +
+                               other_names(group) + ")";
     }
   }
   return merged;

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <vector>
+
+#include "core/lists.h"
 
 namespace angen {
 
@@ -20,9 +21,7 @@ struct Anatomy {
   /// The number of the list that contains the name; -1: none.
   static int find(const std::vector<Names>& lists, const std::string& name) {
     for (std::size_t i = 0; i < lists.size(); ++i) {
-      if (std::find(lists[i].begin(), lists[i].end(), name) != lists[i].end()) {
-        return static_cast<int>(i);
-      }
+      if (is_in(name, lists[i])) return static_cast<int>(i);
     }
     return -1;
   }

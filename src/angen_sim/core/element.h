@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +32,11 @@ struct Element {
       if (k == key) return &v;
     }
     return nullptr;
+  }
+  /// The text of an attribute, "" when there is none.
+  std::string attribute_text(const std::string& key) const {
+    const std::string* found = attribute(key);
+    return found == nullptr ? "" : *found;
   }
 };
 

@@ -53,4 +53,9 @@ const Limit& limit_of_unit(const std::string& unit);
 /// "the position is 1e+19 m; it must be …" for a pose beyond the limits, "" for a good one.
 std::string pose_problem(const Pose& pose);
 
+/// Why no body has that mass (kg) and these moments of inertia (kg m^2), or the solver cannot use
+/// them: each principal moment must be positive, none above the sum of the others, all within
+/// limits. Empty for good ones.
+std::string inertia_problem(double mass, const Eigen::Matrix3d& moment);
+
 }  // namespace angen

@@ -2,10 +2,10 @@
 
 #include <dlfcn.h>
 
-#include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <sstream>
+
+#include "core/lists.h"
 
 namespace angen {
 
@@ -32,9 +32,7 @@ std::vector<std::string> entries_of(const char* variable) {
 std::vector<fs::path> plugin_path() {
   std::vector<fs::path> folders;
   const auto add = [&](const fs::path& folder) {
-    if (std::find(folders.begin(), folders.end(), folder) == folders.end()) {
-      folders.push_back(folder);
-    }
+    if (!is_in(folder, folders)) folders.push_back(folder);
   };
   for (const char* variable : {"ANGEN_PLUGIN_PATH", "GAZEBO_PLUGIN_PATH"}) {
     for (const std::string& entry : entries_of(variable)) add(entry);
@@ -55,6 +53,12 @@ std::string load_library(const std::string& filename) {
     return library != nullptr ? "" : file + " does not load: " + dlerror();
   }
   return filename + " is not found on the plug-in path";
+}
+
+bool allow_paths() {
+  const char* value = std::getenv("ANGEN_ALLOW_PATHS");
+  const std::string text = value == nullptr ? "" : value;
+  return text == "true" || text == "True" || text == "1";
 }
 
 }  // namespace angen

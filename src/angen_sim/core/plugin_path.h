@@ -21,4 +21,7 @@ std::filesystem::path own_folder();
 /// The entries of an environment variable such as PATH.
 std::vector<std::string> entries_of(const char* variable);
 
+/// Whether documents may name files and plug-in libraries anywhere: ANGEN_ALLOW_PATHS is true or 1.
+bool allow_paths();
+
 }  // namespace angen

@@ -1,7 +1,6 @@
 #include "core/polygon.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace angen {

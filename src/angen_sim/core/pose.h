@@ -46,6 +46,13 @@ inline Vec3 to_rpy(const Quat& q) {
   return {std::atan2(r(2, 1), r(2, 2)), pitch, std::atan2(r(1, 0), r(0, 0))};
 }
 
+/// Half of the surface of a box.
+template <class Scalar>
+Scalar half_surface(const Eigen::AlignedBox<Scalar, 3>& box) {
+  const Eigen::Matrix<Scalar, 3, 1> size = box.sizes();
+  return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
+}
+
 inline double yaw_of(const Quat& q) {
   return std::atan2(2 * (q.w() * q.z() + q.x() * q.y()), 1 - 2 * (q.y() * q.y() + q.z() * q.z()));
 }

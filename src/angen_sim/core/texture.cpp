@@ -1,7 +1,6 @@
 #include "core/texture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace angen {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
 /// Characters that PDFs and word processors have instead of ASCII's: minus signs and dashes, curly

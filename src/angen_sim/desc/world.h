@@ -140,6 +140,8 @@ struct JointAxis {
 
 struct Joint {
   enum class Type { kFixed, kRevolute, kPrismatic, kBall, kUniversal, kScrew };
+  static constexpr const char* kTypes[] = {"fixed", "revolute",  "prismatic",
+                                           "ball",  "universal", "screw"};  // names in SDF
   std::string name;
   Type type = Type::kFixed;
   std::string parent;           // link name, or "world"
@@ -149,6 +151,8 @@ struct Joint {
   double lead = 0.0;            // m/rad along the axis of a screw; positive: right-handed
   double longest_step = 0.0;    // s, of the plug-in that leads it, as that declares
   Source source;
+
+  const char* type_name() const { return kTypes[static_cast<std::size_t>(type)]; }
 };
 
 struct Plugin {

@@ -1,6 +1,5 @@
 // librobot_battery.so
 #include <algorithm>
-#include <optional>
 
 #include "devices/refresh.h"
 #include "plugin/outputs.h"
@@ -86,32 +85,19 @@ class Battery : public Device {
   Refresh due_{1.0};
 };
 
-class BatteryPlugin : public Plugin {
- public:
-  const Kind& kind() const override {
-    static const Kind kind =
-        Kind("battery", "A robot's battery.")
-            .group("")
-            .example("set battery turtlebot_battery 80")
-            .verb("Charge", "percent", "%", {0.0, 100.0}, "charges or discharges it to this")
-            .number("voltage", "V", "constant")
-            .number("capacity", "A h", "when full")
-            .number("charge", "A h", "that is left")
-            .number("percentage", "1", "of the charge that is left, 0 to 1")
-            .shown_as_percent()
-            .number("drawn", "W", "by the robot now")
-            .flag("empty", "whether nothing is left: the drive stops")
-            .alarm("EMPTY", "");
-    return kind;
-  }
-  bool serves(const ModelInfo&) const override { return true; }
-  // Not the model's own, which is that of its drive.
-  std::string instance_name(const ModelInfo& model) const override {
-    return model.name + "_battery";
-  }
-  std::unique_ptr<Device> make_device() const override { return std::make_unique<Battery>(); }
-};
+ANGEN_REGISTER_PART(Battery, model.name + "_battery",
+                    Kind("battery", "A robot's battery.")
+                        .group("")
+                        .example("set battery turtlebot_battery 80")
+                        .verb("Charge", "percent", "%", {0.0, 100.0},
+                              "charges or discharges it to this")
+                        .number("voltage", "V", "constant")
+                        .number("capacity", "A h", "when full")
+                        .number("charge", "A h", "that is left")
+                        .number("percentage", "1", "of the charge that is left, 0 to 1")
+                        .shown_as_percent()
+                        .number("drawn", "W", "by the robot now")
+                        .flag("empty", "whether nothing is left: the drive stops")
+                        .alarm("EMPTY", ""))
 
 }  // namespace angen::devices
-
-ANGEN_REGISTER_PLUGIN(angen::devices::BatteryPlugin)

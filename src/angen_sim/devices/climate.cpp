@@ -178,27 +178,18 @@ class Climate : public Device {
   Refresh due_{kRate};
 };
 
-class ClimatePlugin : public Plugin {
- public:
-  const Kind& kind() const override {
-    static const Kind kind =
-        Kind("climate", "The air in a model's rooms.")
-            .group("")
-            .verb("Outside", "degrees", "°C", kCelsius, "temperature of the air outdoors")
-            .verb("Heat", "degrees", "°C", kCelsius, "to which radiators heat each room")
-            .texts("names", "of each room")
-            .numbers("temperatures", "°C", "of each room")
-            .shown_by_name("names", 1)
-            .numbers("humidities", "%", "of each room, relative")
-            .number("outside_temperature", "°C", "outdoors")
-            .number("outside_humidity", "%", "outdoors, relative")
-            .number("heating", "°C", "to which radiators heat each room; none without radiators");
-    return kind;
-  }
-  bool serves(const ModelInfo&) const override { return true; }
-  std::unique_ptr<Device> make_device() const override { return std::make_unique<Climate>(); }
-};
+ANGEN_REGISTER_DEVICE(
+    Climate,
+    Kind("climate", "The air in a model's rooms.")
+        .group("")
+        .verb("Outside", "degrees", "°C", kCelsius, "temperature of the air outdoors")
+        .verb("Heat", "degrees", "°C", kCelsius, "to which radiators heat each room")
+        .texts("names", "of each room")
+        .numbers("temperatures", "°C", "of each room")
+        .shown_by_name("names", 1)
+        .numbers("humidities", "%", "of each room, relative")
+        .number("outside_temperature", "°C", "outdoors")
+        .number("outside_humidity", "%", "outdoors, relative")
+        .number("heating", "°C", "to which radiators heat each room; none without radiators"))
 
 }  // namespace angen::devices
-
-ANGEN_REGISTER_PLUGIN(angen::devices::ClimatePlugin)

@@ -1,8 +1,6 @@
 // libdaylight_plugin.so
 #include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "devices/part_names.h"
 #include "plugin/outputs.h"

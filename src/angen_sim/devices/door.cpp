@@ -1,14 +1,22 @@
 // libdoor_world_plugin.so
-#include "devices/door.h"
-
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "core/lists.h"
 #include "core/text.h"
+#include "devices/part_names.h"
+#include "devices/refresh.h"
+#include "devices/servo.h"
 #include "plugin/outputs.h"
+#include "plugin/registration.h"
 #include "plugin/view.h"
 #include "plugin/wiring.h"
 
@@ -37,6 +45,9 @@ constexpr PidGains kGains{70.0, 200.0, 25.0, 100.0, -100.0, 120.0, -120.0};
 constexpr PidUnits kUnits{"N m/rad", "N m/(rad s)", "N m s/rad", "N m"};
 
 const char* const kModeEvents[] = {"closed", "opened", "opening", "closing", "blocked", "ajar"};
+constexpr const char* kLeafModes[] = {"CLOSED", "OPEN", "OPENING", "CLOSING", "BLOCKED", "AJAR"};
+constexpr char kLeafJointDoc[] = "a leaf's, besides those that are found";
+const char* const kOwnJoints[] = {"hinge", "sash", "front"};
 
 // A heavier leaf swings as quickly, and as little, as one of kSwings.
 PidGains gains_for(double inertia, PidGains gains) {
@@ -53,6 +64,79 @@ std::string range_text(const JointLimits& limits) {
 }
 
 }  // namespace
+
+/// The name of a door, window or cabinet front, and the joint that its leaf turns on.
+struct LeafKind {
+  const char* kind;
+  Kind::Passage passage;
+  const char* joint;  // revolute or prismatic; its parent is the link `base`
+  bool any_joint;     // or any about a vertical axis with limits that hangs on the world
+  const char* topic;  // where commands come from
+  double height;      // m, of the opening, unless its SDF says
+  const char* example;
+  std::vector<const char*> models;  // models of worlds/models; the first is the default
+};
+
+/// A leaf on a revolute or prismatic joint: a PID drives it, a brake holds it, and a latch where it
+/// is shut, until it is commanded, its handle is turned, or something breaks it open.
+class Door : public Device {
+ public:
+  Door(const LeafKind& leaf, std::string joint) : leaf_(leaf), joint_(std::move(joint)) {}
+  void configure(Params& params, Wiring& wiring) override;
+  Verdict command(const Command& command, const View& view) override;
+  void update(const View& view, Outputs& outputs) override;
+  void report(const View& view, Reading& state) const override;
+  void save(SavedParams& params) const override;
+  Nanoseconds idle_until(const View& view) const override;
+  bool takes_long_steps() const override { return true; }
+
+ private:
+  enum class Mode { kClosed, kOpen, kOpening, kClosing, kBlocked, kAjar };
+
+  void wire(Params& params, Wiring& wiring);
+  void read_target(Params& params);
+  void go(double target, double position, bool by_hand);
+  void warn_of_effort(Params& params) const;
+  void rest(const JointView& hinge, Outputs& outputs);
+  void hold(bool shut, Outputs& outputs);
+  void stay(const View& view, bool renew, Outputs& outputs);
+  Mode mode_at_rest(double position) const;
+  double free_width(double position) const;
+  void report_place(const View& view, Reading& state) const;
+  void show(Mode mode, const JointView& hinge, bool renew, Outputs& outputs);
+
+  LeafKind leaf_;
+  std::string joint_;
+  JointRef hinge_;
+  LinkRef child_;
+  Servo servo_;
+  StateRefresh refresh_;
+  double open_position_ = 0.0;
+  double closed_position_ = 0.0;
+  double torque_max_ = 0.0;
+  double brake_torque_ = 0.0;
+  double latch_torque_ = 0.0;
+  JointLimits limits_;
+  double width_ = 0.0;          // m
+  double height_ = 0.0;         // m
+  bool slides_ = false;         // on a prismatic joint: positions are in m, forces in N
+  Vec3 center_ = Vec3::Zero();  // m, of the leaf's mass, in its frame
+  Vec3 anchor_ = Vec3::Zero();  // m, of the hinge, in the model's frame
+  Vec3 axis_ = Vec3::UnitZ();   // unit, in that frame
+
+  bool started_ = false;
+  bool resting_ = true;
+  bool leaving_ = false;  // a command came: the brake is to be released
+  bool opening_ = false;
+  bool by_hand_ = false;  // a hand moves it, not its drive
+  bool latched_ = false;
+  bool unlatches_ = false;              // its handle was turned since the last update
+  Nanoseconds handle_until_ = 0;        // the time until which its handle is turned
+  std::optional<double> first_target_;  // rad, at the start
+  double target_ = 0.0;
+  Mode mode_ = Mode::kClosed;
+  JointView shown_;
+};
 
 void Door::configure(Params& params, Wiring& wiring) {
   ServoSettings servo;
@@ -327,4 +411,174 @@ void Door::report(const View& view, Reading& state) const {
   }
 }
 
+namespace {
+
+bool limited(double lower, double upper) { return lower < upper && upper - lower < 2.0 * M_PI; }
+
+bool turns_or_slides(const ModelInfo::Joint& joint) {
+  return joint.type == "revolute" || joint.type == "prismatic";
+}
+
+// A leaf on a frame that is fixed to the world and named as a door, window or cabinet: an arm's
+// first joint may turn as a door does.
+bool is_framed(const ModelInfo::Joint& joint, const ModelInfo& model, const LeafKind& leaf) {
+  if (!leaf.any_joint || joint.type != "revolute" || !joint.on_world || !joint.vertical()) {
+    return false;
+  }
+  const bool is_own = is_in(joint.name, kOwnJoints);
+  if (is_own || !limited(joint.lower, joint.upper)) return false;
+  for (const std::string& name : {joint.name, joint.child, model.name}) {
+    if (name.find(leaf.kind) != std::string::npos) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+class LeafPlugin : public Plugin {
+ public:
+  explicit LeafPlugin(const LeafKind& leaf);
+  const Kind& kind() const override { return kind_; }
+  std::string needs() const override;
+  std::vector<Mount> mounts(const ModelInfo& model, Params& params) const override;
+  std::unique_ptr<Device> make_device() const override { return make_device_on({"", leaf_.joint}); }
+  std::unique_ptr<Device> make_device_on(const Mount& mount) const override {
+    return std::make_unique<Door>(leaf_, mount.joint);
+  }
+
+ private:
+  bool is_leaf(const ModelInfo::Joint& joint) const;
+  std::vector<const ModelInfo::Joint*> leaves(const ModelInfo& model, Params& params) const;
+  std::string name_of(const ModelInfo::Joint& leaf, const ModelInfo& model, bool only) const;
+
+  LeafKind leaf_;
+  Kind kind_;
+};
+
+struct DoorPlugin : LeafPlugin {
+  DoorPlugin()
+      : LeafPlugin({"door",
+                    Kind::Passage::kDoor,
+                    "hinge",
+                    true,
+                    "/gazebo/Door_controller",
+                    2.1,
+                    "set door kitchen0 open",
+                    {"kitchen_door", "bathroom_door", "bedroom_door", "entrance_door",
+                     "livingroom_door", "workroom_door"}}) {}
+};
+
+struct WindowPlugin : LeafPlugin {
+  WindowPlugin()
+      : LeafPlugin({"window",
+                    Kind::Passage::kWindow,
+                    "sash",
+                    false,
+                    "/gazebo/Window_controller",
+                    1.2,
+                    "set window window0 open",
+                    {"window"}}) {}
+};
+
+struct CabinetPlugin : LeafPlugin {
+  CabinetPlugin()
+      : LeafPlugin({"cabinet",
+                    Kind::Passage::kNone,
+                    "front",
+                    false,
+                    "/gazebo/Cabinet_controller",
+                    0.0,
+                    "set cabinet wall0 open",
+                    {"wall_cabinet"}}) {}
+};
+
+LeafPlugin::LeafPlugin(const LeafKind& leaf)
+    : leaf_(leaf), kind_(leaf.kind, std::string("A ") + leaf.kind + ".") {
+  kind_.passage(leaf.passage)
+      .example(leaf.example)
+      .command_topic(leaf.topic)
+      .verb("Open", "moves to its open_position")
+      .verb("Close", "moves to its closed_position")
+      .verb("OpenByHand", "a hand turns its handle and opens it, with at most 60 N at its edge")
+      .verb("CloseByHand", "a hand shuts it, with at most 60 N at its edge")
+      .verb("Unlatch", "turns its handle: for 3 s its latch does not hold")
+      .verb("Set", "radians", "rad", {}, "moves to this angle of its hinge")
+      .choice("mode", {std::begin(kLeafModes), std::end(kLeafModes)},
+              "AJAR: at rest between shut and open; BLOCKED: commanded, but something holds it")
+      .shown()
+      .number("position", "rad", "of its hinge, 0 shut, negative open")
+      .shown(2)
+      .number("velocity", "rad/s", "of its hinge")
+      .number("target", "rad", "target angle")
+      .number("gap", "m", "free width of the opening")
+      .number("width", "m", "of the leaf")
+      .number("height", "m", "of the opening")
+      .numbers("hinge", "m", "where its hinge is, in the world")
+      .number("shut", "rad", "direction from the hinge to the edge of the shut leaf, in the world")
+      .number("opens", "rad", "from shut to open, counterclockwise from above");
+  for (const char* model : leaf.models) kind_.model(model);
+}
+
+std::string LeafPlugin::needs() const {
+  std::string needed = std::string("a revolute joint ") + leaf_.joint + " with parent base";
+  if (leaf_.any_joint) {
+    needed +=
+        ", one about a vertical axis with limits whose parent is the world, or fixed to it where "
+        "a name says door, or one that <joint> names";
+  }
+  return needed;
+}
+
+bool LeafPlugin::is_leaf(const ModelInfo::Joint& joint) const {
+  if (joint.name == leaf_.joint && joint.parent == "base") return turns_or_slides(joint);
+  if (joint.type != "revolute") return false;
+  const bool is_others = joint.name != leaf_.joint && is_in(joint.name, kOwnJoints);
+  return leaf_.any_joint && !is_others && joint.parent == "world" && joint.on_world &&
+         joint.vertical() && limited(joint.lower, joint.upper);
+}
+
+std::vector<const ModelInfo::Joint*> LeafPlugin::leaves(const ModelInfo& model,
+                                                        Params& params) const {
+  std::vector<std::string> named;
+  if (leaf_.any_joint) named = params.texts("joint", "", kLeafJointDoc);
+  std::vector<const ModelInfo::Joint*> found;
+  for (const ModelInfo::Joint& joint : model.joints) {
+    const bool is_named = is_in(joint.name, named);
+    if (is_named && !turns_or_slides(joint)) {
+      throw params.error("joint", "joint '" + joint.name + "' is " + joint.type +
+                                      "; that of a leaf is revolute or prismatic");
+    }
+    const bool is_found = is_leaf(joint) || is_framed(joint, model, leaf_);
+    if ((is_named || is_found) && !joint.taken) found.push_back(&joint);
+  }
+  return found;
+}
+
+std::vector<Mount> LeafPlugin::mounts(const ModelInfo& model, Params& params) const {
+  const std::vector<const ModelInfo::Joint*> found = leaves(model, params);
+  std::vector<Mount> mounts;
+  mounts.reserve(found.size());
+  for (const ModelInfo::Joint* leaf : found) {
+    mounts.push_back({name_of(*leaf, model, found.size() == 1), leaf->name});
+  }
+  return mounts;
+}
+
+// The model's only leaf is named after it, if its name has the kind; others after their links.
+std::string LeafPlugin::name_of(const ModelInfo::Joint& leaf, const ModelInfo& model,
+                                bool only) const {
+  std::string of_model = command_name(model, kind_.name);
+  const bool is_own = leaf.name == leaf_.joint && leaf.parent == "base";
+  if (only && (is_own || model.name.find(kind_.name) != std::string::npos)) return of_model;
+  for (const std::string& part : {leaf.child, leaf.name}) {
+    std::string name = leaf_name(part, kind_.name, floor_at(model.storeys, leaf.height));
+    if (!name.empty()) return name;
+  }
+  return only ? of_model : leaf.name;
+}
+
 }  // namespace angen::devices
+
+ANGEN_REGISTER_PLUGIN(angen::devices::DoorPlugin)
+ANGEN_REGISTER_PLUGIN(angen::devices::WindowPlugin)
+ANGEN_REGISTER_PLUGIN(angen::devices::CabinetPlugin)

@@ -1,12 +1,13 @@
 // librobot_controller.so
-#include "devices/drive.h"
-
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "core/text.h"
+#include "core/wheel_errors.h"
+#include "devices/refresh.h"
 #include "plugin/outputs.h"
 #include "plugin/registration.h"
 #include "plugin/view.h"
@@ -28,6 +29,64 @@ std::string right_joint(Params& params) {
 }
 
 }  // namespace
+
+/// Two driven wheels: speeds come in, wheel motors turn, odometry is counted from the wheels.
+class Drive : public Device {
+ public:
+  void configure(Params& params, Wiring& wiring) override;
+  Verdict command(const Command& command, const View& view) override;
+  void update(const View& view, Outputs& outputs) override;
+  void report(const View& view, Reading& state) const override;
+  Nanoseconds idle_until(const View& view) const override;
+
+ private:
+  struct Wheel {
+    JointRef joint;
+    double speed = 0.0;     // m/s at the rim, as the motor is commanded
+    double angle = 0.0;     // rad, last seen
+    double turned = 0.0;    // rad since the start
+    double velocity = 0.0;  // rad/s, measured
+    double effort = 0.0;    // N m, measured
+  };
+  struct Odometry {
+    double x = 0.0, y = 0.0, yaw = 0.0;  // m, m, rad
+    double v = 0.0, w = 0.0;             // m/s, rad/s
+    double left = 0.0, right = 0.0;      // rad
+    double work = 0.0;                   // J that the motors gave; braking gives none back
+    WheelErrors errors;
+
+    bool operator==(const Odometry& o) const {
+      return x == o.x && y == o.y && yaw == o.yaw && v == o.v && w == o.w && left == o.left &&
+             right == o.right && work == o.work;
+    }
+  };
+
+  double measure(Wheel& wheel, const View& view) const;  // m it rolled since the last call
+  void count(const View& view);
+  bool powered(const View& view) const;
+  bool lead(Wheel& wheel, double target, double step, Outputs& outputs);
+
+  Wheel left_;
+  Wheel right_;
+  StateRefresh refresh_;
+  double separation_ = 0.0;    // m
+  double radius_ = 0.0;        // m
+  double torque_ = 0.0;        // N m
+  double acceleration_ = 0.0;  // m/s^2
+  double max_linear_ = 0.0;    // m/s
+  double max_angular_ = 0.0;   // rad/s
+  Nanoseconds timeout_ = 0;
+
+  std::string model_;
+  bool started_ = false;
+  bool powered_ = true;
+  bool moving_ = false;
+  double v_ = 0.0;  // m/s, commanded
+  double w_ = 0.0;  // rad/s, commanded
+  Nanoseconds commanded_at_ = 0;
+  Odometry odometry_;
+  Odometry shown_;
+};
 
 void Drive::configure(Params& params, Wiring& wiring) {
   separation_ = params.number("wheelSeparation", 0.23, "m", "between the wheels", kPositive);
@@ -63,11 +122,10 @@ void Drive::configure(Params& params, Wiring& wiring) {
 }
 
 Verdict Drive::command(const Command& command, const View& view) {
-  std::vector<double> values = command.values;
-  if (command.verb == "Stop") values = {0.0, 0.0};
   const bool has_power = powered(view);
-  if (!has_power) values = {0.0, 0.0};
-  return Verdict::accept([this, has_power, v = values[0], w = values[1], now = view.time()] {
+  const double v = has_power ? command.values[0] : 0.0;
+  const double w = has_power ? command.values[1] : 0.0;
+  return Verdict::accept([this, has_power, v, w, now = view.time()] {
     powered_ = has_power;
     v_ = std::clamp(v, -max_linear_, max_linear_);
     w_ = std::clamp(w, -max_angular_, max_angular_);
@@ -172,38 +230,45 @@ void Drive::report(const View&, Reading& state) const {
   state.set("covariance", shown_.errors.numbers());
 }
 
-const Kind& DrivePlugin::kind() const {
-  static const Kind kind =
-      Kind("drive", "A differential drive with odometry.")
-          .travels("robots")
-          .model("turtlebot")
-          .example("set drive turtlebot stop")
-          .verb("Stop", "stops")
-          .value_units({"m/s", "rad/s"})
-          .number("x", "m", "by the wheels, in the odometry frame")
-          .shown(2)
-          .number("y", "m", "by the wheels")
-          .shown(2)
-          .number("yaw", "rad", "by the wheels")
-          .shown(2)
-          .number("v", "m/s", "forward")
-          .shown(2)
-          .number("w", "rad/s", "to the left")
-          .shown(2)
-          .number("left", "rad", "angle of the left wheel")
-          .number("right", "rad", "angle of the right wheel")
-          .number("work", "J", "of the motors since the start")
-          .numbers("covariance", "", "of x, y (m) and yaw (rad), row by row: 9 numbers");
-  return kind;
-}
-
-// A robot whose wheels another plug-in drives or names is not adopted.
-std::vector<Mount> DrivePlugin::mounts(const ModelInfo& model, Params& params) const {
-  const ModelInfo::Joint* left = model.joint(left_joint(params));
-  const ModelInfo::Joint* right = model.joint(right_joint(params));
-  if (left == nullptr || right == nullptr || left->taken || right->taken) return {};
-  return {{instance_name(model), left->name}};
-}
+class DrivePlugin : public Plugin {
+ public:
+  const Kind& kind() const override {
+    static const Kind kind =
+        Kind("drive", "A differential drive with odometry.")
+            .travels("robots")
+            .model("turtlebot")
+            .example("set drive turtlebot stop")
+            .verb("Stop", "stops")
+            .value_units({"m/s", "rad/s"})
+            .number("x", "m", "by the wheels, in the odometry frame")
+            .shown(2)
+            .number("y", "m", "by the wheels")
+            .shown(2)
+            .number("yaw", "rad", "by the wheels")
+            .shown(2)
+            .number("v", "m/s", "forward")
+            .shown(2)
+            .number("w", "rad/s", "to the left")
+            .shown(2)
+            .number("left", "rad", "angle of the left wheel")
+            .number("right", "rad", "angle of the right wheel")
+            .number("work", "J", "of the motors since the start")
+            .numbers("covariance", "", "of x, y (m) and yaw (rad), row by row: 9 numbers");
+    return kind;
+  }
+  // A robot whose wheels another plug-in drives or names is not adopted.
+  std::vector<Mount> mounts(const ModelInfo& model, Params& params) const override {
+    const ModelInfo::Joint* left = model.joint(left_joint(params));
+    const ModelInfo::Joint* right = model.joint(right_joint(params));
+    if (left == nullptr || right == nullptr || left->taken || right->taken) return {};
+    return {{instance_name(model), left->name}};
+  }
+  std::string needs() const override {
+    return "joints left_wheel_joint and right_wheel_joint, or those that leftJoint and rightJoint "
+           "name";
+  }
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Drive>(); }
+};
 
 }  // namespace angen::devices
 

@@ -1,12 +1,18 @@
 // libros_plugin.so
-#include "devices/elevator.h"
-
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <iterator>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/text.h"
-#include "devices/elevator_floors.h"
+#include "devices/doorway.h"
+#include "devices/part_names.h"
+#include "devices/refresh.h"
+#include "devices/servo.h"
 #include "plugin/outputs.h"
 #include "plugin/registration.h"
 #include "plugin/view.h"
@@ -36,6 +42,21 @@ constexpr PidUnits kUnits{"N/m per kg", "N/(m s) per kg", "N s/m per kg", "N/kg"
 constexpr PidGains kPlainGains{200.0, 200.0, 25.0, 1e4, -1e4, 1e4, -1e4};
 constexpr PidUnits kPlainUnits{"N/m", "N/(m s)", "N s/m", "N"};
 
+constexpr double kLevelWithin = 0.005;  // m from a floor, where it is level with it
+constexpr double kUnlimited = 1e9;      // m: a joint with a longer travel has no end
+constexpr std::size_t kMaxFloors = 1000;
+constexpr std::size_t kFewestFloors = 2;
+
+constexpr double kWeighShare = 0.2;        // share of each new weighing, at the rate of publishing
+constexpr double kStandardGravity = 9.81;  // m/s^2
+constexpr double kGreatestLoad = 2000.0;   // kg, or twice the rated load: more is a blow
+
+// An overload is more than the rated load by 10 %, and by 75 kg at least (EN 81-20, 5.12.1.2).
+constexpr double kRatedLoad = 630.0;  // kg, eight persons
+constexpr double kOverShare = 0.1;
+constexpr double kLeastOver = 75.0;                    // kg
+constexpr Nanoseconds kWeighingSettles = kSecond / 2;  // boarding loads drop on the floor
+
 constexpr char kJointDoc[] = "that moves the cabin, where there are several";
 constexpr double kUpwards = 0.999;  // z of an axis that points up
 
@@ -47,7 +68,183 @@ const char* const kDoorModes[] = {"CLOSED", "OPEN", "OPENING", "CLOSING", "BLOCK
 const char* const kDoorEvents[] = {"doors closed", "doors opened", "doors opening", "doors closing",
                                    "doors blocked"};
 
+std::vector<double> read_stops(Params& params) {
+  std::vector<double> heights;
+  for (const std::vector<double>& stop :
+       params.rows("stop", 1, "m",
+                   "height of a floor over floor 0, one for each floor from below; "
+                   "instead of floor_height and floors")) {
+    const bool fits = heights.empty() ? stop.front() == 0.0 : stop.front() > heights.back();
+    if (!fits || heights.size() >= kMaxFloors) {
+      throw params.error("stop", "the <stop> of floor " + std::to_string(heights.size()) +
+                                     (heights.empty() ? " must be 0"
+                                                      : " must be above the one before it; at "
+                                                        "most 1000 are served"));
+    }
+    heights.push_back(stop.front());
+  }
+  return heights;
+}
+
+/// Heights of its floors over floor 0, in m, from below: each <stop>; or <floors> of them each
+/// <floor_height>; or the storeys of the world within the travel of its joint; or else evenly over
+/// that. Throws Error if neither is known.
+std::vector<double> read_floors(Params& params, const Wiring& wiring, const JointLimits& limits,
+                                const std::string& joint) {
+  const double apart = params.number("floor_height", 0.0, "m",
+                                     "from one floor to the next; 0: by the storeys of the world, "
+                                     "or else evenly over the joint's travel",
+                                     kNotNegative);
+  const auto given = static_cast<std::size_t>(params.integer(
+      "floors", 0, "", "number of floors; 0: the storeys within the joint's travel, or else 2",
+      {0, static_cast<int>(kMaxFloors)}));
+  std::vector<double> heights = read_stops(params);
+  if (!heights.empty()) return heights;
+  const std::size_t count = given > 0 ? given : kFewestFloors;
+  const auto spread = [&](double height) {
+    for (std::size_t floor = 0; floor < count; ++floor) {
+      heights.push_back(static_cast<double>(floor) * height);
+    }
+    return heights;
+  };
+  if (apart > 0.0 || count == 1) return spread(apart);
+  const bool ends = limits.lower < limits.upper && limits.upper < kUnlimited;
+  for (const double floor : wiring.floors()) {
+    const bool reached = !ends || floor <= limits.upper + kLevelWithin;
+    if (reached && (given == 0 || heights.size() < given)) heights.push_back(floor);
+  }
+  if (heights.size() >= count) return heights;
+  heights.clear();
+  if (ends) return spread(limits.upper / static_cast<double>(count - 1));
+  throw params.error("floor_height", "the world has no " + std::to_string(count) +
+                                         " storeys, and the joint " + joint +
+                                         " no end; give a <floor_height>, or a <stop> of each "
+                                         "floor");
+}
+
+/// Weighs the load, by the force on the brake, and finds an overload.
+class Weighing {
+ public:
+  void configure(Params& params) {
+    rated_load_ = params.number("rated_load", kRatedLoad, "kg",
+                                "it stays, with open doors, under more than this by 10 % (by 75 kg "
+                                "at least)",
+                                kPositive);
+  }
+  /// kg, of the cabin with its doors.
+  void set_own_mass(double mass) { own_mass_ = mass_ = mass; }
+
+  double mass() const { return mass_; }  // kg, of the cabin with its load
+  double load() const { return std::max(0.0, mass_ - own_mass_); }  // kg
+  bool overloaded() const { return overloaded_; }
+  /// More than is allowed, by the last weighing.
+  bool is_heavy() const {
+    return mass_ - own_mass_ > rated_load_ + std::max(kOverShare * rated_load_, kLeastOver);
+  }
+  /// The mass that a weighing now gives; the brake carries cabin and load.
+  double weigh(const JointView& lift, const View& view) const {
+    const double gravity = -view.gravity().z();
+    if (gravity <= 0.0) return mass_;
+    const double greatest = std::max(kGreatestLoad, 2.0 * rated_load_);
+    const double felt = std::clamp(lift.effort / gravity, own_mass_, own_mass_ + greatest);
+    return mass_ + kWeighShare * (felt - mass_);
+  }
+  void take(double mass) { mass_ = mass; }
+  /// Each tick: an overload begins and ends after the load has settled.
+  void watch(const View& view) {
+    if (is_heavy() == overloaded_) load_since_ = view.time();
+    if (view.time() - load_since_ >= kWeighingSettles) overloaded_ = is_heavy();
+  }
+  /// Warns where the joint is too weak for the load in the file.
+  void warn_of_effort(Params& params, double effort, const std::string& lift) const {
+    const double needed = (own_mass_ + rated_load_) * kStandardGravity;
+    if (!params.has("rated_load") || needed <= effort) return;
+    params.warn("rated_load", "<rated_load> and cabin weigh " + number_text(needed) +
+                                  " N, but the <effort> of joint '" + lift + "' allows " +
+                                  number_text(effort) + " N, which is all that lifts them");
+  }
+  /// "700 kg of 630 kg".
+  std::string detail() const {
+    return number_text(std::round(load())) + " kg of " + number_text(rated_load_) + " kg";
+  }
+
+ private:
+  double own_mass_ = 0.0;
+  double mass_ = 0.0;
+  double rated_load_ = 0.0;  // kg
+  bool overloaded_ = false;
+  Nanoseconds load_since_ = 0;  // the last time when is_heavy() agreed with that
+};
+
 }  // namespace
+
+/// A cabin on a prismatic joint with sliding doors, and a landing door on each floor. It serves
+/// stops in the order in which they were called; doors are shut while it moves, open where it is.
+/// With an overload it stays, with open doors.
+class Elevator : public Device {
+ public:
+  explicit Elevator(std::string lift) : lift_name_(std::move(lift)) {}
+  void configure(Params& params, Wiring& wiring) override;
+  Verdict command(const Command& command, const View& view) override;
+  void update(const View& view, Outputs& outputs) override;
+  void report(const View& view, Reading& state) const override;
+  void save(SavedParams& params) const override;
+  std::vector<double> stops() const override { return heights_; }
+  Nanoseconds idle_until(const View& view) const override;
+
+ private:
+  enum class Phase { kStanding, kShutting, kMoving, kWeighing };
+  enum class Mode { kIdle, kUp, kDown, kBlocked, kOverloaded };
+  struct Shown {
+    JointView lift;
+    double door_position = 0.0;
+  };
+
+  void wire(Params& params, Wiring& wiring);
+  void call(int floor);
+  void start(const View& view, Outputs& outputs);
+  void stand(const View& view, Outputs& outputs);
+  void serve_next_stop(const View& view, Outputs& outputs);
+  void move(const View& view, Outputs& outputs);
+  bool strays(double velocity) const;
+  void weigh_on_the_way(const View& view, Outputs& outputs);
+  double weigh(const JointView& lift, const View& view) const;
+  std::string detail_of(Mode mode) const;
+  int floors() const { return static_cast<int>(heights_.size()); }
+  double height_of(int floor) const { return heights_[static_cast<std::size_t>(floor)]; }
+  int nearest(double position) const;
+  int floor_at(double position) const;  // -1 between floors
+  void stay_at(int floor, const View& view);
+  Mode mode() const;
+  void show(const View& view, Outputs& outputs);
+
+  std::string lift_name_;
+  JointRef lift_;
+  JointLimits limits_;
+  std::vector<Doorway::Leaf> cabin_leaves_;
+  std::vector<std::vector<Doorway::Leaf>> landing_leaves_;  // by floor
+  Servo servo_;
+  bool plain_ = false;  // the controller is a plain PID, which lifts the weight too
+  Doorway doorway_;
+  StateRefresh refresh_;
+  std::vector<double> heights_;  // m, of the floors over floor 0
+  Weighing weighing_;
+  double brake_force_ = 0.0;  // N
+  double overspeed_ = 0.0;    // m/s
+  double door_force_ = 0.0;   // N
+
+  Phase phase_ = Phase::kStanding;
+  std::deque<int> stops_;
+  std::size_t queue_size_ = 1;
+  bool started_ = false;
+  int target_ = 0;             // floor
+  bool rises_ = false;         // on the way there
+  Nanoseconds ready_at_ = 0;   // when the doors may shut
+  Nanoseconds weighs_at_ = 0;  // when it may weigh on the way, or has done so
+  Mode shown_mode_ = Mode::kIdle;
+  Doorway::Mode shown_door_ = Doorway::Mode::kClosed;
+  Shown shown_;
+};
 
 void Elevator::configure(Params& params, Wiring& wiring) {
   ServoSettings servo;
@@ -342,61 +539,66 @@ void Elevator::report(const View& view, Reading& state) const {
   state.set("door_position", shown_.door_position);
 }
 
-const Kind& ElevatorPlugin::kind() const {
-  static const Kind kind =
-      Kind("elevator", "An elevator with doors.")
-          .model("elevator")
-          .passage(Kind::Passage::kElevator)
-          .example("set elevator elevator 1")
-          .command_topic(kTopic)
-          .counted_verb("Floor", "floor", {0.0, 999.0}, "rides there, after its present target")
-          .choice(
-              "mode", {std::begin(kModes), std::end(kModes)},
-              "of the cabin; BLOCKED: something holds it; OVERLOADED: it stays, with open doors")
-          .shown()
-          .number("position", "m", "of the cabin above floor 0")
-          .shown(2)
-          .number("velocity", "m/s", "upwards")
-          .number("target", "m", "target position")
-          .integer("floor", "", "where it is within 5 mm, otherwise -1")
-          .integer("target_floor", "", "target")
-          .integer("floors", "", "how many it serves")
-          .number("load", "kg", "in the cabin, by the force on its brake")
-          .choice("door_mode", {std::begin(kDoorModes), std::end(kDoorModes)},
-                  "BLOCKED: an obstacle is between the leaves")
-          .number("door_position", "m", "travel of a door's leaf, 0 shut");
-  return kind;
-}
-
-std::string ElevatorPlugin::needs() const {
-  return "a prismatic joint along z, upwards, with limits, whose parent is the world or fixed to "
-         "it, or one that <joint> names";
-}
-
-// `lift`, or the joint that slides up the building.
-std::vector<Mount> ElevatorPlugin::mounts(const ModelInfo& model, Params& params) const {
-  const std::string named = params.text("joint", "", kJointDoc);
-  const ModelInfo::Joint* lift = model.joint(named.empty() ? "lift" : named);
-  if (!named.empty()) {
-    if (lift == nullptr) return {};
-    if (lift->type != "prismatic") {
-      throw params.error(
-          "joint", "joint '" + named + "' is " + lift->type + "; that of an elevator is prismatic");
+class ElevatorPlugin : public Plugin {
+ public:
+  const Kind& kind() const override {
+    static const Kind kind =
+        Kind("elevator", "An elevator with doors.")
+            .model("elevator")
+            .passage(Kind::Passage::kElevator)
+            .example("set elevator elevator 1")
+            .command_topic(kTopic)
+            .counted_verb("Floor", "floor", {0.0, 999.0}, "rides there, after its present target")
+            .choice(
+                "mode", {std::begin(kModes), std::end(kModes)},
+                "of the cabin; BLOCKED: something holds it; OVERLOADED: it stays, with open doors")
+            .shown()
+            .number("position", "m", "of the cabin above floor 0")
+            .shown(2)
+            .number("velocity", "m/s", "upwards")
+            .number("target", "m", "target position")
+            .integer("floor", "", "where it is within 5 mm, otherwise -1")
+            .integer("target_floor", "", "target")
+            .integer("floors", "", "how many it serves")
+            .number("load", "kg", "in the cabin, by the force on its brake")
+            .choice("door_mode", {std::begin(kDoorModes), std::end(kDoorModes)},
+                    "BLOCKED: an obstacle is between the leaves")
+            .number("door_position", "m", "travel of a door's leaf, 0 shut");
+    return kind;
+  }
+  std::string needs() const override {
+    return "a prismatic joint along z, upwards, with limits, whose parent is the world or fixed to "
+           "it, or one that <joint> names";
+  }
+  // `lift`, or the joint that slides up the building.
+  std::vector<Mount> mounts(const ModelInfo& model, Params& params) const override {
+    const std::string named = params.text("joint", "", kJointDoc);
+    const ModelInfo::Joint* lift = model.joint(named.empty() ? "lift" : named);
+    if (!named.empty()) {
+      if (lift == nullptr) return {};
+      if (lift->type != "prismatic") {
+        throw params.error("joint", "joint '" + named + "' is " + lift->type +
+                                        "; that of an elevator is prismatic");
+      }
+      if (!rises(*lift)) {
+        throw params.error("joint", "the axis of joint '" + named +
+                                        "' does not point up, as that of an elevator does: 0 0 1");
+      }
     }
-    if (!rises(*lift)) {
-      throw params.error("joint", "the axis of joint '" + named +
-                                      "' does not point up, as that of an elevator does: 0 0 1");
+    if (lift != nullptr && lift->type == "prismatic" && rises(*lift)) {
+      return {{model.name, lift->name}};
     }
+    for (const ModelInfo::Joint& joint : model.joints) {
+      if (joint.taken || joint.type != "prismatic" || !joint.on_world || !rises(joint)) continue;
+      if (joint.upper - joint.lower < kUnlimited) return {{model.name, joint.name}};
+    }
+    return {};
   }
-  if (lift != nullptr && lift->type == "prismatic" && rises(*lift)) {
-    return {{model.name, lift->name}};
+  std::unique_ptr<Device> make_device() const override { return make_device_on({"", "lift"}); }
+  std::unique_ptr<Device> make_device_on(const Mount& mount) const override {
+    return std::make_unique<Elevator>(mount.joint);
   }
-  for (const ModelInfo::Joint& joint : model.joints) {
-    if (joint.taken || joint.type != "prismatic" || !joint.on_world || !rises(joint)) continue;
-    if (joint.upper - joint.lower < kUnlimited) return {{model.name, joint.name}};
-  }
-  return {};
-}
+};
 
 }  // namespace angen::devices
 

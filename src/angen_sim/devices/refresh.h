@@ -5,7 +5,7 @@
 
 #include "core/time.h"
 #include "plugin/params.h"
-#include "plugin/report_period.h"
+#include "plugin/reading.h"
 
 namespace angen::devices {
 

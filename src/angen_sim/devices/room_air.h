@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include "core/pose.h"
-
 namespace angen::devices {
 
 /// Air of one room: evenly mixed.

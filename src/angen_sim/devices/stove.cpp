@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -207,39 +206,29 @@ class Stove : public Device {
   Refresh due_{kRate};
 };
 
-class StovePlugin : public Plugin {
- public:
-  const Kind& kind() const override {
-    static const Kind kind = [] {
-      Kind made("stove", "An electric stove whose plates warm.");
-      made.model("stove").example("set stove kitchen0 frontleft 60");
-      for (const char* verb : kPlateVerbs) {
-        made.verb(verb, "percent", "%", {0.0, 100.0}, "power of this plate, of its full power");
-      }
-      made.verb("Set", "percent", "%", {0.0, 100.0}, "power of all plates")
-          .verb("Off", "all plates off")
-          .flag("on", "whether a plate heats")
-          .shown_as("on", "off")
-          .flag("hot", "whether a plate is above 60 °C")
-          .alarm("HOT", "")
-          .number("hottest", "°C", "of its hottest plate")
-          .shown()
-          .number("power", "W", "electric power")
-          .shown()
-          .number("heat", "W", "that its plates give to the air of the room")
-          .numbers("levels", "%", "of each plate, of its full power")
-          .numbers("plate_temperatures", "°C", "of each plate");
-      return made;
-    }();
-    return kind;
+// Its verbs are those of its plates, and of all.
+Kind stove_kind() {
+  Kind made("stove", "An electric stove whose plates warm.");
+  made.model("stove").example("set stove kitchen0 frontleft 60");
+  for (const char* verb : kPlateVerbs) {
+    made.verb(verb, "percent", "%", {0.0, 100.0}, "power of this plate, of its full power");
   }
-  bool serves(const ModelInfo&) const override { return true; }
-  std::string instance_name(const ModelInfo& model) const override {
-    return command_name(model, "stove");
-  }
-  std::unique_ptr<Device> make_device() const override { return std::make_unique<Stove>(); }
-};
+  made.verb("Set", "percent", "%", {0.0, 100.0}, "power of all plates")
+      .verb("Off", "all plates off")
+      .flag("on", "whether a plate heats")
+      .shown_as("on", "off")
+      .flag("hot", "whether a plate is above 60 °C")
+      .alarm("HOT", "")
+      .number("hottest", "°C", "of its hottest plate")
+      .shown()
+      .number("power", "W", "electric power")
+      .shown()
+      .number("heat", "W", "that its plates give to the air of the room")
+      .numbers("levels", "%", "of each plate, of its full power")
+      .numbers("plate_temperatures", "°C", "of each plate");
+  return made;
+}
+
+ANGEN_REGISTER_PART(Stove, command_name(model, "stove"), stove_kind())
 
 }  // namespace angen::devices
-
-ANGEN_REGISTER_PLUGIN(angen::devices::StovePlugin)

@@ -27,23 +27,12 @@ class Tag : public Device {
   std::vector<double> position_{0.0, 0.0, 0.0};
 };
 
-class TagPlugin : public Plugin {
- public:
-  const Kind& kind() const override {
-    static const Kind kind = Kind("tag", "An RFID tag on a model.")
-                                 .group("")
-                                 .model("rfid_tag")
-                                 .text("id", "that readers read")
-                                 .shown()
-                                 .numbers("position", "m", "x y z in the model's frame");
-    return kind;
-  }
-  bool serves(const ModelInfo&) const override { return true; }
-  // Not the model's own name, which its main device has.
-  std::string instance_name(const ModelInfo& model) const override { return model.name + "_tag"; }
-  std::unique_ptr<Device> make_device() const override { return std::make_unique<Tag>(); }
-};
+ANGEN_REGISTER_PART(Tag, model.name + "_tag",
+                    Kind("tag", "An RFID tag on a model.")
+                        .group("")
+                        .model("rfid_tag")
+                        .text("id", "that readers read")
+                        .shown()
+                        .numbers("position", "m", "x y z in the model's frame"))
 
 }  // namespace angen::devices
-
-ANGEN_REGISTER_PLUGIN(angen::devices::TagPlugin)

@@ -52,31 +52,18 @@ class Transmitter : public Device {
   std::optional<bool> was_on_;  // none before the first update
 };
 
-class TransmitterPlugin : public Plugin {
- public:
-  const Kind& kind() const override {
-    static const Kind kind = Kind("transmitter", "A radio transmitter on a model.")
-                                 .model("radio_beacon")
-                                 .example("set transmitter beacon1_transmitter off")
-                                 .verb("On", "sends")
-                                 .verb("Off", "sends nothing")
-                                 .flag("on", "whether it sends")
-                                 .shown_as("sends", "off")
-                                 .text("id", "that it sends")
-                                 .shown()
-                                 .number("tx_power", "dBm", "radiated")
-                                 .number("frequency", "MHz", "of its carrier")
-                                 .numbers("position", "m", "x y z in the model's frame");
-    return kind;
-  }
-  bool serves(const ModelInfo&) const override { return true; }
-  // Not the model's own name, which its main device has.
-  std::string instance_name(const ModelInfo& model) const override {
-    return model.name + "_transmitter";
-  }
-  std::unique_ptr<Device> make_device() const override { return std::make_unique<Transmitter>(); }
-};
+ANGEN_REGISTER_PART(Transmitter, model.name + "_transmitter",
+                    Kind("transmitter", "A radio transmitter on a model.")
+                        .model("radio_beacon")
+                        .example("set transmitter beacon1_transmitter off")
+                        .verb("On", "sends")
+                        .verb("Off", "sends nothing")
+                        .flag("on", "whether it sends")
+                        .shown_as("sends", "off")
+                        .text("id", "that it sends")
+                        .shown()
+                        .number("tx_power", "dBm", "radiated")
+                        .number("frequency", "MHz", "of its carrier")
+                        .numbers("position", "m", "x y z in the model's frame"))
 
 }  // namespace angen::devices
-
-ANGEN_REGISTER_PLUGIN(angen::devices::TransmitterPlugin)

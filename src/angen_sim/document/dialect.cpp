@@ -75,8 +75,7 @@ bool made_for_gazebo(const std::string& library) {
 }
 
 bool holds_own_plugin(const Element& element) {
-  const std::string* file = element.attribute("filename");
-  if (element.name == "plugin") return file != nullptr && is_own(*file);
+  if (element.name == "plugin") return is_own(element.attribute_text("filename"));
   return std::any_of(element.children.begin(), element.children.end(), holds_own_plugin);
 }
 

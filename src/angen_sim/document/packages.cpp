@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/plugin_path.h"
 #include "document/xml.h"
 
 namespace angen::load {

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <charconv>
-#include <climits>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
 
-#include "core/allow_paths.h"
+#include "core/files.h"
+#include "core/lists.h"
 #include "core/nearest.h"
-#include "core/plain_file.h"
 #include "core/plugin_path.h"
 #include "core/text.h"
 #include "document/xml.h"
@@ -200,7 +199,7 @@ std::string searched_places(const std::string& uri, const std::string& from, Ses
   }
   std::vector<std::string> places = folders_for(address, from, session);
   for (const std::string& root : session.paths.packages) {
-    if (std::find(places.begin(), places.end(), root) == places.end()) places.push_back(root);
+    if (!is_in(root, places)) places.push_back(root);
   }
   if (!places.empty()) return join_names(places);
   return address.scheme == "model" ? "nowhere (ANGEN_MODEL_PATH is empty)"

@@ -12,7 +12,6 @@
 #include "document/allowed.h"
 #include "document/dialect.h"
 #include "document/packages.h"
-#include "document/search_paths.h"
 
 namespace angen::load {
 

@@ -1,13 +1,10 @@
 #include "document/values.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 #include "core/limits.h"
 #include "core/text.h"
-#include "document/xml.h"
 
 namespace angen::load {
 
@@ -75,9 +72,8 @@ void check_pose(const Pose& pose, const std::vector<double>& angles, const Eleme
 
 Pose pose_of(const Element& element) {
   if (element.text.empty()) return {};
-  const std::string* format = element.attribute("rotation_format");
   Pose pose;
-  if (format != nullptr && *format == "quat_xyzw") {
+  if (element.attribute_text("rotation_format") == "quat_xyzw") {
     const std::vector<double> v = numbers_of(element, 7);
     pose.rotation = Quat(v[6], v[3], v[4], v[5]);
     if (!(pose.rotation.norm() >= 1e-6 && pose.rotation.norm() <= 1e6)) {
@@ -90,9 +86,8 @@ Pose pose_of(const Element& element) {
     return pose;
   }
   const std::vector<double> v = numbers_of(element, 6);
-  const std::string* degrees = element.attribute("degrees");
-  const double unit =
-      degrees != nullptr && (*degrees == "true" || *degrees == "1") ? M_PI / 180.0 : 1.0;
+  const std::string degrees = element.attribute_text("degrees");
+  const double unit = degrees == "true" || degrees == "1" ? M_PI / 180.0 : 1.0;
   pose.position = {v[0], v[1], v[2]};
   pose.rotation = from_rpy(v[3] * unit, v[4] * unit, v[5] * unit);
   check_pose(pose, {v[3] * unit, v[4] * unit, v[5] * unit}, element);

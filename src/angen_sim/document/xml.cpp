@@ -8,8 +8,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/files.h"
+#include "core/lists.h"
 #include "core/nearest.h"
-#include "core/plain_file.h"
 #include "core/text.h"
 #include "core/typography.h"
 
@@ -320,15 +321,10 @@ void set_attribute(Element& element, const std::string& name, const std::string&
 
 void remove_children(Element& element, const std::string& name) {
   auto& all = element.children;
-  all.erase(
-      std::remove_if(all.begin(), all.end(), [&](const Element& e) { return e.name == name; }),
-      all.end());
+  erase_if(all, [&](const Element& e) { return e.name == name; });
 }
 
-std::string name_of(const Element& element) {
-  const std::string* name = element.attribute("name");
-  return name == nullptr ? "" : *name;
-}
+std::string name_of(const Element& element) { return element.attribute_text("name"); }
 
 std::string tag_of(const Element& element) {
   const std::string name = printable(name_of(element));

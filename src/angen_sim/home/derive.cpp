@@ -1,9 +1,7 @@
+#include "home/derive.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "home/passages.h"
-#include "home/rooms.h"
-#include "home/survey.h"
 
 namespace angen {
 

@@ -1,12 +1,12 @@
 #include "home/grid.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
 #include <tuple>
 #include <unordered_map>
-#include <utility>
 
 namespace angen {
 

@@ -1,9 +1,9 @@
-#include "home/passages.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "core/named.h"
+#include "home/derive.h"
 #include "home/solids.h"
 
 namespace angen {
@@ -20,24 +20,16 @@ constexpr double kAtStop = 0.5;      // m between a stop and its storey's floor
 constexpr double kFarLanding = 3.0;  // m from the middle of a cabin to a room that it serves
 constexpr double kWaits = 0.9;       // m inside of the landing's edge
 
-const desc::Link* link_named(const desc::Model& model, const std::string& name) {
-  for (const desc::Link& link : model.links) {
-    if (link.name == name) return &link;
-  }
-  return nullptr;
-}
-
-const desc::Joint* joint_named(const desc::Model& model, const std::string& name) {
-  for (const desc::Joint& joint : model.joints) {
-    if (joint.name == name) return &joint;
-  }
-  return nullptr;
+template <class Part>
+const Part* part_named(const std::vector<Part>& all, const std::string& name) {
+  const auto index = index_in(all, name);
+  return index ? &all[*index] : nullptr;
 }
 
 // The greatest box of a joint's child at position 0, in the world.
 std::optional<OrientedBox> box_of_child(const HomeSurvey::Standing& standing,
                                         const desc::Joint& joint) {
-  const desc::Link* link = link_named(*standing.model, joint.child);
+  const desc::Link* link = part_named(standing.model->links, joint.child);
   std::optional<OrientedBox> greatest;
   const auto take = [&](const Shape& shape, const Pose& pose) {
     const auto box = box_around(shape, standing.pose * link->pose * pose);
@@ -111,7 +103,7 @@ struct Leaf {
 
 std::optional<Leaf> leaf_of(const HomeSurvey& survey, const HomeSurvey::Leaf& leaf) {
   const HomeSurvey::Standing& standing = survey.models[leaf.model];
-  const desc::Joint* joint = joint_named(*standing.model, leaf.joint);
+  const desc::Joint* joint = part_named(standing.model->joints, leaf.joint);
   if (joint == nullptr) return std::nullopt;
   const std::optional<OrientedBox> box = box_of_child(standing, *joint);
   if (!box) return std::nullopt;
@@ -216,8 +208,9 @@ std::optional<Landing> landing_at(const Home& home, const desc::Link& link, cons
 
 void add(const HomeSurvey& survey, const HomeSurvey::Lift& lift, Home& home) {
   const HomeSurvey::Standing& standing = survey.models[lift.model];
-  const desc::Joint* joint = joint_named(*standing.model, lift.joint);
-  const desc::Link* cabin = joint == nullptr ? nullptr : link_named(*standing.model, joint->child);
+  const desc::Joint* joint = part_named(standing.model->joints, lift.joint);
+  const desc::Link* cabin =
+      joint == nullptr ? nullptr : part_named(standing.model->links, joint->child);
   if (cabin == nullptr || lift.stops.empty()) return;
   HomeElevator elevator;
   elevator.name = lift.name;

@@ -1,10 +1,9 @@
-#include "home/rooms.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
 
+#include "home/derive.h"
 #include "home/grid.h"
 #include "home/solids.h"
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "core/lists.h"
 #include "home/solids.h"
 #include "home/survey.h"
 
@@ -187,9 +188,7 @@ void add_apart(double floor, std::vector<double>& floors) {
 // those that walls pass; a surface too near to such a one is furniture or a ceiling.
 std::vector<double> floors_of(const std::vector<Wall>& walls, const std::vector<Slab>& slabs) {
   std::vector<Level> levels = levels_of(slabs);
-  levels.erase(std::remove_if(levels.begin(), levels.end(),
-                              [&](Level& level) { return !meets_walls(level, walls); }),
-               levels.end());
+  erase_if(levels, [&](Level& level) { return !meets_walls(level, walls); });
   std::stable_sort(levels.begin(), levels.end(), [](const Level& a, const Level& b) {
     return a.carries != b.carries ? a.carries : a.area > b.area;
   });

@@ -73,16 +73,11 @@ void set_exchange(const Patch& from, const Patch& to, Field::Link& link) {
   link.exchange = 1.0F / (link.is_rare ? own.density + other.density : own.density);
 }
 
-double area_of(const Box& box) {
-  const Vec3 size = box.sizes();
-  return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
-}
-
 /// Adds it to one of the boxes if no more rays pass the box around both than each of them.
 void add_box(const Box& box, std::vector<Box>& boxes) {
   for (Box& other : boxes) {
     const Box both = other.merged(box);
-    if (area_of(both) > area_of(other) + area_of(box)) continue;
+    if (half_surface(both) > half_surface(other) + half_surface(box)) continue;
     other = both;
     return;
   }

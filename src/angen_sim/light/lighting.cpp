@@ -6,11 +6,76 @@
 #include <future>
 #include <utility>
 
+#include "core/lists.h"
 #include "core/slots.h"
 #include "light/balance.h"
-#include "light/receiver.h"
+#include "light/gather.h"
 
 namespace angen::light {
+
+/// Cache of a place of measurement: the surfaces around it, and the light of each lamp.
+struct Receiver {
+  static constexpr std::uint64_t kNever = UINT64_MAX;
+
+  struct Known {
+    LampId lamp;
+    Transport transport;  // the newest one, if `found`
+    bool found = false;
+    std::uint64_t stamp = 0;       // stamp of its solution
+    std::uint64_t geometry = 0;    // geometry of its source
+    std::uint64_t scene = kNever;  // the scene's revision for which it is valid
+
+    bool holds(const Source& source, std::uint64_t revision) const {
+      return found && stamp == source.solution.stamp && geometry == source.geometry &&
+             scene == revision;
+    }
+  };
+
+  explicit Receiver(const Pose& at) : pose(at) {}
+
+  Known& of(LampId lamp) {
+    if (known.size() <= lamp.index) known.resize(lamp.index + 1);
+    Known& found = known[lamp.index];
+    if (found.lamp != lamp) {
+      found = {};
+      found.lamp = lamp;
+    }
+    return found;
+  }
+  /// The known light of the lamp, or null.
+  const Known* find(LampId lamp) const {
+    if (known.size() <= lamp.index || known[lamp.index].lamp != lamp) return nullptr;
+    return known[lamp.index].found ? &known[lamp.index] : nullptr;
+  }
+
+  /// Keeps known light valid for that revision of the scene if its reach is in the box, where
+  /// nothing has moved according to `still`.
+  void note(std::uint64_t revision, bool still, const Eigen::AlignedBox3d& box) {
+    for (Known& each : known) {
+      if (each.scene == revision || each.scene == kNever) continue;
+      each.scene = still && box.contains(each.transport.reach) ? revision : kNever;
+    }
+    if (gather && still) gather->hold_movers(box);
+  }
+
+  /// Forgets the surfaces around it; known light is used until it is computed again.
+  void drop() {
+    gather = nullptr;
+    for (Known& each : known) each.scene = kNever;
+  }
+  /// Whether a change of static shapes in the box (m, world) affects it.
+  bool intersects(const Eigen::AlignedBox3d& box) const {
+    if (gather && gather->may_see(box)) return true;
+    return std::any_of(known.begin(), known.end(), [&](const Known& each) {
+      return each.found && each.transport.reach.intersects(box);
+    });
+  }
+
+  Pose pose;
+  std::unique_ptr<Gather> gather;
+  std::vector<Known> known;  // by the lamp's index
+};
+
 namespace {
 
 constexpr Nanoseconds kRest = kSecond / 10;   // changes are followed after this time without one
@@ -363,7 +428,7 @@ Receiver& Lighting::Impl::receiver(Probe& probe, const Pose& pose) {
     probe.reach = Eigen::AlignedBox3d(pose.position);
     if (receivers.size() >= kMaxReceivers) {
       const auto expired = [](const std::weak_ptr<Receiver>& each) { return each.expired(); };
-      receivers.erase(std::remove_if(receivers.begin(), receivers.end(), expired), receivers.end());
+      erase_if(receivers, expired);
     }
     receivers.push_back(probe.receiver);
   }

@@ -1,7 +1,6 @@
 #include "light/reflected_light.h"
 
 #include <algorithm>
-#include <cmath>
 #include <mutex>
 #include <tuple>
 #include <utility>

@@ -1,10 +1,8 @@
 #include "light/solution.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <future>
-#include <limits>
 #include <numeric>
 #include <thread>
 #include <utility>

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 namespace angen::light {
 namespace {

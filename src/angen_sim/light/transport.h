@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "light/field.h"
 #include "light/lamp.h"
 

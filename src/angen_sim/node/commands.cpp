@@ -9,10 +9,41 @@
 #include <utility>
 
 #include "node/text.h"
+#include "ros/ros_kind.h"
 #include "ros/wire.h"
 
 namespace angen::node {
+
 namespace {
+
+struct CommandTopic {
+  std::string topic;
+  std::string kind;  // kind of the device that it commands, and its name
+  std::string name;
+  Subscribe subscribe;
+};
+
+// The topics on which devices take messages of their own, by the rules of their kinds.
+std::vector<CommandTopic> command_topics(const sim::Structure& structure,
+                                         const std::vector<Robot>& robots) {
+  std::vector<CommandTopic> topics;
+  for (const sim::DeviceEntry& device : structure.devices) {
+    for (const CommandTopicRule& rule : ros_kind(device).commands) {
+      if (!rule.topics) continue;
+      for (const std::string& topic : rule.topics(structure, device)) {
+        topics.push_back({topic, device.kind, device.name, rule.subscribe});
+      }
+    }
+  }
+  for (const Robot& robot : robots) {
+    const sim::DeviceEntry& device = structure.devices[robot.device];
+    for (const std::string& topic : robot.command_topics) {
+      topics.push_back(
+          {topic, device.kind, device.name, ros_kind(device).commands.front().subscribe});
+    }
+  }
+  return topics;
+}
 
 constexpr std::uint32_t kCommandQueue =
     1000;  // commands are never dropped for another of the same moment

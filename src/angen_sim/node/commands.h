@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "node/command_topics.h"
+#include "ros/command_topic.h"
 #include "ros/inbox.h"
 #include "ros/registrar.h"
+#include "ros/robots.h"
 #include "tf/frames.h"
 
 namespace angen::node {

@@ -2,10 +2,12 @@
 #include <ros/init.h>
 #include <ros/master.h>
 #include <ros/param.h>
+#include <ros/this_node.h>
 #include <signal.h>
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <clocale>
 #include <cmath>
 #include <cstdio>
@@ -14,19 +16,21 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/diagnostics.h"
+#include "core/files.h"
 #include "core/text.h"
 #include "node/freed_memory.h"
 #include "node/node.h"
 #include "node/other_node.h"
-#include "node/rescue.h"
 #include "node/text.h"
 #include "plugin/library.h"
 #include "record/recorder.h"
 #include "record/replay.h"
+#include "record/world_file.h"
 #include "sdf/load.h"
 #include "sim/simulation.h"
 
@@ -47,7 +51,8 @@ constexpr char kUsage[] =
 
 constexpr std::uint64_t kDefaultSeed = 1;
 constexpr double kGreatestSeed = 9007199254740992.0;  // 2^53: up to here a double has each number
-constexpr double kLongestTime = 9e9;                  // s, so that it fits into nanoseconds
+constexpr std::chrono::milliseconds kMasterPeriod{50};
+constexpr double kLongestTime = 9e9;  // s, so that it fits into nanoseconds
 
 std::atomic<bool> stop{false};
 
@@ -58,6 +63,22 @@ void end_on_signals() {
   action.sa_handler = on_signal;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+}
+
+/// Returns when the ROS master answers, or false after a signal: calls of roscpp to one that does
+/// not answer retry forever and ignore signals. With parameters such as _seed:=2, ros::init() waits
+/// for the master already, and a signal ends the process.
+bool wait_for_master() {
+  bool printed = false;
+  while (!ros::master::check()) {
+    if (stop) return false;
+    if (!std::exchange(printed, true)) {
+      std::fprintf(stderr, "angen_node: waiting for the ROS master at %s\n",
+                   ros::master::getURI().c_str());
+    }
+    std::this_thread::sleep_for(kMasterPeriod);
+  }
+  return true;
 }
 
 std::string folder_of(const std::string& path) {
@@ -227,15 +248,37 @@ void post_commands(Simulation& simulation, bool replays) {
   for (angen::sim::Action& action : actions) simulation.post(std::move(action));
 }
 
+/// Exit code (EX_TEMPFAIL of sysexits.h) of a node that ends because the ROS master was started
+/// again: its world is saved, and a new node may continue it.
+constexpr int kRescued = 75;
+
+/// rescue.world in state_folder(), rescue_house1.world for a node in the namespace /house1.
+std::string default_rescue_path() {
+  std::string space = ros::this_node::getNamespace();
+  std::replace(space.begin(), space.end(), '/', '_');
+  return angen::state_folder() + "/rescue" + (space == "_" ? "" : space) + ".world";
+}
+
+/// Writes the world as it is now, all of it or nothing, for this user alone.
+void rescue(Simulation& simulation, const std::string& path) {
+  const std::string text = angen::record::world_file(simulation.world(), simulation.saved());
+  try {
+    if (path == default_rescue_path()) angen::make_private_folder(angen::state_folder());
+    angen::write_private_file(path, text);
+  } catch (const angen::Error& error) {
+    throw angen::Error(std::string("the world cannot be saved in ") + error.what());
+  }
+}
+
 int save_and_end(Simulation& simulation, const std::string& path) {
-  angen::node::rescue(simulation, path);
+  rescue(simulation, path);
   std::fprintf(stderr,
                "angen_node: the ROS master at %s was restarted and does not know this node; the "
                "world as of %.3f s is saved in %s: start a node with it\n",
                ros::master::getURI().c_str(), angen::to_seconds(simulation.snapshot()->time),
                path.c_str());
   ros::shutdown();
-  return angen::node::kRescued;
+  return kRescued;
 }
 
 int run(std::string path, std::unique_ptr<Simulation> simulation) {
@@ -266,7 +309,7 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
   settings.replay = replay.get();
   settings.models = replay ? replay->models() : folder_of(path) + "/models";
   settings.topics = angen::node::topics_named(param_or<std::string>("~topics", "sensor"));
-  const auto rescue_path = param_or<std::string>("~rescue", angen::node::default_rescue_path());
+  const auto rescue_path = param_or<std::string>("~rescue", default_rescue_path());
   const double seed_given = number_param("~seed", kDefaultSeed, 0.0);
   if (seed_given > kGreatestSeed || seed_given != std::floor(seed_given)) {
     throw angen::Error("~seed is " + angen::number_text(seed_given) +
@@ -328,6 +371,7 @@ int main(int argc, char** argv) {
     if (!paths.empty()) simulation = make(path, static_cast<std::uint64_t>(seed));
     ros::init(argc, argv, "angen", ros::init_options::NoSigintHandler);
     end_on_signals();
+    if (!wait_for_master()) return EXIT_SUCCESS;
     angen::node::require_no_other_node(given(raw, "replace") == "true");
     return run(path, std::move(simulation));
   } catch (const angen::Error& error) {

@@ -20,8 +20,7 @@
 #include <thread>
 
 #include "core/diagnostics.h"
-#include "core/private_file.h"
-#include "core/process_lock.h"
+#include "core/files.h"
 #include "node/services.h"
 
 namespace angen::node {

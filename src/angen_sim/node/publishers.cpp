@@ -3,7 +3,6 @@
 #include <ros/console.h>
 #include <ros/exceptions.h>
 
-#include <algorithm>
 #include <iterator>
 #include <utility>
 

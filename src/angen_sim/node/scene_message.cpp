@@ -1,7 +1,6 @@
 #include "node/scene_message.h"
 
 #include "ros/convert.h"
-#include "scene/field.h"
 #include "scene/groups.h"
 #include "scene/shapes.h"
 

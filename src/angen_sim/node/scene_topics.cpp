@@ -1,7 +1,6 @@
 #include "node/scene_topics.h"
 
 #include <chrono>
-#include <cmath>
 #include <limits>
 
 #include "node/scene_message.h"

@@ -1,21 +1,28 @@
 #include "node/services.h"
 
+#include <angen_msgs/Entity.h>
+#include <ros/connection.h>
 #include <ros/console.h>
 #include <ros/names.h>
+#include <ros/service_client_link.h>
 #include <ros/service_manager.h>
+#include <ros/service_publication.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <exception>
+#include <tuple>
 
 #include "core/diagnostics.h"
 #include "core/names.h"
 #include "core/text.h"
-#include "node/listing.h"
 #include "node/text.h"
 #include "plugin/summary.h"
 #include "record/world_file.h"
-#include "ros/client_watch.h"
 #include "ros/convert.h"
+#include "ros/ros_kind.h"
+#include "ros/wire.h"
 
 namespace angen::node {
 namespace {
@@ -25,6 +32,51 @@ constexpr std::uint32_t kServiceThreads = 8;
 constexpr std::size_t kMaxSteps = 4;             // calls that wait at once
 constexpr std::uint32_t kMaxTicks = 10'000'000;  // limit of a call
 constexpr std::size_t kLongestAnswer = 10'000;   // bytes
+
+constexpr std::chrono::milliseconds kClientPeriod(500);
+
+// roscpp drops the connection of a client that has ended, but does not report it: its list of open
+// ones is private. An explicit instantiation may name private members.
+template <auto Links, auto Mutex>
+struct OpenLinks {
+  friend ros::V_ServiceClientLink& links_of(ros::ServicePublication& service) {
+    return service.*Links;
+  }
+  friend boost::mutex& mutex_of(ros::ServicePublication& service) { return service.*Mutex; }
+};
+ros::V_ServiceClientLink& links_of(ros::ServicePublication& service);
+boost::mutex& mutex_of(ros::ServicePublication& service);
+template struct OpenLinks<&ros::ServicePublication::client_links_,
+                          &ros::ServicePublication::client_links_mutex_>;
+
+/// Whether the client of a call of a service is still connected.
+class ClientWatch {
+ public:
+  /// `header`: the connection's, as ros::ServiceEvent has it; it tells connections apart.
+  ClientWatch(std::string service, const ros::M_string& header)
+      : service_(std::move(service)), header_(&header) {}
+
+  /// Checks twice a second, however often it is called.
+  bool lost() {
+    const Clock::time_point now = Clock::now();
+    if (now - checked_ < kClientPeriod) return false;
+    checked_ = now;
+    const auto service = ros::ServiceManager::instance()->lookupServicePublication(service_);
+    if (!service) return false;
+    const boost::mutex::scoped_lock lock(mutex_of(*service));
+    const ros::V_ServiceClientLink& links = links_of(*service);
+    return std::none_of(links.begin(), links.end(), [&](const auto& link) {
+      return link->getConnection()->getHeader().getValues().get() == header_;
+    });
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string service_;
+  const ros::M_string* header_;
+  Clock::time_point checked_ = Clock::now();
+};
 
 /// Counts one more while it lives.
 class Count {
@@ -40,6 +92,70 @@ class Count {
   std::atomic<std::size_t>& counter_;
   std::size_t now_;
 };
+
+/// Models, devices and sensors, ordered by name, then kind; of one kind unless `kind` is empty.
+std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
+                                         const std::vector<desc::Plugin>& world_plugins,
+                                         Topics topics, const std::string& kind) {
+  const sim::Structure& structure = *snapshot.structure;
+  std::vector<angen_msgs::Entity> all;
+  const auto add = [&](const std::string& name, const std::string& its_kind, std::uint32_t model,
+                       const Pose& pose) -> angen_msgs::Entity* {
+    if (!kind.empty() && kind != its_kind) return nullptr;
+    angen_msgs::Entity entity;
+    entity.name = name;
+    entity.kind = its_kind;
+    if (model != UINT32_MAX) entity.model = structure.models[model]->name;
+    entity.pose = to_ros(pose);
+    entity.room = structure.home->get().room_name_at(pose.position);
+    all.push_back(std::move(entity));
+    return &all.back();
+  };
+  const auto place = [&](std::uint32_t model) {
+    const std::uint32_t first = structure.first_link(model);
+    const Pose in_model = structure.models[model]->links.front().pose;
+    return snapshot.link_poses[first] * in_model.inverse();
+  };
+  for (std::uint32_t m = 0; m < structure.models.size(); ++m) {
+    add(structure.models[m]->name, "model", m, place(m));
+  }
+  for (const sim::DeviceEntry& device : structure.devices) {
+    const bool of_light = device.light != UINT32_MAX;
+    angen_msgs::Entity* entity =
+        add(device.name, device.kind, device.model,
+            of_light ? structure.lights[device.light].light.pose : place(device.model));
+    const RosKind& its = ros_kind(device);
+    if (entity == nullptr || its.is_robot) continue;
+    const Format& format = its.formats.front();
+    const bool together = is_on_topic_of_kind(topics, format, nullptr);
+    entity->topic = together ? kind_topic(device.kind) : topic_of(device.kind, device.name);
+    entity->type = together ? format.array_type : format.type;
+  }
+  const std::vector<Robot> robots = find_robots(structure, world_plugins);
+  for (const Robot& robot : robots) {
+    const sim::DeviceEntry& device = structure.devices[robot.device];
+    for (angen_msgs::Entity& entity : all) {
+      if (entity.kind != device.kind || entity.name != robot.name) continue;
+      entity.topic = robot.odometry_topics.front();
+      entity.type = ros_kind(device).formats.front().type;
+    }
+  }
+  for (const sim::SensorEntry& sensor : structure.sensors) {
+    angen_msgs::Entity* entity =
+        add(sensor.name, sensor.kind, sensor.model, snapshot.link_poses[sensor.link] * sensor.pose);
+    if (entity == nullptr) continue;
+    const Format& format = ros_kind(sensor).formats.front();
+    const Robot* robot = robot_in(robots, sensor.model);
+    const bool together = is_on_topic_of_kind(topics, format, robot);
+    entity->topic = together ? kind_topic(sensor.kind)
+                             : ros::names::resolve(sensor_topics(sensor, format, robot).front());
+    entity->type = together ? format.array_type : format.type;
+  }
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.name, a.kind) < std::tie(b.name, b.kind);
+  });
+  return all;
+}
 
 // A quaternion of zeros means no rotation.
 Pose to_pose(const geometry_msgs::Pose& message) {

@@ -11,7 +11,6 @@
 #include <std_srvs/Empty.h>
 
 #include <atomic>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>

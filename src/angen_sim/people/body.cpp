@@ -1,7 +1,7 @@
 #include "people/body.h"
 
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "people/metabolism.h"
 #include "plugin/outputs.h"
@@ -25,6 +25,7 @@ constexpr double kSkinPerKelvin = 0.12;         // share of the air's
 constexpr double kCoveredSkin = 306.5;          // K, below clothing
 constexpr double kClothingShare = 0.35;         // share of the way from the air to the skin
 constexpr double kBareShare = 0.12;             // share of its surface: head and hands
+constexpr double kWarmsBy = 0.1;                // K in a period, of its surface; ours
 constexpr Nanoseconds kAirPeriod = 10 * kSecond;
 constexpr Range kSoundPower{-100.0, 200.0};
 
@@ -58,23 +59,27 @@ void Body::update(const View& view, const LinkView& link, Outputs& outputs) {
 
 Nanoseconds Body::feels_next(Nanoseconds now) { return (now / kAirPeriod + 1) * kAirPeriod; }
 
-// Skin and clothing follow the air around; rays hit one surface, which radiates as both do.
+// Skin and clothing follow the air around. Rays hit one surface that radiates as both do; it warms
+// by small steps, as a body and its clothing have heat to store.
 void Body::feel_air(const View& view, const Vec3& feet, Outputs& outputs) {
   const Nanoseconds now = view.time() / kAirPeriod;
   if (now == felt_at_) return;
-  felt_at_ = now;
+  const bool is_new = std::exchange(felt_at_, now) < 0;
   const AirHere here = air_at(view, feet + kMiddle * Vec3::UnitZ());
   const bool known = !std::isnan(here.temperature);
   const double air = known ? here.temperature + kCelsiusZero : view.ambient_temperature();
   const double humidity = known ? here.humidity : kUsualHumidity;
-  if (std::abs(air - air_) < kFelt && std::abs(humidity - humidity_) < kFeltHumidity) return;
-  humidity_ = humidity;
-  air_ = air;
-  if (skin_follows_) skin_ = kSkinAtRest + kSkinPerKelvin * (air - kRoomAir);
-  if (clothing_follows_) clothing_ = air + kClothingShare * (kCoveredSkin - air);
+  if (std::abs(air - air_) >= kFelt || std::abs(humidity - humidity_) >= kFeltHumidity) {
+    humidity_ = humidity;
+    air_ = air;
+    if (skin_follows_) skin_ = kSkinAtRest + kSkinPerKelvin * (air - kRoomAir);
+    if (clothing_follows_) clothing_ = air + kClothingShare * (kCoveredSkin - air);
+  }
   const double mean =
       std::pow(kBareShare * std::pow(skin_, 4) + (1.0 - kBareShare) * std::pow(clothing_, 4), 0.25);
-  for (const SurfaceRef surface : surfaces_) outputs.temperature(surface, mean, mean, 0.0);
+  if (!is_new && std::abs(mean - warmth_) < kWarmsBy) return;
+  warmth_ = is_new ? mean : warmth_ + std::copysign(kWarmsBy, mean - warmth_);
+  for (const SurfaceRef surface : surfaces_) outputs.temperature(surface, warmth_, warmth_, 0.0);
 }
 
 void Body::pose_limbs(std::vector<Pose>& limbs) const {

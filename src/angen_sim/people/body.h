@@ -38,6 +38,7 @@ class Body {
   double air_ = 0.0;           // K, of the air around it; 0: not felt yet
   double humidity_ = 50.0;     // percent, of that air
   Nanoseconds felt_at_ = -1;   // time of the last air, as a multiple of a period
+  double warmth_ = 0.0;        // K, of its surface
   double surface_ = 1.0;       // its body's, as a share of a usual person's
   double step_sound_ = 0.0;    // dB over 1 pW
   double speech_sound_ = 0.0;  // dB over 1 pW

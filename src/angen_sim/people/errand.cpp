@@ -1,7 +1,6 @@
 #include "people/errand.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "people/stroll.h"
 

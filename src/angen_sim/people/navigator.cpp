@@ -1,7 +1,6 @@
 #include "people/navigator.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "people/others.h"
 #include "plugin/view.h"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
-#include <vector>
 
 #include "core/text.h"
 #include "plugin/outputs.h"
@@ -19,6 +17,7 @@ namespace {
 // N/m, of chest and pelvis: ISO/TS 15066:2016, table A.3, effective spring constant.
 constexpr double kSideStiffness = 25e3;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kBesideSeat = 1.5;  // m
 constexpr int kNoFloor = std::numeric_limits<int>::min();
 
 Path read_path(Params& params) {
@@ -194,21 +193,14 @@ void Person::start(const Step& step) {
   progress_.count_from(body.pose.position.head<2>());
   shown_ = body;
   if (!stroll_.has_path()) stroll_.stay_at(body.pose);
-  if (!seat_ || !std::isnan(seat_->at.position.x())) return;  // a command has come before
-  seat_->at = body.pose;
+  if (!seat_) return;
+  const bool is_commanded = !std::isnan(seat_->at.position.x());
+  if (!is_commanded) seat_->at = body.pose;
   if (!std::isnan(seat_->stand.x())) return;
-  const Vec2 at = step.at();
   const Storey* storey = storey_at(step.view.home().storeys, step.feet().z());
-  const double floor = storey != nullptr ? storey->elevation : step.feet().z();
-  const Vec2 reach = Vec2::Constant(1.5);  // m
-  const auto beside =
-      best_place(step.view, {at - reach, at + reach}, floor, [&](const Vec2& place) {
-        const Vec3 low(place.x(), place.y(), floor + kLow);  // a bed may be a thing that can move
-        const bool taken = !step.view.rays().crossings(low + Vec3::UnitZ(), low).empty();
-        return taken ? 0.0 : 3.0 - (place - at).norm();
-      });
-  const Vec2 stand = beside.value_or(at);
-  seat_->stand = Vec3(stand.x(), stand.y(), floor);
+  Vec3 under = step.feet();
+  if (storey != nullptr) under.z() = storey->elevation;
+  seat_->stand = free_place_beside(step.view, under, kBesideSeat).value_or(under);
 }
 
 void Person::stand(Outputs& outputs) {

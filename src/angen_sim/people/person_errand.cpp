@@ -1,5 +1,4 @@
 // A person's way to where it was sent.
-#include <algorithm>
 #include <optional>
 #include <sstream>
 #include <string>

@@ -93,7 +93,9 @@ bool Person::gives_way(const Step& step) {
   }
   if (backs) {
     walker_.aim_straight();
+    walker_.slide(true);  // the way back may be along a wall
     walker_.walk(step.body, wait->back_to, kReturnSpeed, step.outputs, 0.0);
+    walker_.slide(false);
     progress_.count_from(step.at());
     show(Mode::kBlocked, step);
     return true;

@@ -22,6 +22,7 @@ Verdict Person::command_posture(const Command& command, const View& view) {
   if (!can_sit_) return Verdict::reject("its body can neither sit nor lie");
   FoundSeat found = find_seat(command, view, stands_at(view));
   if (!found.seat) return Verdict::reject(std::move(found.why_not));
+  if (seat_ && !started_) found.seat->stand = seat_->stand;  // it is found at the start
   return Verdict::accept([this, seat = *found.seat] {
     floor_.reset();
     ride_.reset();

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include "core/time.h"
 #include "people/surroundings.h"
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/text.h"
+#include "people/floor_map.h"
 #include "people/others.h"
 #include "people/places.h"
 #include "plugin/view.h"
@@ -24,6 +25,8 @@ constexpr double kLooksFrom = 0.45;             // m above a place: where its su
 constexpr double kCovered = 0.12;               // m: higher than this a table covers the place
 constexpr double kLiesOn = 0.002;               // m between the surface and the body
 constexpr double kApartStanding = 0.5;          // m between the middles of two who stand
+constexpr double kStandsNear = 1.0;             // m, at most, from where it stood before
+constexpr double kEyes = 1.0;                   // m above the floor, over tables and beds
 constexpr int kTurns = 8;
 
 bool is_own(const View& view, std::uint32_t shape) {
@@ -135,25 +138,30 @@ FoundSeat find_seat(const Command& command, const View& view, const Pose& body) 
   return {{}, why.str()};
 }
 
-std::optional<Vec3> place_to_stand(const View& view, const Seat& seat) {
-  const auto is_free = [&](const Vec2& at) {
-    return occupant(view, seat.stand, at, kApartStanding).empty();
+std::optional<Vec3> free_place_beside(const View& view, const Vec3& to, double reach) {
+  const Vec2 middle = to.head<2>();
+  const Vec2 box = Vec2::Constant(reach);
+  const auto is_clear = [&](const Vec3& from, const Vec3& end, rays::Mobilities of) {
+    const auto met = view.rays().crossings(from, end, of);
+    return std::all_of(met.begin(), met.end(),
+                       [&](const rays::Crossing& c) { return is_own(view, c.shape); });
   };
-  const Vec2 stand = seat.stand.head<2>();
-  if (is_free(stand)) return seat.stand;
-  const Vec2 reach = Vec2::Constant(1.0);
-  const auto is_behind_wall = [&](const Vec2& at) {
-    const Vec3 end(at.x(), at.y(), seat.stand.z() + 1.0);
-    return !view.rays()
-                .crossings(seat.stand + Vec3::UnitZ(), end, rays::only(rays::Mobility::kStatic))
-                .empty();
+  const auto rate = [&](const Vec2& at) {
+    const Vec3 low(at.x(), at.y(), to.z() + kLow);  // a bed may be a thing that can move
+    const Vec3 high = low + Vec3::UnitZ();
+    const bool is_free =
+        occupant(view, to, at, kApartStanding).empty() && is_clear(high, low, rays::kAll) &&
+        is_clear(to + kEyes * Vec3::UnitZ(), high, rays::only(rays::Mobility::kStatic));
+    return is_free ? 2.0 * reach - (at - middle).norm() : 0.0;
   };
-  const auto place =
-      best_place(view, {stand - reach, stand + reach}, seat.stand.z(), [&](const Vec2& at) {
-        return is_free(at) && !is_behind_wall(at) ? 1.0 - (at - stand).norm() : 0.0;
-      });
+  const auto place = best_place(view, {middle - box, middle + box}, to.z(), rate);
   if (!place) return std::nullopt;
-  return Vec3(place->x(), place->y(), seat.stand.z());
+  return Vec3(place->x(), place->y(), to.z());
+}
+
+std::optional<Vec3> place_to_stand(const View& view, const Seat& seat) {
+  const bool is_free = occupant(view, seat.stand, seat.stand.head<2>(), kApartStanding).empty();
+  return is_free ? seat.stand : free_place_beside(view, seat.stand, kStandsNear);
 }
 
 }  // namespace angen::people

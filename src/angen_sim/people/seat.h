@@ -26,6 +26,10 @@ struct FoundSeat {
 };
 FoundSeat find_seat(const Command& command, const View& view, const Pose& body);
 
+/// The place on the floor of `to` (world, m) nearest to that where a person has room, not behind a
+/// wall; none within `reach` (m).
+std::optional<Vec3> free_place_beside(const View& view, const Vec3& to, double reach);
+
 /// Where it stands when it gets up; none while others leave no room.
 std::optional<Vec3> place_to_stand(const View& view, const Seat& seat);
 

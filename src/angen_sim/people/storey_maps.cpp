@@ -1,7 +1,6 @@
 #include "people/storey_maps.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace angen::people {
 

@@ -1,4 +1,4 @@
-#include "physics/boxes.h"
+#include "physics/touching.h"
 
 namespace angen::physics {
 

@@ -2,15 +2,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "core/diagnostics.h"
-#include "physics/insertion.h"
+#include "core/union_find.h"
 #include "physics/joints.h"
-#include "physics/shapes.h"
+#include "physics/sleep.h"
 #include "physics/wheel_line.h"
 
 namespace angen::physics {
@@ -27,7 +25,7 @@ constexpr double kWheelSinks = 1e-4;       // m, of what stands on one point
 class Builder {
  public:
   Builder(const Model& model, ShapeFactory& shapes, std::uint64_t& serial)
-      : model_(model), shapes_(shapes), serial_(serial) {}
+      : model_(model), shapes_(shapes), serial_(serial), groups_(model.links.size() + 1) {}
 
   std::unique_ptr<ModelRecord> build() {
     record_ = std::make_unique<ModelRecord>();
@@ -43,32 +41,20 @@ class Builder {
   }
 
  private:
-  std::size_t root(std::size_t i) {
-    while (group_[i] != i) i = group_[i] = group_[group_[i]];
-    return i;
-  }
-
   // The world counts as one link more.
   std::size_t link_index(const std::string& name) const {
     return name == "world" ? model_.links.size() : index_.at(name);
   }
 
+  // A body's frame has the axes of its first link, which is the root of its group.
   void group_links() {
     const std::size_t n = model_.links.size();
-    group_.resize(n + 1);
-    std::iota(group_.begin(), group_.end(), std::size_t{0});
-    // The smaller index stays the root, so that a body's frame has the axes of its first link.
-    const auto join = [this](std::size_t a, std::size_t b) {
-      a = root(a);
-      b = root(b);
-      group_[std::max(a, b)] = std::min(a, b);
-    };
     for (const desc::Joint& joint : model_.joints) {
       if (joint.type != desc::Joint::Type::kFixed) continue;
-      join(link_index(joint.parent), link_index(joint.child));
+      groups_.join(link_index(joint.parent), link_index(joint.child));
     }
     for (std::size_t i = 0; i < n; ++i) {
-      if (model_.is_static || model_.links[i].kinematic) join(i, n);
+      if (model_.is_static || model_.links[i].kinematic) groups_.join(i, n);
     }
   }
 
@@ -77,7 +63,7 @@ class Builder {
     body_of_.assign(n + 1, nullptr);
     std::vector<Body*> of_root(n + 1, nullptr);
     for (std::size_t i = 0; i <= n; ++i) {
-      Body*& body = of_root[root(i)];
+      Body*& body = of_root[groups_.root(i)];
       if (body == nullptr) {
         record_->bodies.push_back(std::make_unique<Body>());
         body = record_->bodies.back().get();
@@ -88,9 +74,9 @@ class Builder {
       body_of_[i] = body;
     }
     std::vector<std::vector<const desc::Link*>> members(n + 1);
-    for (std::size_t i = 0; i < n; ++i) members[root(i)].push_back(&model_.links[i]);
+    for (std::size_t i = 0; i < n; ++i) members[groups_.root(i)].push_back(&model_.links[i]);
     for (std::size_t i = 0; i <= n; ++i) {
-      if (of_root[i] != nullptr) make_body(*of_root[i], root(i), members[root(i)]);
+      if (of_root[i] != nullptr) make_body(*of_root[i], groups_.root(i), members[groups_.root(i)]);
     }
     for (std::size_t i = 0; i < n; ++i) {
       const desc::Link& link = model_.links[i];
@@ -103,7 +89,7 @@ class Builder {
   void make_body(Body& body, std::size_t root_index, const std::vector<const desc::Link*>& links) {
     const std::size_t n = model_.links.size();
     if (root_index < n) body.zero = model_.links[root_index].pose;
-    if (root(n) == root_index) return;
+    if (groups_.root(n) == root_index) return;
     add_masses(body, links);
     for (const desc::Link* link : links) {
       body.upright = body.upright || link->anatomy.upright;
@@ -252,7 +238,7 @@ class Builder {
   std::uint64_t& serial_;
   std::unique_ptr<ModelRecord> record_;
   std::unordered_map<std::string, std::size_t> index_;  // index of each link by name
-  std::vector<std::size_t> group_;                      // group of each link and, last, the world
+  UnionFind groups_;                                    // links and, last, the world
   std::vector<Body*> body_of_;
 };
 

@@ -38,9 +38,10 @@ class Contacts {
   /// s, of the steps from now on.
   void set_step(double step) { step_ = step; }
 
-  /// Whether upright bodies touched nothing in the last step but static shapes below them, and
-  /// bodies on joints nothing.
-  bool allow_long_steps() const;
+  /// Whether bodies on joints touched nothing in the last step, and upright bodies only static
+  /// shapes below them, and other things if both have been idle for so many steps, and no motor
+  /// moves them.
+  bool allow_long_steps(int idle_steps) const;
 
   /// Forgets the pairs of the last step.
   void start();

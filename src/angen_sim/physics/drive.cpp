@@ -29,6 +29,11 @@ void make_drive(dWorldID world, Body& body) {
   dJointSetAMotorAxis(drive.angular.get(), 0, 0, 0.0, 0.0, 1.0);
 }
 
+bool is_driven(const Body& body) {
+  return body.drive && body.drive->max_force > 0.0 &&
+         (!body.drive->velocity.isZero() || body.drive->yaw_rate != 0.0);
+}
+
 bool set_drive(dWorldID world, Body& body, const Vec3& velocity, double yaw_rate,
                double max_force) {
   const Vec3 flat(velocity.x(), velocity.y(), 0.0);

@@ -11,6 +11,9 @@ void make_drive(dWorldID world, Body& body);
 /// rest.
 bool set_drive(dWorldID world, Body& body, const Vec3& velocity, double yaw_rate, double max_force);
 
+/// Whether its motor moves it.
+bool is_driven(const Body& body);
+
 /// Divides the force of a drive between its two axes, before a step of h seconds.
 void aim_drive(const Body& body, double h);
 

@@ -1,10 +1,10 @@
-#include "physics/flat_parts.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
 #include <vector>
+
+#include "physics/touching.h"
 
 namespace angen::physics {
 

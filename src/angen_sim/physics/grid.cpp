@@ -1,7 +1,8 @@
 #include "physics/grid.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/cells.h"
 
 namespace angen::physics {
 
@@ -10,19 +11,6 @@ namespace {
 constexpr double kCell = 2.0;     // m
 constexpr double kMax = 1 << 19;  // cells from the origin; geoms beyond are unbounded
 constexpr double kManyCells = 20000.0;
-
-bool cells_of(const Aabb& box, std::array<int, 6>& cells) {
-  double count = 1.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double first = std::floor(box.min[i] / kCell);
-    const double last = std::floor(box.max[i] / kCell);
-    if (!(first > -kMax && last < kMax)) return false;
-    count *= last - first + 1.0;
-    cells[2 * i] = static_cast<int>(first);
-    cells[2 * i + 1] = static_cast<int>(last);
-  }
-  return count <= kManyCells;
-}
 
 // Cheaper than to find its cells: most geoms stay where they are filed.
 bool still_in_cells(const Geom& geom) {
@@ -49,8 +37,9 @@ void take_out(std::vector<Geom*>& list, const Geom* geom) {
 void Grid::update(Geom& geom) {
   if (!geom.touches) return erase(geom);
   if (still_in_cells(geom)) return;
-  std::array<int, 6> cells{};
-  const bool bounded = cells_of(geom.box, cells);
+  CellRange cells{};
+  const bool bounded =
+      angen::find_cells(geom.box.min, geom.box.max, kCell, kMax, kManyCells, cells);
   if (geom.in_grid && geom.unbounded != bounded && (!bounded || cells == geom.cells)) return;
   erase(geom);
   geom.in_grid = true;
@@ -60,11 +49,7 @@ void Grid::update(Geom& geom) {
     unbounded_.push_back(&geom);
     return;
   }
-  for (int x = cells[0]; x <= cells[1]; ++x) {
-    for (int y = cells[2]; y <= cells[3]; ++y) {
-      for (int z = cells[4]; z <= cells[5]; ++z) cells_[cell_key(x, y, z)].push_back(&geom);
-    }
-  }
+  each_cell(cells, [&](std::uint64_t key) { cells_[key].push_back(&geom); });
 }
 
 void Grid::erase(Geom& geom) {
@@ -75,28 +60,16 @@ void Grid::erase(Geom& geom) {
     take_out(unbounded_, &geom);
     return;
   }
-  const auto& c = geom.cells;
-  for (int x = c[0]; x <= c[1]; ++x) {
-    for (int y = c[2]; y <= c[3]; ++y) {
-      for (int z = c[4]; z <= c[5]; ++z) {
-        const auto cell = cells_.find(cell_key(x, y, z));
-        take_out(cell->second, &geom);
-        if (cell->second.empty()) cells_.erase(cell);
-      }
-    }
-  }
+  each_cell(geom.cells, [&](std::uint64_t key) {
+    const auto cell = cells_.find(key);
+    take_out(cell->second, &geom);
+    if (cell->second.empty()) cells_.erase(cell);
+  });
 }
 
 /// None of them is removed while the geom is in it.
 void Grid::find_cells(Geom& geom) {
-  const auto& c = geom.cells;
-  for (int x = c[0]; x <= c[1]; ++x) {
-    for (int y = c[2]; y <= c[3]; ++y) {
-      for (int z = c[4]; z <= c[5]; ++z) {
-        geom.shared_cells.push_back(&cells_.at(cell_key(x, y, z)));
-      }
-    }
-  }
+  each_cell(geom.cells, [&](std::uint64_t key) { geom.shared_cells.push_back(&cells_.at(key)); });
 }
 
 }  // namespace angen::physics

@@ -4,7 +4,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/cells.h"
 #include "physics/model.h"
 
 namespace angen::physics {

@@ -1,7 +1,6 @@
-#include "physics/insertion.h"
-
 #include "physics/drive.h"
 #include "physics/joints.h"
+#include "physics/sleep.h"
 
 namespace angen::physics {
 

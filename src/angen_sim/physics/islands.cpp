@@ -1,7 +1,6 @@
 #include "physics/islands.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace angen::physics {
 
@@ -18,8 +17,7 @@ bool joins(const Body& body) { return body.dynamic() && body.awake; }
 }  // namespace
 
 Islands::Islands(const std::vector<Body*>& awake, const std::vector<Contacts::Pair>& touching)
-    : parent_(awake.size()) {
-  std::iota(parent_.begin(), parent_.end(), 0U);
+    : groups_(awake.size()) {
   for (std::uint32_t i = 0; i < awake.size(); ++i) awake[i]->island = i;
   for (const Body* body : awake) {
     for (const Joint* joint : body->joints) join(joint->first, joint->second);
@@ -28,15 +26,7 @@ Islands::Islands(const std::vector<Body*>& awake, const std::vector<Contacts::Pa
 }
 
 void Islands::join(const Body* a, const Body* b) {
-  if (!joins(*a) || !joins(*b)) return;
-  const std::uint32_t x = root(a->island);
-  const std::uint32_t y = root(b->island);
-  parent_[std::max(x, y)] = std::min(x, y);
-}
-
-std::uint32_t Islands::root(std::uint32_t i) const {
-  while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-  return i;
+  if (joins(*a) && joins(*b)) groups_.join(a->island, b->island);
 }
 
 bool mark_large_islands(const std::vector<Body*>& awake,

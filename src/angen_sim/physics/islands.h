@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/union_find.h"
 #include "physics/contacts.h"
 #include "physics/model.h"
 
@@ -15,13 +16,12 @@ class Islands {
   Islands(const std::vector<Body*>& awake, const std::vector<Contacts::Pair>& touching);
 
   /// The island's number, below the number of bodies.
-  std::uint32_t of(const Body& body) const { return root(body.island); }
+  std::uint32_t of(const Body& body) const { return groups_.root(body.island); }
 
  private:
   void join(const Body* a, const Body* b);
-  std::uint32_t root(std::uint32_t i) const;
 
-  mutable std::vector<std::uint32_t> parent_;
+  UnionFind groups_;
 };
 
 /// Finds the bodies of islands that have too many contacts and joints for dWorldStep, whose time

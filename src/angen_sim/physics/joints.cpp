@@ -158,6 +158,18 @@ void push_freely(const Joint& joint, double force) {
   if (second != nullptr) dBodyAddTorque(second, -push.x(), -push.y(), -push.z());
 }
 
+// The displacement by a motion `by` (rad, m) about or along this axis through the anchor.
+Pose moved_along(const Joint& joint, const Vec3& axis, const Vec3& anchor, double by) {
+  Pose moved;
+  if (joint.type == Type::kPrismatic) {
+    moved.position = by * axis;
+    return moved;
+  }
+  moved.rotation = Eigen::AngleAxisd(by, axis);
+  moved.position = anchor - moved.rotation * anchor + joint.lead * by * axis;
+  return moved;
+}
+
 bool turns(const Joint& joint) {
   return joint.type != Type::kPrismatic && joint.type != Type::kBall;
 }
@@ -272,16 +284,7 @@ void count_turns(Joint& joint, double position) {
 }
 
 Pose joint_step(const Joint& joint, double by) {
-  const Vec3 axis = world_axis(joint);
-  Pose moved;
-  if (joint.type == Type::kPrismatic) {
-    moved.position = by * axis;
-    return moved;
-  }
-  const Vec3 anchor = joint.first->at * joint.anchor_in_first;
-  moved.rotation = Eigen::AngleAxisd(by, axis);
-  moved.position = anchor - moved.rotation * anchor + joint.lead * by * axis;
-  return moved;
+  return moved_along(joint, world_axis(joint), joint.first->at * joint.anchor_in_first, by);
 }
 
 void apply_motor(const Joint& joint) {
@@ -384,16 +387,82 @@ void apply_spring(Joint& joint, double h) {
 
 Pose joint_displacement(const Joint& joint) {
   if (joint.first == nullptr || joint.axes.empty()) return {};
+  const bool is_one = joint.type == Type::kRevolute || joint.type == Type::kScrew;
+  if (!is_one && joint.type != Type::kPrismatic) return {};
+  return moved_along(joint, joint.axes[0].in_model, joint.anchor, joint.axes[0].initial);
+}
+
+namespace {
+
+constexpr double kLatchTime = 0.1;  // s
+constexpr double kBlow = 10.0;      // times its force: a blow shorter than 10 ms does not break it
+constexpr double kLatchSpeed = 0.002;  // rad/s or m/s
+constexpr double kLatchAgain = 0.9;    // share of its force
+
+}  // namespace
+
+void watch_latch(Joint& joint, double h) {
+  if (!joint.latched || !std::isfinite(joint.latch_force)) return;
+  const double most = kBlow * joint.latch_force;
+  const double borne = std::clamp(joint.effort - joint.spring_effort, -most, most);
+  joint.latch_strain += (borne - joint.latch_strain) * h / (h + kLatchTime);
+  const double strain = std::abs(joint.latch_strain);
+  const bool at_rest = std::abs(joint_velocity(joint)) < kLatchSpeed;
+  const bool breaks = !joint.latch_broken && strain >= joint.latch_force;
+  const bool catches = joint.latch_broken && at_rest && strain < kLatchAgain * joint.latch_force;
+  if (!breaks && !catches) return;
+  joint.latch_broken = breaks;
+  joint.latch_at = ode_position(joint);
+  apply_latch(joint);
+}
+
+Bounds velocity_bounds(const Joint& joint) {
   const Axis& axis = joint.axes[0];
-  Pose moved;
-  if (joint.type == Type::kPrismatic) {
-    moved.position = axis.initial * axis.in_model;
-  } else if (joint.type == Type::kRevolute || joint.type == Type::kScrew) {
-    moved.rotation = Eigen::AngleAxisd(axis.initial, axis.in_model);
-    moved.position =
-        joint.anchor - moved.rotation * joint.anchor + joint.lead * axis.initial * axis.in_model;
+  const double most = axis.velocity >= 0.0 ? axis.velocity : dInfinity;
+  if (!axis.safety || axis.safety->k_position == 0.0) return {-most, most};
+  const desc::JointSafety& safety = *axis.safety;
+  const double k = safety.k_position;
+  return {std::clamp(-k * (joint.position - safety.soft_lower), -most, most),
+          std::clamp(-k * (joint.position - safety.soft_upper), -most, most)};
+}
+
+Bounds effort_bounds(const Joint& joint, double velocity) {
+  const Axis& axis = joint.axes[0];
+  const double most = axis.effort >= 0.0 ? axis.effort : dInfinity;
+  const Bounds speeds = velocity_bounds(joint);
+  if (axis.safety && axis.safety->k_velocity > 0.0) {
+    const double k = axis.safety->k_velocity;
+    return {std::clamp(-k * (velocity - speeds.low), -most, most),
+            std::clamp(-k * (velocity - speeds.high), -most, most)};
   }
-  return moved;
+  return {velocity < speeds.low ? 0.0 : -most, velocity > speeds.high ? 0.0 : most};
+}
+
+namespace {
+
+constexpr double kNarrowest = 0.01;  // m, radius of a thread
+constexpr double kWidest = 1.0;
+constexpr double kFar = 0.5;  // m, that a thread gives back in a step at most
+
+}  // namespace
+
+// A thread is a slant in which the first body slides, at some distance from the axis: one row of a
+// force that holds both ways. The others of the screw's forces are those of its piston.
+void aim_thread(const Joint& joint) {
+  const Body& second = *joint.second;
+  const Vec3 axis = world_axis(joint);
+  const Vec3 middle = joint.first->at * joint.anchor_in_first;
+  const Vec3 start = second.at * (second.zero.inverse() * joint.anchor);
+  const double radius = std::clamp(std::abs(joint.lead), kNarrowest, kWidest);
+  const Vec3 outward = axis.unitOrthogonal();
+  const double norm = std::hypot(radius, joint.lead);
+  const Vec3 normal = (radius * axis - joint.lead * axis.cross(outward)) / norm;
+  const double ahead = axis.dot(middle - start) - joint.lead * joint.position;  // m
+  const Vec3 at = middle + radius * outward;
+  const Vec3 other = at - normal;
+  dJointSetDBallAnchor1(joint.thread.get(), at.x(), at.y(), at.z());
+  dJointSetDBallAnchor2(joint.thread.get(), other.x(), other.y(), other.z());
+  dJointSetDBallDistance(joint.thread.get(), 1.0 - std::clamp(radius / norm * ahead, -kFar, kFar));
 }
 
 }  // namespace angen::physics

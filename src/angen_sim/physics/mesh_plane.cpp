@@ -1,9 +1,8 @@
-#include "physics/mesh_plane.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
+
+#include "physics/touching.h"
 
 namespace angen::physics {
 

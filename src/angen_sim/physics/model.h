@@ -171,6 +171,9 @@ struct Mechanism {
   bool anchored() const;
 };
 
+/// Passes that look for the bounds of friction (step.cpp), which an island may save up.
+constexpr int kSavedPasses = 2000;
+
 /// One or more links that are fixed to each other. Its frame has the axes of its first link and its
 /// origin in the common center of mass.
 struct Body {
@@ -198,6 +201,7 @@ struct Body {
   int parting_steps = 0;         // steps left since its island had such a body
   bool parts = false;            // its island has a body with such steps
   bool again = false;            // scratch: its step is taken again
+  int passes = kSavedPasses;     // left to its island; below 0: steps without any
   double pushed = 0.0;           // m/s, of its points, out of overlaps in the last step
   std::vector<PairKey> resting;  // contacts kept since it fell asleep
   Gyroscopic gyroscopic;

@@ -1,7 +1,6 @@
 #include "physics/parting.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "physics/islands.h"

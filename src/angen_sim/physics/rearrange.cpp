@@ -6,8 +6,8 @@
 #include "core/limits.h"
 #include "physics/build.h"
 #include "physics/impl.h"
-#include "physics/insertion.h"
 #include "physics/joints.h"
+#include "physics/sleep.h"
 
 namespace angen::physics {
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/insertion.h"
+#include "core/lists.h"
+#include "physics/drive.h"
 #include "physics/islands.h"
 #include "physics/shapes.h"
 
@@ -40,13 +41,10 @@ int idle_steps(Body& body, int count) {
 }
 
 bool motor_turns(const Body& body) {
-  if (body.drive && body.drive->max_force > 0.0 &&
-      (!body.drive->velocity.isZero() || body.drive->yaw_rate != 0.0)) {
-    return true;
-  }
-  return std::any_of(body.joints.begin(), body.joints.end(), [](const Joint* joint) {
-    return joint->motor_force > 0.0 && joint->motor_velocity != 0.0;
-  });
+  return is_driven(body) ||
+         std::any_of(body.joints.begin(), body.joints.end(), [](const Joint* joint) {
+           return joint->motor_force > 0.0 && joint->motor_velocity != 0.0;
+         });
 }
 
 void put_to_sleep(Body& body) {
@@ -68,9 +66,7 @@ void wake_up(Body& body, std::vector<Body*>& awake) {
 void stop(Mechanism& mechanism, std::vector<Body*>& awake) {
   mechanism.stopped = true;
   for (Body* body : mechanism.bodies) put_to_sleep(*body);
-  awake.erase(std::remove_if(awake.begin(), awake.end(),
-                             [&](const Body* body) { return body->mechanism == &mechanism; }),
-              awake.end());
+  erase_if(awake, [&](const Body* body) { return body->mechanism == &mechanism; });
 }
 
 bool let_sleep(std::vector<Body*>& awake, const Contacts& contacts, double h, int count) {

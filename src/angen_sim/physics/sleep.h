@@ -5,6 +5,13 @@
 
 namespace angen::physics {
 
+/// Inserts a mechanism's bodies into ODE at their poses and at rest, with joints and motors. A
+/// step of ODE visits all bodies that it has, so it has only those that are awake.
+void insert(dWorldID world, Mechanism& mechanism);
+
+/// Takes a mechanism out of ODE again; its bodies stay where they are, at rest.
+void take_out(Mechanism& mechanism);
+
 /// Wakes the mechanism of a dynamic body, whose idle times go on. ODE does not have it yet.
 void wake_up(Body& body, std::vector<Body*>& awake);
 

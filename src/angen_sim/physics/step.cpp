@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <set>
 
+#include "core/lists.h"
 #include "physics/drive.h"
 #include "physics/gyroscopic.h"
 #include "physics/impl.h"
-#include "physics/insertion.h"
 #include "physics/islands.h"
 #include "physics/joints.h"
 #include "physics/parting.h"
@@ -18,6 +18,39 @@ namespace {
 
 // Most passes that look for the bounds of friction; in the second half they only fall.
 constexpr int kPasses = 24;
+constexpr int kGainedPasses = 2;     // in a step
+constexpr int kStepsWithout = 3000;  // after an island has spent its passes
+
+void gain_passes(Body& body) {
+  if (body.passes < 0) {
+    if (++body.passes == 0) body.passes = kSavedPasses;
+  } else {
+    body.passes = std::min(body.passes + kGainedPasses, kSavedPasses);
+  }
+}
+
+/// Marks the whole islands of the bodies that are marked `again`, if they have joints or a pass
+/// left. Returns whether any has.
+bool spend_pass(const std::vector<Body*>& awake, const Islands& islands) {
+  std::vector<char> again(awake.size(), 0), jointed(awake.size(), 0);
+  std::vector<int> left(awake.size(), kSavedPasses);
+  for (const Body* body : awake) {
+    const std::size_t island = islands.of(*body);
+    if (body->again) again[island] = 1;
+    if (!body->joints.empty()) jointed[island] = 1;
+    left[island] = std::min(left[island], body->passes);
+  }
+  bool any = false;
+  for (Body* body : awake) {
+    const std::size_t island = islands.of(*body);
+    if (again[island] == 0) continue;
+    body->again = jointed[island] != 0 || left[island] > 0;
+    any = any || body->again;
+    if (jointed[island] != 0) continue;
+    body->passes = left[island] == 0 ? -kStepsWithout : left[island] - (body->again ? 1 : 0);
+  }
+  return any;
+}
 
 bool by_serial(const Body* a, const Body* b) { return a->serial < b->serial; }
 
@@ -120,9 +153,7 @@ void World::Impl::solve_again(const std::vector<BodyState>& start, bool push, co
   }
   contacts.make_joints_again(push);
   std::vector<Unstable> others = std::move(trouble.unstable);
-  others.erase(std::remove_if(others.begin(), others.end(),
-                              [](const Unstable& unstable) { return unstable.body->again; }),
-               others.end());
+  erase_if(others, [](const Unstable& unstable) { return unstable.body->again; });
   solve(bodies);
   trouble.unstable.insert(trouble.unstable.end(), others.begin(), others.end());
   for (const Body* body : awake) dBodyEnable(body->ode.get());
@@ -131,15 +162,11 @@ void World::Impl::solve_again(const std::vector<BodyState>& start, bool push, co
 // The step that friction takes part in gives the normal forces that bound it: it is taken again
 // until they agree.
 void World::Impl::agree_on_friction(const std::vector<BodyState>& start, const Solve& solve) {
+  for (Body* body : awake) gain_passes(*body);
   for (int pass = 0; pass < kPasses && !trouble.never; ++pass) {
     for (Body* body : awake) body->again = false;
     if (!contacts.revise_friction(pass >= kPasses / 2)) return;
-    const Islands islands(awake, contacts.active());
-    std::vector<char> again(awake.size(), 0);
-    for (const Body* body : awake) {
-      if (body->again) again[islands.of(*body)] = 1;
-    }
-    for (Body* body : awake) body->again = again[islands.of(*body)] != 0;
+    if (!spend_pass(awake, Islands(awake, contacts.active()))) return;
     solve_again(start, true, solve);
   }
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "physics/reduce.h"
+#include "physics/touching.h"
 
 namespace angen::physics {
 

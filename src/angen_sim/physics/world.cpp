@@ -5,11 +5,11 @@
 
 #include "core/diagnostics.h"
 #include "core/limits.h"
+#include "core/lists.h"
 #include "core/time.h"
 #include "physics/build.h"
 #include "physics/drive.h"
 #include "physics/impl.h"
-#include "physics/insertion.h"
 #include "physics/joints.h"
 #include "physics/sleep.h"
 
@@ -138,7 +138,7 @@ void World::Impl::remove(ModelId id) {
   w.contacts.drop(model, [&](Body& body) { w.wake(body); });
   w.list_is_old = true;
   const auto of_model = [&](const Body* body) { return body->model == &model; };
-  w.awake.erase(std::remove_if(w.awake.begin(), w.awake.end(), of_model), w.awake.end());
+  erase_if(w.awake, of_model);
   for (const auto& geom : model.geoms) {
     w.grid.erase(*geom);
     w.geoms.erase(geom->name);
@@ -146,7 +146,7 @@ void World::Impl::remove(ModelId id) {
   }
   const auto forget = [&](std::vector<LinkId>& list) {
     const auto gone = [&](LinkId link) { return of_model(w.links.at(link).body); };
-    list.erase(std::remove_if(list.begin(), list.end(), gone), list.end());
+    erase_if(list, gone);
   };
   forget(w.moved);
   forget(w.placed);
@@ -269,15 +269,16 @@ void World::push(LinkId id, const Vec3& force, const Vec3& torque, const Vec3& p
 void World::step(std::int64_t tick, std::int64_t count) { impl_->take_step(tick, count); }
 
 std::int64_t World::longest_step(std::int64_t most) const {
+  const int calm_steps = static_cast<int>(std::ceil(kCalmTime / impl_->h));
   for (const Body* body : impl_->awake) {
     const bool led = body->joints.size() == 1 && body->mechanism->bodies.size() == 1;
     const double longest = led ? body->joints.front()->longest_step : 0.0;
-    const bool is_calm = body->upright || body->idle_steps * impl_->h >= kCalmTime;
+    const bool is_calm = body->upright || body->idle_steps >= calm_steps;
     if (body->joints.empty() && is_calm) continue;
     if (longest < static_cast<double>(most) * impl_->h)
       most = static_cast<std::int64_t>(longest / impl_->h);
   }
-  return most > 1 && impl_->contacts.allow_long_steps() ? most : 1;
+  return most > 1 && impl_->contacts.allow_long_steps(calm_steps) ? most : 1;
 }
 
 const std::vector<Stopped>& World::stopped() const { return impl_->stopped; }

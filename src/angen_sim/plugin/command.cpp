@@ -157,6 +157,7 @@ std::string parse_command(const Kind& kind, Command& command) {
   const Verb* verb = find_verb(kind, words);
   if (verb == nullptr) return "unknown verb '" + printable(words[0]) + "'; " + right;
   command.verb = verb->name;
+  if (verb->name == "Stop") command.values.assign(kind.value_units().size(), 0.0);
   if (verb->is_place) command.place = place_in(trimmed(text), words);
   if (!command.place.empty() || (verb->is_optional && words.size() == 1)) return "";
   const bool has_floor = verb->is_place && words.size() == verb->count + 2;

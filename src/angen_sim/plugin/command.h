@@ -9,9 +9,10 @@ namespace angen {
 
 /// A command for one device: the text after the target's name.
 struct Command {
-  std::string text;                 // the text sent: "Open", "Dim 40"; empty if it has values alone
-  std::vector<double> values = {};  // a text of numbers alone (of a drive: m/s, rad/s), or
-                                    // the numbers of a verb that takes several
+  std::string text;  // the text sent: "Open", "Dim 40"; empty if it has values alone
+  // A text of numbers alone (of a drive: m/s, rad/s; as many zeros if it is Stop), or the numbers
+  // of a verb that takes several.
+  std::vector<double> values = {};
   std::string verb = {};   // one of the kind's, written as there; none if the kind has none
   double number = 0.0;     // the number of a verb that takes one, within its range
   std::string place = {};  // the name that a verb of places took instead of numbers

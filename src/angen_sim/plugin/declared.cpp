@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/diagnostics.h"
+#include "core/named.h"
 #include "core/nearest.h"
 
 namespace angen {
@@ -10,29 +11,13 @@ namespace angen {
 namespace {
 
 bool has_type(Field::Type type, Value& value) {
-  switch (type) {
-    case Field::Type::kFlag:
-      return std::holds_alternative<bool>(value);
-    case Field::Type::kInteger:
-      return std::holds_alternative<std::int64_t>(value);
-    case Field::Type::kNumber:
-      if (const auto* integer = std::get_if<std::int64_t>(&value)) value = double(*integer);
-      return std::holds_alternative<double>(value);
-    case Field::Type::kText:
-      return std::holds_alternative<std::string>(value);
-    case Field::Type::kChoice:
-      return std::holds_alternative<Choice>(value);
-    case Field::Type::kNumbers:
-      return std::holds_alternative<std::vector<double>>(value);
-    case Field::Type::kTexts:
-      if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
-        if (numbers->empty()) value = std::vector<std::string>();
-      }
-      return std::holds_alternative<std::vector<std::string>>(value);
-    case Field::Type::kImage:
-      return std::holds_alternative<ByteImage>(value) || std::holds_alternative<FloatImage>(value);
+  const auto* integer = std::get_if<std::int64_t>(&value);
+  const auto* numbers = std::get_if<std::vector<double>>(&value);
+  if (type == Field::Type::kNumber && integer != nullptr) value = double(*integer);
+  if (type == Field::Type::kTexts && numbers != nullptr && numbers->empty()) {
+    value = std::vector<std::string>();
   }
-  return false;
+  return std::string(type_name(value)) == name_of(type);
 }
 
 /// The types of the field, one for each value of a parameter that it is declared with.
@@ -42,10 +27,8 @@ std::vector<Field::Type> declared_types(const Kind& kind, const std::string& nam
     if (field.name == name) types.push_back(field.type);
   }
   if (!types.empty()) return types;
-  std::vector<std::string> names;
-  for (const Field& field : kind.fields) names.push_back(field.name);
   throw Error("kind '" + kind.name + "' does not declare the field '" + name + "'; " +
-              did_you_mean(name, names));
+              did_you_mean(name, names_in(kind.fields)));
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "plugin/library.h"
-#include "plugin/ray_color.h"
+#include "plugin/ray_geometry.h"
 #include "plugin/wiring.h"
 
 namespace angen {

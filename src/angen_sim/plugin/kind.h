@@ -91,17 +91,17 @@ class Kind {
 
   // Each adds to the description and returns it, so that calls can be chained.
 
-  Kind& passage(Passage passage);
-  Kind& rate(double hz);
-  Kind& on_demand();
+  Kind& passage(Passage passage) { return set(passage_, passage); }
+  Kind& rate(double hz) { return set(rate_, hz); }
+  Kind& on_demand() { return set(is_on_demand, true); }
   Kind& model(std::string folder, std::string parameter = "", std::string value = "");
-  Kind& sensor_type(std::string sdf_type);
-  Kind& example(std::string line);
-  Kind& command_topic(std::string topic);
-  Kind& value_units(std::vector<std::string> units);
-  Kind& group(std::string name);
-  Kind& travels(std::string group);
-  Kind& ray_color(std::string color);
+  Kind& sensor_type(std::string sdf_type) { return set(sensor_type_, std::move(sdf_type)); }
+  Kind& example(std::string line) { return set(example_, std::move(line)); }
+  Kind& command_topic(std::string topic) { return set(command_topic_, std::move(topic)); }
+  Kind& value_units(std::vector<std::string> units) { return set(value_units_, std::move(units)); }
+  Kind& group(std::string group_name) { return set(group_, std::move(group_name)); }
+  Kind& travels(std::string group_name) { return set(travels_, true).group(std::move(group_name)); }
+  Kind& ray_color(std::string color) { return set(ray_color_, std::move(color)); }
 
   Kind& verb(std::string name, std::string doc);
   Kind& verb(std::string name, std::string argument, std::string unit, Range range,
@@ -112,7 +112,7 @@ class Kind {
   /// A verb that takes a place: x and y in m, maybe the number of a floor, or a name.
   Kind& place_verb(std::string name, std::string doc);
   /// The place of the verb that was added last may be left out.
-  Kind& optional();
+  Kind& optional() { return set(verbs.back().is_optional, true); }
   /// A verb whose number is an integer.
   Kind& counted_verb(std::string name, std::string argument, Range range, std::string doc);
 
@@ -127,7 +127,9 @@ class Kind {
 
   /// The field that was added last exists only if this parameter has this value. Another field
   /// may have the same name with another value.
-  Kind& with(const std::string& parameter, const std::string& value);
+  Kind& with(const std::string& parameter, const std::string& value) {
+    return set(fields.back().with, parameter + " " + value);
+  }
   /// The summary shows the field that was added last, a number with this number of decimals.
   Kind& shown(int decimals = 0);
   /// Shows numbers, each after its text in the field `names`.
@@ -144,6 +146,11 @@ class Kind {
 
  private:
   Kind& add(std::string name, Field::Type type, std::string unit, std::string doc);
+  template <class Member, class Value>
+  Kind& set(Member& member, Value&& value) {
+    member = std::forward<Value>(value);
+    return *this;
+  }
 
   Passage passage_ = Passage::kNone;
   double rate_ = 10.0;

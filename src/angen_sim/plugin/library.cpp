@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <atomic>
 #include <class_loader/class_loader.hpp>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
 #include <set>
 #include <utility>
 
-#include "core/allow_paths.h"
+#include "core/files.h"
 #include "core/nearest.h"
-#include "core/plain_file.h"
 #include "core/plugin_path.h"
 #include "core/text.h"
 

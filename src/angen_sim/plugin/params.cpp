@@ -1,12 +1,12 @@
 #include "plugin/params.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <sstream>
 
 #include "core/limits.h"
+#include "core/lists.h"
 #include "core/text.h"
 
 namespace angen {
@@ -84,6 +84,13 @@ const Element* Params::take(const std::string& path, const std::string& type,
   return found.empty() ? nullptr : found[0];
 }
 
+void Params::check_range(const std::string& path, const Element& given, double value,
+                         const std::string& unit, Range range) const {
+  if (range.contains(value)) return;
+  throw error(path,
+              "<" + path + "> is " + with_unit(given.text, unit) + ", must be " + shown(range));
+}
+
 double Params::number(const std::string& path, double fallback, const std::string& unit,
                       const std::string& doc, Range range) {
   const std::string shown_fallback = std::isnan(fallback) ? "" : number_text(fallback);  // none
@@ -94,10 +101,7 @@ double Params::number(const std::string& path, double fallback, const std::strin
     throw error(path, "<" + path + "> is \"" + given->text + "\", must be a finite number" +
                           (unit.empty() ? "" : " (" + unit + ")"));
   }
-  if (*value < range.min || *value > range.max) {
-    throw error(path,
-                "<" + path + "> is " + with_unit(given->text, unit) + ", must be " + shown(range));
-  }
+  check_range(path, *given, *value, unit, range);
   const std::string problem =
       limit_problem(limit_of_unit(unit), *value, range.min == kPositive.min);
   if (!problem.empty()) {
@@ -121,10 +125,7 @@ int Params::integer(const std::string& path, int fallback, const std::string& un
   if (!value) {
     throw error(path, "<" + path + "> is \"" + given->text + "\", must be a whole number");
   }
-  if (*value < range.min || *value > range.max) {
-    throw error(path,
-                "<" + path + "> is " + with_unit(given->text, unit) + ", must be " + shown(range));
-  }
+  check_range(path, *given, *value, unit, range);
   return *value;
 }
 
@@ -149,7 +150,7 @@ std::string Params::choice(const std::string& path, const std::string& fallback,
     if (known.path == path) known.choices = choices;
   }
   if (given == nullptr) return fallback;
-  if (std::find(choices.begin(), choices.end(), given->text) == choices.end()) {
+  if (!is_in(given->text, choices)) {
     throw error(path,
                 "<" + path + "> is \"" + given->text + "\", must be one of " + join_names(choices));
   }
@@ -190,10 +191,7 @@ std::vector<std::vector<double>> Params::rows(const std::string& path, std::size
 
 std::vector<std::string> Params::names(const std::string& path) const {
   std::vector<std::string> result;
-  for (const Element* given : all(path)) {
-    const std::string* name = given->attribute("name");
-    result.push_back(name != nullptr ? *name : "");
-  }
+  for (const Element* given : all(path)) result.push_back(given->attribute_text("name"));
   return result;
 }
 

@@ -81,6 +81,8 @@ class Params {
   std::vector<const Element*> all(const std::string& path) const;
   const Element* take(const std::string& path, const std::string& type, const std::string& fallback,
                       const std::string& unit, const std::string& doc);
+  void check_range(const std::string& path, const Element& given, double value,
+                   const std::string& unit, Range range) const;
   void note(const std::string& path, const std::string& type, const std::string& fallback,
             const std::string& unit, const std::string& doc);
   void list_unread(const Element& parent, const std::string& prefix,
@@ -95,6 +97,13 @@ class Params {
   std::vector<Noise> noise_;
   std::vector<Diagnostic> warnings_;
 };
+
+/// Reads <sample_rate> (Hz), of a sensor that samples more often than it publishes, as a period.
+inline Nanoseconds read_sample_period(Params& params, double fallback = 100.0,
+                                      Range rates = {1e-3, 1e6}) {
+  return from_seconds(1.0 /
+                      params.number("sample_rate", fallback, "Hz", "how often it samples", rates));
+}
 
 /// Reads the name that commands use, of each device.
 inline std::string read_device_name(Params& params, const std::string& fallback) {

@@ -1,5 +1,7 @@
 #include "plugin/plugin.h"
 
+#include "core/named.h"
+
 namespace angen {
 
 Verdict Device::command(const Command&, const View&) {
@@ -7,10 +9,8 @@ Verdict Device::command(const Command&, const View&) {
 }
 
 const ModelInfo::Joint* ModelInfo::joint(const std::string& joint_name) const {
-  for (const Joint& j : joints) {
-    if (j.name == joint_name) return &j;
-  }
-  return nullptr;
+  const auto index = index_in(joints, joint_name);
+  return index ? &joints[*index] : nullptr;
 }
 
 bool Plugin::makes_sensors() const {

@@ -1,8 +1,9 @@
 #include "plugin/ray_geometry.h"
 
 #include <cmath>
+#include <sstream>
 
-#include "plugin/params.h"
+#include "core/text.h"
 
 namespace angen {
 
@@ -70,6 +71,22 @@ RayGeometry read_rays(Params& params, const RayGeometry& fallback) {
   check_order(params, "ray/scan/vertical", rays.min_pitch, rays.max_pitch);
   check_order(params, "ray/range", rays.min, rays.max);
   return rays;
+}
+
+Eigen::Vector4f read_ray_color(Params& params, const Kind& kind) {
+  const std::string text =
+      params.text("color", kind.ray_color(), "of its rays in rviz: red green blue alpha, 0 to 1");
+  std::istringstream words(text);
+  Eigen::Vector4f color(0.0F, 0.0F, 0.0F, 1.0F);
+  int count = 0;
+  bool good = true;
+  for (std::string word; words >> word; ++count) {
+    const std::optional<double> share = parse_finite(word);
+    good = good && count < 4 && share && *share >= 0.0 && *share <= 1.0;
+    if (good) color[count] = static_cast<float>(*share);
+  }
+  if (good && count >= 3) return color;
+  throw params.error("color", "<color> is \"" + text + "\", must be 3 or 4 numbers from 0 to 1");
 }
 
 }  // namespace angen

@@ -1,13 +1,14 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
 #include "core/pose.h"
+#include "plugin/kind.h"
+#include "plugin/params.h"
 
 namespace angen {
-
-class Params;
 
 /// The rays of a sensor in its own frame (x forward, z up), for code that draws or checks them.
 struct RayGeometry {
@@ -39,5 +40,8 @@ struct RayGeometry {
 
 /// Reads <scan> and <range> of <ray>; `fallback` has the default values.
 RayGeometry read_rays(Params& params, const RayGeometry& fallback);
+
+/// Reads <color> of a sensor whose rays rviz draws: r g b and, if it is given, alpha, each 0 to 1.
+Eigen::Vector4f read_ray_color(Params& params, const Kind& kind);
 
 }  // namespace angen

@@ -132,4 +132,7 @@ struct Reading {
 /// "number", "text", …: the type's name in descriptions of kinds.
 const char* type_name(const Value& value);
 
+/// States of devices that had no event are published at its multiples.
+constexpr Nanoseconds kReportPeriod = kSecond / 50;
+
 }  // namespace angen

@@ -35,16 +35,21 @@
   ANGEN_REGISTER_PLUGIN(Type##Plugin)
 
 /// Registers a device that any model may have.
-#define ANGEN_REGISTER_DEVICE(Type, ...)                                 \
-  struct Type##Plugin : angen::Plugin {                                  \
-    const angen::Kind& kind() const override {                           \
-      using angen::Kind;                                                 \
-      static const Kind described(__VA_ARGS__);                          \
-      return described;                                                  \
-    }                                                                    \
-    bool serves(const angen::ModelInfo&) const override { return true; } \
-    std::unique_ptr<angen::Device> make_device() const override {        \
-      return std::make_unique<Type>();                                   \
-    }                                                                    \
-  };                                                                     \
+#define ANGEN_REGISTER_DEVICE(Type, ...) ANGEN_REGISTER_PART(Type, model.name, __VA_ARGS__)
+
+/// Registers a part that any model may have, and that commands call `model_name`, an expression of
+/// the ModelInfo `model`: its main device has the model's own name.
+#define ANGEN_REGISTER_PART(Type, model_name, ...)                                                 \
+  struct Type##Plugin : angen::Plugin {                                                            \
+    const angen::Kind& kind() const override {                                                     \
+      using angen::Kind;                                                                           \
+      static const Kind described(__VA_ARGS__);                                                    \
+      return described;                                                                            \
+    }                                                                                              \
+    bool serves(const angen::ModelInfo&) const override { return true; }                           \
+    std::string instance_name(const angen::ModelInfo& model) const override { return model_name; } \
+    std::unique_ptr<angen::Device> make_device() const override {                                  \
+      return std::make_unique<Type>();                                                             \
+    }                                                                                              \
+  };                                                                                               \
   ANGEN_REGISTER_PLUGIN(Type##Plugin)

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "core/named.h"
 #include "plugin/view.h"
 
 namespace angen {
@@ -17,10 +18,8 @@ int RoomPlan::at(const Vec3& point) const {
 }
 
 int RoomPlan::named(const std::string& name) const {
-  for (std::size_t i = 0; i < rooms.size(); ++i) {
-    if (rooms[i]->name == name) return static_cast<int>(i);
-  }
-  return kOutside;
+  const auto index = index_in(rooms, name);
+  return index ? static_cast<int>(*index) : kOutside;
 }
 
 RoomPlan room_plan(const View& view, std::string_view model) {

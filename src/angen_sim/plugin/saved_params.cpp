@@ -1,13 +1,13 @@
 #include "plugin/saved_params.h"
 
-#include <algorithm>
+#include "core/lists.h"
 
 namespace angen {
 
 void SavedParams::write_to(Element& plugin) const {
   const auto is_saved = [this](const Element& child) { return names_.count(child.name) != 0; };
   auto& children = plugin.children;
-  children.erase(std::remove_if(children.begin(), children.end(), is_saved), children.end());
+  erase_if(children, is_saved);
   for (const auto& [name, text] : values_) {
     Element child;
     child.name = name;

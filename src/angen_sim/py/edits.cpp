@@ -1,10 +1,10 @@
-#include "py/edits.h"
-
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <map>
 #include <tuple>
+
+#include "py/bindings.h"
 
 namespace angen::py {
 

@@ -1,15 +1,15 @@
-#include "py/geometry.h"
-
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <array>
 
+#include "core/named.h"
 #include "core/text.h"
 #include "plugin/ray_geometry.h"
+#include "py/bindings.h"
 #include "render/tessellate.h"
-#include "scene/field.h"
+#include "scene/shapes.h"
 
 namespace angen::py {
 
@@ -50,28 +50,24 @@ std::vector<pyb::tuple> shapes(const World& world) {
 }
 
 pyb::dict joint(const World& world, const std::string& name) {
-  constexpr std::array<const char*, 6> kTypes = {"fixed", "revolute",  "prismatic",
-                                                 "ball",  "universal", "screw"};
   const sim::Snapshot& now = world.now();
   const sim::Structure& structure = *now.structure;
-  const auto& joints = structure.joints;
-  const auto entry = std::find_if(joints.begin(), joints.end(),
-                                  [&](const sim::JointEntry& each) { return each.name == name; });
-  if (entry == joints.end()) throw Error("no joint '" + printable(name) + "'");
-  const desc::Model& model = *structure.models[entry->model];
-  const desc::Joint& joint = model.joints[entry->joint];
+  const auto found = index_in(structure.joints, name);
+  if (!found) throw Error("no joint '" + printable(name) + "'");
+  const sim::JointEntry& entry = structure.joints[*found];
+  const desc::Model& model = *structure.models[entry.model];
+  const desc::Joint& joint = model.joints[entry.joint];
   Pose frame = model.pose;  // at present, as the parent has it
-  for (std::size_t i = 0; i < structure.links.size(); ++i) {
-    const sim::LinkEntry& link = structure.links[i];
-    if (link.model != entry->model || model.links[link.link].name != joint.parent) continue;
-    frame = now.link_poses[i] * model.links[link.link].pose.inverse();
+  if (const auto parent = index_in(model.links, joint.parent)) {
+    frame = now.link_poses[structure.first_link(entry.model) + *parent] *
+            model.links[*parent].pose.inverse();
   }
   pyb::dict dict;
-  dict["type"] = kTypes[static_cast<std::size_t>(joint.type)];
+  dict["type"] = joint.type_name();
   dict["model"] = model.name;
   dict["child"] = joint.child;
   dict["anchor"] = Vec3(frame * joint.anchor);
-  dict["position"] = now.joint_positions[static_cast<std::size_t>(entry - joints.begin())];
+  dict["position"] = now.joint_positions[*found];
   if (!joint.axes.empty()) {
     const desc::JointAxis& axis = joint.axes.front();
     dict["axis"] = Vec3(frame.rotation * axis.xyz);

@@ -1,9 +1,9 @@
-#include "py/grid.h"
+#include "home/grid.h"
 
 #include <algorithm>
 #include <variant>
 
-#include "home/grid.h"
+#include "py/bindings.h"
 
 namespace angen::py {
 

@@ -1,8 +1,7 @@
-#include "py/home.h"
-
 #include <cmath>
 
 #include "core/home_fields.h"
+#include "py/bindings.h"
 
 namespace angen::py {
 

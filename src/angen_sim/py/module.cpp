@@ -6,17 +6,11 @@
 #include <optional>
 #include <tuple>
 
-#include "core/allow_paths.h"
+#include "core/named.h"
 #include "core/names.h"
+#include "core/plugin_path.h"
 #include "plugin/json.h"
-#include "py/edits.h"
-#include "py/geometry.h"
-#include "py/grid.h"
-#include "py/home.h"
-#include "py/replay.h"
-#include "py/scene.h"
-#include "py/signature.h"
-#include "py/subclass.h"
+#include "py/bindings.h"
 #include "py/world.h"
 
 namespace angen::py {
@@ -32,14 +26,6 @@ std::shared_ptr<Catalog> catalog(bool any_path) {
   static const auto bound = std::make_shared<Catalog>(false);
   static const auto free = std::make_shared<Catalog>(true);
   return any_path ? free : bound;
-}
-
-template <class Entries>
-std::vector<std::string> names(const Entries& entries) {
-  std::vector<std::string> all;
-  all.reserve(entries.size());
-  for (const auto& entry : entries) all.push_back(entry.name);
-  return all;
 }
 
 template <class Entries>
@@ -68,15 +54,10 @@ Eigen::VectorXd joint_positions(const World& world) {
   return all;
 }
 
-// The pose of its model's first link; of a model without links its pose in the file, or its light.
+// The pose of its model's first link, or its light.
 Pose place_of(const sim::Snapshot& snapshot, const sim::DeviceEntry& device) {
   if (device.light != UINT32_MAX) return snapshot.structure->lights[device.light].light.pose;
-  const std::uint32_t model = device.model;
-  const sim::SharedArray<sim::LinkEntry>& links = snapshot.structure->links;
-  const auto first = std::find_if(links.begin(), links.end(),
-                                  [model](const auto& link) { return link.model == model; });
-  if (first == links.end()) return snapshot.structure->models[model]->pose;
-  return snapshot.link_poses[static_cast<std::size_t>(first - links.begin())];
+  return snapshot.link_poses[snapshot.structure->first_link(device.model)];
 }
 
 std::vector<Entity> entities(const World& world, const std::string& kind) {
@@ -240,19 +221,14 @@ void bind_world(pyb::module_& module) {
           "time", [](const World& w) { return to_seconds(w.now().time); }, "s")
       .def_property_readonly("tick", [](const World& w) { return w.now().tick; })
       .def_property_readonly("models",
-                             [](const World& w) {
-                               std::vector<std::string> all;
-                               for (const auto& model : w.now().structure->models)
-                                 all.push_back(model->name);
-                               return all;
-                             })
+                             [](const World& w) { return names_in(w.now().structure->models); })
       .def_property_readonly(
-          "links", [](const World& w) { return names(w.now().structure->links); },
+          "links", [](const World& w) { return names_in(w.now().structure->links); },
           "model::link, in the order of link_poses' rows")
       .def_property_readonly("joints",
-                             [](const World& w) { return names(w.now().structure->joints); })
+                             [](const World& w) { return names_in(w.now().structure->joints); })
       .def_property_readonly("lights",
-                             [](const World& w) { return names(w.now().structure->lights); })
+                             [](const World& w) { return names_in(w.now().structure->lights); })
       .def_property_readonly("link_poses", &link_poses,
                              "(links, 7): x y z qx qy qz qw, world frame")
       .def_property_readonly("joint_positions", &joint_positions, "(joints,): rad or m")
@@ -295,11 +271,10 @@ void bind_world(pyb::module_& module) {
           "what).")
       .def_property_readonly("fingerprint", &World::fingerprint,
                              "a hash of every snapshot since the start or the last reset")
+      .def_property_readonly("warnings", &World::warnings,
+                             "warnings about the loaded files: 'file:line: text'")
       .def_property_readonly(
-          "warnings", [](const World& w) { return w.warnings(); },
-          "warnings about the loaded files: 'file:line: text'")
-      .def_property_readonly(
-          "ignored", [](const World& w) { return w.ignored(); },
+          "ignored", &World::ignored,
           "unread elements of the loaded files: 'file:line: <element> in <parent>'")
       .def(
           "events",

@@ -1,6 +1,6 @@
-#include "py/python_error.h"
-
 #include <algorithm>
+
+#include "py/bindings.h"
 
 namespace angen::py {
 

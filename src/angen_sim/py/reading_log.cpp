@@ -1,6 +1,5 @@
 #include "py/reading_log.h"
 
-#include <cmath>
 #include <limits>
 #include <optional>
 

@@ -1,6 +1,5 @@
-#include "py/replay.h"
-
-#include "core/allow_paths.h"
+#include "core/plugin_path.h"
+#include "py/bindings.h"
 #include "py/world.h"
 
 namespace angen::py {

@@ -1,7 +1,5 @@
-#include "py/scene.h"
-
+#include "py/bindings.h"
 #include "py/convert.h"
-#include "scene/field.h"
 #include "scene/groups.h"
 #include "scene/shapes.h"
 

@@ -2,8 +2,7 @@
 #include <filesystem>
 
 #include "core/text.h"
-#include "py/python_error.h"
-#include "py/subclass.h"
+#include "py/bindings.h"
 
 namespace angen::py {
 

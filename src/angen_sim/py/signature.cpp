@@ -1,9 +1,9 @@
-#include "py/signature.h"
-
 #include <cstdlib>
 #include <cstring>
 #include <regex>
 #include <string>
+
+#include "py/bindings.h"
 
 namespace angen::py {
 

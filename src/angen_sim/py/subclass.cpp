@@ -1,15 +1,14 @@
-#include "py/subclass.h"
 
 #include <algorithm>
 #include <map>
 #include <tuple>
 #include <utility>
 
-#include "core/text.h"
+#include "core/named.h"
 #include "plugin/outputs.h"
 #include "plugin/view.h"
 #include "plugin/wiring.h"
-#include "py/python_error.h"
+#include "py/bindings.h"
 
 namespace angen::py {
 
@@ -155,9 +154,8 @@ class PythonPlugin : public Plugin {
   bool serves(const ModelInfo& model) const override {
     if (is_sensor_) return false;
     return with_python([&] {
-      std::vector<std::string> joints;
-      for (const ModelInfo::Joint& joint : model.joints) joints.push_back(joint.name);
-      return pyb::cast<bool>(type_.get().attr("serves")(model.name, joints, model.lights));
+      return pyb::cast<bool>(
+          type_.get().attr("serves")(model.name, names_in(model.joints), model.lights));
     });
   }
   std::unique_ptr<Device> make_device() const override {
@@ -175,14 +173,19 @@ class PythonPlugin : public Plugin {
   bool is_sensor_;
 };
 
+// A method of Kind that is about the field that was added last.
+template <class... Args>
+auto of_field(Kind& (Kind::*method)(Args...)) {
+  return [method](Kind& kind, Args... args) -> Kind& {
+    if (kind.fields.empty()) throw Error("describe(kind): the first field comes before this");
+    return (kind.*method)(std::move(args)...);
+  };
+}
+
 // The methods of Kind, whose calls can be chained, as in C++.
 void bind_kind(pyb::module_& module) {
   const auto same = pyb::return_value_policy::reference;
   const auto name = pyb::arg("name"), unit = pyb::arg("unit"), doc = pyb::arg("doc");
-  const auto described = [](Kind& kind) -> Kind& {  // by a field, which the next word is about
-    if (kind.fields.empty()) throw Error("describe(kind): the first field comes before this");
-    return kind;
-  };
   pyb::class_<Kind>(module, "Kind", "The verbs and fields of a kind, to describe.")
       .def(
           "verb",
@@ -205,27 +208,11 @@ void bind_kind(pyb::module_& module) {
       .def("choice", &Kind::choice, same, name, pyb::arg("words"), doc)
       .def("numbers", &Kind::numbers, same, name, unit, doc)
       .def("texts", &Kind::texts, same, name, doc)
-      .def(
-          "shown",
-          [=](Kind& kind, int decimals) -> Kind& { return described(kind).shown(decimals); }, same,
-          pyb::arg("decimals") = 0)
-      .def(
-          "shown_as",
-          [=](Kind& kind, const std::string& yes, const std::string& no) -> Kind& {
-            return described(kind).shown_as(yes, no);
-          },
-          same, pyb::arg("yes"), pyb::arg("no"))
-      .def(
-          "alarm",
-          [=](Kind& kind, const std::string& yes, const std::string& no) -> Kind& {
-            return described(kind).alarm(yes, no);
-          },
-          same, pyb::arg("yes"), pyb::arg("no"))
-      .def(
-          "events",
-          [=](Kind& kind, const std::string& begin, const std::string& end,
-              bool in_alarm) -> Kind& { return described(kind).events(begin, end, in_alarm); },
-          same, pyb::arg("begin"), pyb::arg("end"), pyb::arg("in_alarm") = true);
+      .def("shown", of_field(&Kind::shown), same, pyb::arg("decimals") = 0)
+      .def("shown_as", of_field(&Kind::shown_as), same, pyb::arg("yes"), pyb::arg("no"))
+      .def("alarm", of_field(&Kind::alarm), same, pyb::arg("yes"), pyb::arg("no"))
+      .def("events", of_field(&Kind::events), same, pyb::arg("begin"), pyb::arg("end"),
+           pyb::arg("in_alarm") = true);
 }
 
 void bind_params(pyb::module_& module) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/limits.h"
+#include "core/lists.h"
 #include "core/text.h"
 #include "core/typography.h"
 #include "plugin/summary.h"
@@ -99,7 +100,7 @@ void World::note(const std::vector<Diagnostic>& found, std::vector<std::string>&
 
 /// Once: a model may be spawned any number of times.
 void World::note(std::string text, std::vector<std::string>& to) {
-  if (std::find(to.begin(), to.end(), text) == to.end()) to.push_back(std::move(text));
+  if (!is_in(text, to)) to.push_back(std::move(text));
 }
 
 void World::note_warnings(const sim::Snapshot& snapshot) {

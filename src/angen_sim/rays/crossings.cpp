@@ -2,6 +2,7 @@
 #include <set>
 #include <vector>
 
+#include "core/lists.h"
 #include "rays/scene.h"
 
 namespace angen::rays {
@@ -56,9 +57,7 @@ std::vector<Crossing> Scene::crossings(const Vec3& from, const Vec3& to, Mobilit
     }
     ray.min = hit.range + kPast;
   }
-  found.erase(std::remove_if(found.begin(), found.end(),
-                             [&](const Crossing& c) { return c.enter > length; }),
-              found.end());
+  erase_if(found, [&](const Crossing& c) { return c.enter > length; });
   for (Crossing& crossing : found) crossing.leave = std::min(crossing.leave, length);
   std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
     return a.enter != b.enter ? a.enter < b.enter : a.shape < b.shape;

@@ -1,6 +1,5 @@
 #include "rays/layer.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

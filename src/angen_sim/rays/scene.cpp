@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
 
+#include "core/lists.h"
 #include "core/slots.h"
 #include "rays/layer.h"
 #include "rays/nearby.h"
@@ -23,6 +23,7 @@ std::uint64_t new_revision() {
 }
 
 constexpr std::size_t kMaxChanges = 4096;
+constexpr std::size_t kMaxMoves = 1024;
 constexpr double kRim = 2e-3;  // m: a shape that reaches less into a target's box does not block
 
 struct Entry {
@@ -39,6 +40,18 @@ struct Place {
   std::uint32_t at = 0;
   std::uint64_t noted = 0;  // mark of its latest entry in `changes`; 0 without one
 };
+
+/// m, world; infinite for a plane.
+Eigen::AlignedBox3d box_of(const Solid& solid) {
+  if (solid.type != Shape::Type::kPlane) return solid.box;
+  const Vec3 corner = Vec3::Constant(std::numeric_limits<double>::infinity());
+  return {-corner, corner};
+}
+
+ShaftHull hull_to(const Solid& target, const Vec3& from, double near) {
+  const Vec3 rim = (0.25 * target.box.sizes()).cwiseMin(kRim);
+  return {from, near, {target.box.min() + rim, target.box.max() - rim}};
+}
 
 Solid make_solid(const Shape& shape, std::shared_ptr<const TriangleTree> mesh, const Pose& pose) {
   Solid solid;
@@ -67,14 +80,17 @@ struct Scene::Impl {
   std::uint64_t revision = 0;
   std::uint64_t static_revision = 0;
   bool warm_dirty = false;
-  std::vector<std::uint32_t> changes;  // indices of changed standing shapes, the latest last
-  std::uint64_t forgotten = 1;         // mark of the first entry in `changes`
-  mutable std::uint64_t read = 1;      // the latest mark given out
+  std::vector<std::uint32_t> changes;      // indices of changed standing shapes, the latest last
+  std::uint64_t forgotten = 1;             // mark of the first entry in `changes`
+  mutable std::uint64_t read = 1;          // the latest mark given out
+  std::vector<Eigen::AlignedBox3d> moves;  // boxes of moved shapes, before and after
+  std::uint64_t moves_forgotten = 0;       // the moment of the first entry in `moves`
 
   void put_in(ShapeId id, Solid solid) {
     const Entry& entry = entries.at(id);
     solid.placed = ++placements;
     solid.anchored = entry.mobility == Mobility::kAnchored;
+    note_move(solid);
     Layer& into = layer(entry.mobility);
     std::vector<Solid>& list = into.list(entry.type);
     places[id.index] = {id, &into, entry.type, static_cast<std::uint32_t>(list.size())};
@@ -98,8 +114,17 @@ struct Scene::Impl {
     places[list[at].slot].at = at;
     Solid solid = std::move(list.back());
     list.pop_back();
+    note_move(solid);
     touch(id.index, entry.mobility);
     return solid;
+  }
+
+  void note_move(const Solid& solid) {
+    if (moves.size() == 2 * kMaxMoves) {
+      moves.erase(moves.begin(), moves.begin() + kMaxMoves);
+      moves_forgotten += kMaxMoves;
+    }
+    moves.push_back(box_of(solid));
   }
 
   void touch(std::uint32_t index, Mobility mobility) {
@@ -196,7 +221,9 @@ void Scene::move(ShapeId shape, const Pose& pose) {
   if (entry.type == Shape::Type::kEmpty) return;
   Layer& layer = impl_->layer(entry.mobility);
   Solid& solid = layer.list(entry.type)[impl_->places[shape.index].at];
+  impl_->note_move(solid);
   solid.place(pose);
+  impl_->note_move(solid);
   solid.placed = ++impl_->placements;
   if (entry.mobility == Mobility::kMoving && entry.type != Shape::Type::kPlane) {
     layer.move(impl_->places[shape.index].at);
@@ -244,9 +271,7 @@ void Scene::remove(ShapeId shape) {
   impl_->entries.remove(shape);
   if (entry.type == Shape::Type::kEmpty) return;
   auto& warmed = impl_->warmed;
-  warmed.erase(std::remove_if(warmed.begin(), warmed.end(),
-                              [&](const auto& each) { return each.first == shape; }),
-               warmed.end());
+  erase_if(warmed, [&](const auto& each) { return each.first == shape; });
 }
 
 void Scene::commit() {
@@ -292,14 +317,8 @@ void Scene::better(ShapeId moving, const Ray& ray, Hit& hit) const {
 }
 
 Eigen::AlignedBox3d Scene::bounds(ShapeId shape) const {
-  const Entry& entry = impl_->entries.at(shape);
-  Eigen::AlignedBox3d box;
-  if (entry.type == Shape::Type::kEmpty) return box;
-  if (entry.type == Shape::Type::kPlane) {
-    const Vec3 corner = Vec3::Constant(std::numeric_limits<double>::infinity());
-    return {-corner, corner};
-  }
-  return impl_->solid(shape.index).box;
+  if (impl_->entries.at(shape).type == Shape::Type::kEmpty) return {};
+  return box_of(impl_->solid(shape.index));
 }
 
 bool Scene::blocked(const Vec3& from, const Vec3& to, double margin, Mobilities among) const {
@@ -347,8 +366,7 @@ std::shared_ptr<const Scene> Scene::standing_scene() const {
 Shaft Scene::shaft(const Vec3& from, double near, std::uint32_t shape_index) const {
   impl_->prepare(kAll);
   const Solid& target = impl_->solid(shape_index);
-  const Vec3 rim = (0.25 * target.box.sizes()).cwiseMin(kRim);
-  const ShaftHull hull(from, near, {target.box.min() + rim, target.box.max() - rim});
+  const ShaftHull hull = hull_to(target, from, near);
   std::vector<Shaft::Blocker> blockers;
   for (const Layer* layer : {&impl_->fixed, &impl_->moving}) {
     layer->find_in(hull, [&](const Solid& solid) {
@@ -357,6 +375,24 @@ Shaft Scene::shaft(const Vec3& from, double near, std::uint32_t shape_index) con
   }
   const bool is_fixed = impl_->places[shape_index].layer == &impl_->fixed;
   return {hull, {&target, is_fixed}, std::move(blockers)};
+}
+
+bool Scene::blocks(std::uint32_t by_index, const Vec3& from, double near,
+                   std::uint32_t shape_index) const {
+  if (by_index >= impl_->places.size() || impl_->places[by_index].layer == nullptr) return false;
+  const Place& by = impl_->places[by_index];
+  if (by_index == shape_index || !impl_->entries.contains(by.id)) return false;
+  const ShaftHull hull = hull_to(impl_->solid(shape_index), from, near);
+  return hull.overlaps(impl_->solid(by_index)) && hull.is_cut_by(impl_->solid(by_index));
+}
+
+std::uint64_t Scene::moment() const { return impl_->moves_forgotten + impl_->moves.size(); }
+
+bool Scene::moved_since(std::uint64_t moment, const Eigen::AlignedBox3d& box) const {
+  if (moment < impl_->moves_forgotten) return true;
+  const auto first = static_cast<std::ptrdiff_t>(moment - impl_->moves_forgotten);
+  return std::any_of(impl_->moves.begin() + first, impl_->moves.end(),
+                     [&](const Eigen::AlignedBox3d& moved) { return moved.intersects(box); });
 }
 
 Hit Scene::cast_at(std::uint32_t shape_index, const Ray& ray) const {

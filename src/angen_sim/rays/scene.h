@@ -123,6 +123,16 @@ class Scene {
   /// `near` (m). A shape that reaches less than 2 mm into the other's box, as a floor does with
   /// things on it, counts as beside it. Requires commit().
   Shaft shaft(const Vec3& from, double near, std::uint32_t shape_index) const;
+  /// Whether one shape would block all rays of that shaft, as Shaft::blocked_by() finds it among
+  /// all; false if that shape is gone. Requires commit().
+  bool blocks(std::uint32_t by_index, const Vec3& from, double near,
+              std::uint32_t shape_index) const;
+
+  /// The present moment for moved_since().
+  std::uint64_t moment() const;
+  /// Whether a shape came, went or moved in the box (m, world) since that moment; also true if that
+  /// was too long ago to know.
+  bool moved_since(std::uint64_t moment, const Eigen::AlignedBox3d& box) const;
 
   /// The nearest hit on one shape; ignores all others.
   Hit cast_at(std::uint32_t shape_index, const Ray& ray) const;

@@ -100,9 +100,11 @@ std::uint64_t Shaft::fingerprint() const {
   return sum;
 }
 
-bool Shaft::blocked() const {
-  return std::any_of(blockers_.begin(), blockers_.end(),
-                     [&](const Blocker& each) { return hull_.is_cut_by(*each.solid); });
+std::uint32_t Shaft::blocked_by() const {
+  const auto found = std::find_if(blockers_.begin(), blockers_.end(), [&](const Blocker& each) {
+    return hull_.is_cut_by(*each.solid);
+  });
+  return found == blockers_.end() ? UINT32_MAX : found->solid->slot;
 }
 
 bool Shaft::reaches(const Ray& ray) const {

@@ -54,8 +54,8 @@ class Shaft {
 
   /// Whether no other shape can block any of the rays.
   bool clear() const { return blockers_.empty(); }
-  /// Whether one convex shape blocks all of them.
-  bool blocked() const;
+  /// The index of a convex shape that blocks all of them; UINT32_MAX if none does.
+  std::uint32_t blocked_by() const;
   /// Equal for the same shapes in the same poses: then sees() has the same answers for a target
   /// that has not moved.
   std::uint64_t fingerprint() const;

@@ -1,7 +1,6 @@
 #include "rays/triangle_tree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -16,11 +15,6 @@ namespace {
 struct Corners {
   Vec3 a, b, c;
 };
-
-double area_of(const Eigen::AlignedBox3d& box) {
-  const Vec3 size = box.sizes();
-  return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
-}
 
 /// A primitive of the hierarchy is a triangle.
 class MeshTriangles {
@@ -118,10 +112,10 @@ class TreeOf : public TriangleTree {
     for (std::uint32_t i = 0; i < triangles_.primitives(); ++i) {
       const Eigen::AlignedBox3d box = triangles_.box(i);
       bounds_.extend(box);
-      area += area_of(box);
+      area += half_surface(box);
     }
     // The mean projected area of a convex solid is a quarter of its surface.
-    if (Triangles::kIsPriced && area > 0.0) crossed_ = area / area_of(bounds_);
+    if (Triangles::kIsPriced && area > 0.0) crossed_ = area / half_surface(bounds_);
     tree_.build(&triangles_, triangles_.primitives());
   }
 

@@ -3,12 +3,11 @@
 #include <gnu/libc-version.h>
 
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <utility>
 
-#include "core/plain_file.h"
+#include "core/files.h"
 #include "record/action_line.h"
 
 namespace angen::record {

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/files.h"
 #include "core/random.h"
-#include "core/write_all.h"
 #include "document/xml.h"
 #include "record/action_line.h"
 

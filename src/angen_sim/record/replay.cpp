@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "core/plain_file.h"
+#include "core/files.h"
 #include "record/recorder.h"
 
 namespace angen::record {

@@ -1,6 +1,5 @@
 #include "record/world_file.h"
 
-#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -32,8 +31,7 @@ std::vector<load::LightState> lights_of(const sim::SavedState& state,
       own[saved.light].sdf = saved.sdf;
       continue;
     }
-    const sim::LinkEntry& link = all.links[entry.link];
-    const std::string& name = all.models[entry.model]->links[link.link].name;
+    const std::string& name = all.described(all.links[entry.link]).name;
     models[entry.model].lights.push_back({&entry.light, name, saved.lamp});
   }
   return own;
@@ -55,14 +53,13 @@ std::string world_file(const desc::World& settings, const sim::SavedState& state
   }
   for (std::size_t i = 0; i < all.joints.size(); ++i) {
     const sim::JointEntry& joint = all.joints[i];
-    const desc::Joint& described = all.models[joint.model]->joints[joint.joint];
+    const desc::Joint& described = all.described(joint);
     if (described.axes.size() != 1) continue;
     states[joint.model].joint_positions.push_back({described.name, {snapshot.joint_positions[i]}});
   }
   for (const sim::SensorEntry& sensor : all.sensors) {
     if (!sensor.attached) continue;
-    const sim::LinkEntry& link = all.links[sensor.link];
-    const std::string& name = all.models[sensor.model]->links[link.link].name;
+    const std::string& name = all.described(all.links[sensor.link]).name;
     states[sensor.model].attached.push_back({name, *sensor.desc});
   }
   std::unordered_map<std::string, load::ModelState*> by_name;

@@ -6,7 +6,6 @@
 
 #include "rays/query.h"
 #include "render/tessellate.h"
-#include "render/wrap.h"
 
 namespace angen::render {
 

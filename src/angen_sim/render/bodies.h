@@ -3,7 +3,6 @@
 #include <memory>
 #include <vector>
 
-#include "core/mesh_look.h"
 #include "core/texture.h"
 #include "rays/device.h"
 #include "rays/triangle_tree.h"

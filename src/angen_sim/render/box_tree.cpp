@@ -5,17 +5,15 @@
 #include <numeric>
 #include <optional>
 
+#include "core/pose.h"
+
 namespace angen::render {
 namespace {
 
 constexpr int kBins = 16;
 constexpr std::size_t kLeastShare = 8;  // 1/8 of the boxes on each side: at most 166 levels
 
-float area(const Box& box) {
-  if (box.isEmpty()) return 0.0F;
-  const Eigen::Vector3f size = box.sizes();
-  return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
-}
+float area(const Box& box) { return box.isEmpty() ? 0.0F : half_surface(box); }
 
 /// Some boxes, as numbers, and how to divide them.
 struct Bins {

@@ -1,7 +1,6 @@
 #include "render/hull.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

@@ -1,6 +1,5 @@
 #include "render/rasterizer.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "render/shade.h"

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "core/lists.h"
 #include "render/eye.h"
 #include "render/instances.h"
 
@@ -22,9 +22,7 @@ class Rasterizer {
   /// too many, or include a heightmap.
   bool start(int column, int row, int size, float depth);
   /// Whether that mover has too many faces, or a heightmap: its hits are not found.
-  bool lacks(std::uint32_t mover) const {
-    return std::find(lacking_.begin(), lacking_.end(), mover) != lacking_.end();
-  }
+  bool lacks(std::uint32_t mover) const { return is_in(mover, lacking_); }
   /// Sets the hits of the tiles, in Z-order, of a square of kSquare pixels within the one that was
   /// started. `found` is set to false for a tile with a ray that has no hit up to that depth.
   void find_hits(int column, int row, std::array<TileRays, kTilesOfASquare>& tiles,

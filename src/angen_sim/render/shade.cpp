@@ -1,7 +1,6 @@
 #include "render/shade.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/texture.h"

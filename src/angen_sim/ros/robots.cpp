@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/named.h"
 #include "ros/ros_kind.h"
 #include "ros/wire.h"
 
@@ -53,16 +54,9 @@ std::vector<Robot> find_robots(const sim::Structure& structure,
     robot.first = robots.empty();
     robot.command_topics = robot_topics(robot, value_of(elements, "commandTopic", "cmd_vel"));
     robot.odometry_topics = robot_topics(robot, value_of(elements, "odometryTopic", "odom"));
-    bool found = false;
-    for (std::uint32_t l = 0; l < structure.links.size(); ++l) {
-      const sim::LinkEntry& link = structure.links[l];
-      if (link.model != device.model) continue;
-      const bool named = structure.models[link.model]->links[link.link].name == base;
-      if (!found || named) robot.base = l;
-      found = true;
-      if (named) break;
-    }
-    if (found) robots.push_back(std::move(robot));
+    robot.base = structure.first_link(device.model) +
+                 index_in(structure.models[device.model]->links, base).value_or(0);
+    robots.push_back(std::move(robot));
   }
   return robots;
 }

@@ -10,11 +10,12 @@
 #include <vector>
 
 #include "ros/bulk.h"
+#include "ros/by_name.h"
 #include "ros/channel.h"
 #include "ros/command_topic.h"
 
 /// The ROS side of a kind of sensor or device: its messages, its frame, the messages that command
-/// it, and how rviz shows it. Each kind has one file in ros/kinds/; a plug-in library libX.so
+/// it, and how rviz shows it. ros/kinds/ has these of the built-in kinds; a plug-in library libX.so
 /// brings its own in libX_ros.so beside it. No other C++ of the node names a kind.
 namespace angen::node {
 
@@ -71,11 +72,11 @@ struct RosKind {
 };
 
 /// Builds a RosKind: `message` for each message, then the rest. Without a message it publishes
-/// angen_msgs/Reading.
+/// angen_msgs/Reading; without a `fill` a message's fields have the names of its reading's.
 class RosKindBuilder {
  public:
   template <class Message>
-  RosKindBuilder& message(Fill<Message> fill, std::string leaf = "",
+  RosKindBuilder& message(Fill<Message> fill = &fill_by_name<Message>, std::string leaf = "",
                           std::string leaf_parameter = "") {
     Format format;
     format.type = ros::message_traits::datatype<Message>();
@@ -125,7 +126,7 @@ class RosKindBuilder {
 
   /// A message of a kind with up to thousands of instances: with topics:=kind they share a topic.
   template <class Message, class Array>
-  RosKindBuilder& message_with_array(Fill<Message> fill) {
+  RosKindBuilder& message_with_array(Fill<Message> fill = &fill_by_name<Message>) {
     message<Message>(fill);
     kind_.formats.back().array_type = ros::message_traits::datatype<Array>();
     kind_.formats.back().array = opener<BatchChannel<Array, Message>>(fill);
@@ -135,36 +136,22 @@ class RosKindBuilder {
 
   /// Rays are drawn of a kind that has Kind::ray_color, in its color or, while it alarms, in this.
   RosKindBuilder& rays(std::string group, std_msgs::ColorRGBA alarm) {
-    kind_.rays = RayStyle{std::move(group), alarm};
-    return *this;
+    return set(kind_.rays, RayStyle{std::move(group), alarm});
   }
-  RosKindBuilder& caption() {
-    kind_.caption = true;
-    return *this;
-  }
+  RosKindBuilder& caption() { return set(kind_.caption, true); }
 
   /// The frame of its messages, which robots made for Gazebo know: the node does not place it.
-  RosKindBuilder& frame(RosKind::Frame frame) {
-    kind_.frame = std::move(frame);
-    return *this;
-  }
-  RosKindBuilder& optical_frame() {
-    kind_.is_camera = true;
-    return *this;
-  }
+  RosKindBuilder& frame(RosKind::Frame frame) { return set(kind_.frame, std::move(frame)); }
+  RosKindBuilder& optical_frame() { return set(kind_.is_camera, true); }
   /// Its messages are the odometry of a robot, in that frame.
   RosKindBuilder& odometry(RosKind::Frame in, RosKind::Odometry (*of)(const sim::SensorEntry&)) {
     kind_.odometry = of;
     return frame(std::move(in));
   }
   /// Its messages are the true pose of the link of that name; "" is its own.
-  RosKindBuilder& truth(RosKind::Frame link) {
-    kind_.truth = std::move(link);
-    return *this;
-  }
+  RosKindBuilder& truth(RosKind::Frame link) { return set(kind_.truth, std::move(link)); }
   RosKindBuilder& published_elsewhere(std::function<bool(const sim::SensorEntry&)> where) {
-    kind_.published_elsewhere = std::move(where);
-    return *this;
+    return set(kind_.published_elsewhere, std::move(where));
   }
 
   /// A drive that Angen's own robots have: its messages are odometry, in frames and on topics of
@@ -188,14 +175,16 @@ class RosKindBuilder {
   }
 
   /// rviz shows its name over its model.
-  RosKindBuilder& label(std::string group) {
-    kind_.label = std::move(group);
-    return *this;
-  }
+  RosKindBuilder& label(std::string group) { return set(kind_.label, std::move(group)); }
 
   RosKind done();
 
  private:
+  template <class Member, class Value>
+  RosKindBuilder& set(Member& member, Value&& value) {
+    member = std::forward<Value>(value);
+    return *this;
+  }
   template <class Message>
   static void fill_in(Fill<Message> fill, const Reading& reading, const Label& label, void* made) {
     fill(reading, label, *static_cast<Message*>(made));

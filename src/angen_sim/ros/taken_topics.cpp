@@ -5,11 +5,11 @@
 #include <ros/this_node.h>
 #include <ros/topic_manager.h>
 
-#include <algorithm>
 #include <map>
 #include <memory>
 
 #include "core/diagnostics.h"
+#include "core/lists.h"
 #include "core/text.h"
 #include "ros/ros_kind.h"
 
@@ -35,7 +35,7 @@ std::string carried(const std::string& topic) {
   }
   ros::V_string subscribed;
   ros::this_node::getSubscribedTopics(subscribed);
-  const bool is_input = std::find(subscribed.begin(), subscribed.end(), topic) != subscribed.end();
+  const bool is_input = is_in(topic, subscribed);
   return is_input ? "is one that the node subscribes to" : "";
 }
 

@@ -1,14 +1,45 @@
 #include "rviz/markers.h"
 
+#include <algorithm>
 #include <chrono>
-#include <utility>
 
 #include "ros/convert.h"
+#include "scene/groups.h"
 
 namespace angen::node {
 namespace {
 
 constexpr std::chrono::milliseconds kMarkerPeriod(66);
+constexpr float kWallAlpha = 0.3F;  // rooms are seen through walls
+
+float strongest_alpha(const std::string& group) {
+  return group.rfind("walls", 0) == 0 ? kWallAlpha : 1.0F;
+}
+
+/// A model's markers, numbered from `next_id` on. `first_link` is the index of the model's first
+/// link in Structure::links.
+DrawnModel draw_model(const sim::Structure& structure, std::uint32_t first_link,
+                      std::int32_t& next_id) {
+  DrawnModel drawn;
+  const desc::Model& model = *structure.models[structure.links[first_link].model];
+  for (std::uint32_t l = 0; l < model.links.size(); ++l) {
+    const std::string group = scene::group_of(structure, first_link + l);
+    const float alpha = strongest_alpha(group);
+    DrawnLink link;
+    for (const desc::Visual& visual : model.links[l].visuals) {
+      for (Drawing& drawing : draw(visual)) {
+        drawing.marker.header.frame_id = "world";
+        drawing.marker.ns = group;
+        drawing.marker.id = next_id++;
+        drawing.marker.color.a = std::min(drawing.marker.color.a, alpha);
+        const int limb = Anatomy::find(model.links[l].anatomy.limbs, visual.name);
+        link.drawings.push_back({std::move(drawing), limb});
+      }
+    }
+    drawn.links.push_back(std::move(link));
+  }
+  return drawn;
+}
 
 }  // namespace
 
@@ -34,12 +65,8 @@ void Markers::draw_models(const sim::Structure& structure, const Changes& change
   for (std::uint32_t d = 0; d < structure.devices.size(); ++d) {
     const sim::DeviceEntry& device = structure.devices[d];
     if (device.body < 0) continue;
-    for (std::uint32_t link = 0; link < structure.links.size(); ++link) {
-      const sim::LinkEntry& entry = structure.links[link];
-      if (entry.model == device.model && static_cast<int>(entry.link) == device.body) {
-        bodies_.emplace_back(d, link);
-      }
-    }
+    const auto link = static_cast<std::uint32_t>(device.body);
+    bodies_.emplace_back(d, structure.first_link(device.model) + link);
   }
   for (const DrawnModel& removed : old) {  // models that stay have been moved out
     for (const DrawnLink& link : removed.links) {

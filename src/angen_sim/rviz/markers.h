@@ -9,11 +9,28 @@
 #include "ros/changes.h"
 #include "ros/lazy_publisher.h"
 #include "ros/pacer.h"
-#include "rviz/marker_plan.h"
+#include "rviz/marker_shapes.h"
 #include "rviz/overlays.h"
 #include "sim/snapshot.h"
 
 namespace angen::node {
+
+/// A marker, and the limb that it is a part of, in Anatomy::limbs; -1: none.
+struct LinkDrawing : Drawing {
+  int limb = -1;
+};
+
+/// Markers of one link.
+struct DrawnLink {
+  std::vector<LinkDrawing> drawings;
+  sim::LimbPoses limbs;
+};
+
+/// Markers of one model, with the groups (their namespaces) and ids that they keep until the model
+/// is deleted.
+struct DrawnModel {
+  std::vector<DrawnLink> links;  // indexed like desc::Model::links
+};
 
 /// /angen/markers: the whole world for each new subscriber, then only changes, at most 15
 /// times a second of wall time. Nothing is built or updated without a subscriber.

@@ -5,10 +5,11 @@
 #include <optional>
 #include <utility>
 
-#include "plugin/ray_color.h"
+#include "plugin/ray_geometry.h"
 #include "plugin/summary.h"
 #include "ros/convert.h"
 #include "ros/ros_kind.h"
+#include "scene/groups.h"
 
 namespace angen::node {
 namespace {
@@ -82,17 +83,10 @@ Vec3 place_of_label(const desc::Model& model) {
   return {box.center().x(), box.center().y(), box.max().z() + kOverDevice};
 }
 
-std::uint32_t first_link(const sim::Structure& structure, std::uint32_t model) {
-  const auto link = std::find_if(structure.links.begin(), structure.links.end(),
-                                 [&](const sim::LinkEntry& l) { return l.model == model; });
-  return static_cast<std::uint32_t>(link - structure.links.begin());
-}
-
 /// Its pose by its description, before any motion.
 Pose described_pose(const sim::Structure& structure, std::uint32_t link) {
   const sim::LinkEntry& entry = structure.links[link];
-  const desc::Model& model = *structure.models[entry.model];
-  return model.pose * model.links[entry.link].pose;
+  return structure.models[entry.model]->pose * structure.described(entry).pose;
 }
 
 Pose described_pose(const sim::Structure& structure, const sim::LightEntry& light) {
@@ -187,7 +181,7 @@ void Overlays::add_device(const sim::Structure& structure, std::uint32_t device)
   Overlay overlay;
   overlay.of = Of::kDevice;
   overlay.index = device;
-  overlay.link = first_link(structure, entry.model);
+  overlay.link = structure.first_link(entry.model);
   overlay.offset.position = kOverModel;
   overlay.storey = scene::storey_suffix(structure, entry.model,
                                         structure.models[entry.model]->pose.position.z());
@@ -208,7 +202,7 @@ void Overlays::add_label(const sim::Structure& structure, std::uint32_t device) 
   overlay.storey = scene::storey_suffix(structure, entry.model, model.pose.position.z());
   overlay.offset.position = model.pose * place;
   if (travels) {
-    overlay.link = first_link(structure, entry.model);
+    overlay.link = structure.first_link(entry.model);
     overlay.offset.position = model.links.front().pose.inverse() * place;
   }
   const std::string text = travels ? entry.name : entry.kind + " " + entry.name;

@@ -11,7 +11,6 @@
 #include "ros/readings.h"
 #include "rviz/glow.h"
 #include "rviz/marker_shapes.h"
-#include "scene/groups.h"
 #include "sim/snapshot.h"
 
 namespace angen::node {

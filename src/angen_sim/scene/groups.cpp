@@ -50,7 +50,7 @@ std::string with_side(const std::string& side) { return side.empty() ? "" : " " 
 }  // namespace
 
 bool is_building(const desc::Model& model) {
-  return model.is_static && model.links.size() > kBuildingLinks;
+  return model.is_static && (model.links.size() > kBuildingLinks || !model.home.rooms.empty());
 }
 
 std::string storey_suffix(const sim::Structure& structure, std::uint32_t model, double z) {

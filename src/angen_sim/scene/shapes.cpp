@@ -1,8 +1,12 @@
 #include "scene/shapes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
+
+#include "core/text.h"
 
 namespace angen::scene {
 namespace {
@@ -100,12 +104,28 @@ Shapes shapes_of(const sim::Structure& structure) {
     }
   };
   for (std::uint32_t i = 0; i < structure.links.size(); ++i) {
-    const sim::LinkEntry& entry = structure.links[i];
-    for (const desc::Visual& visual : structure.models[entry.model]->links[entry.link].visuals) {
+    for (const desc::Visual& visual : structure.described(structure.links[i]).visuals) {
       add(visual, i);
     }
   }
   return all;
+}
+
+std::optional<Field> field_of(const sim::SensorEntry& sensor) {
+  if (sensor.rays != nullptr) {
+    const RayGeometry& rays = *sensor.rays;
+    return Field{rays.min_yaw,   rays.max_yaw, rays.min_pitch,
+                 rays.max_pitch, rays.max,     static_cast<std::uint32_t>(rays.size())};
+  }
+  const Element* camera = sensor.desc ? sensor.desc->element.child("camera") : nullptr;
+  if (camera == nullptr || camera->child("horizontal_fov") == nullptr) return std::nullopt;
+  const double half = parse_number(camera->child_text("horizontal_fov")).value_or(0.0) / 2;
+  const Element* image = camera->child("image");
+  const auto pixels = [&](const char* name, double usual) {
+    return image == nullptr ? usual : parse_number(image->child_text(name)).value_or(usual);
+  };
+  const double high = std::atan(std::tan(half) * pixels("height", 240.0) / pixels("width", 320.0));
+  return Field{-half, half, -high, high, std::numeric_limits<double>::infinity(), 0};
 }
 
 }  // namespace angen::scene

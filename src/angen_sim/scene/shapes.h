@@ -2,12 +2,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "desc/world.h"
 #include "sim/snapshot.h"
 
-/// Descriptions as the few shapes that each viewer can draw.
+/// Descriptions as the few shapes that each viewer can draw, and fields of view of sensors.
 namespace angen::scene {
 
 /// A part of a visual, in the frame of its link.
@@ -36,5 +37,18 @@ struct Shapes {
 };
 
 Shapes shapes_of(const sim::Structure& structure);
+
+/// The field of view of a sensor, in its own frame.
+struct Field {
+  double min_yaw = 0.0;  // rad, positive to the left
+  double max_yaw = 0.0;
+  double min_pitch = 0.0;  // rad, positive upwards
+  double max_pitch = 0.0;
+  double range = 0.0;      // m; infinite of a camera
+  std::uint32_t rays = 0;  // 0 of a camera
+};
+
+/// The field of a sensor with rays or of a camera; none of others.
+std::optional<Field> field_of(const sim::SensorEntry& sensor);
 
 }  // namespace angen::scene

@@ -7,12 +7,76 @@
 #include "document/xml.h"
 #include "sdf/check.h"
 #include "sdf/describe.h"
-#include "sdf/person.h"
 #include "sdf/reader.h"
 
 namespace angen::load {
 
 namespace {
+
+constexpr char kTrousers[] = "0.22 0.22 0.26 1";
+constexpr char kShirt[] = "0.20 0.36 0.60 1";
+constexpr char kBare[] = "0.85 0.65 0.53 1";
+
+std::string sphere_text(const std::string& radius) {
+  return "<sphere><radius>" + radius + "</radius></sphere>";
+}
+
+std::string box_text(const std::string& size) { return "<box><size>" + size + "</size></box>"; }
+
+std::string capsule_text(const std::string& radius, const std::string& length) {
+  return "<capsule><radius>" + radius + "</radius><length>" + length + "</length></capsule>";
+}
+
+// The person's motor moves it, not its soles: it has no friction.
+std::string collision_text(const std::string& name, const std::string& place,
+                           const std::string& geometry) {
+  return "<collision name='" + name + "'><pose>" + place + " 0 0 0</pose><geometry>" + geometry +
+         "</geometry><surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface>"
+         "</collision>";
+}
+
+std::string visual_text(const std::string& name, const std::string& place,
+                        const std::string& geometry, const std::string& color) {
+  return "<visual name='" + name + "'><pose>" + place + " 0 0 0</pose><geometry>" + geometry +
+         "</geometry><material><diffuse>" + color + "</diffuse></material></visual>";
+}
+
+// The plug-in moves the limbs by the names of their visuals.
+std::string limb_texts(const std::string& side, const std::string& sign) {
+  const std::string leg = " " + sign + "0.09 ";
+  const std::string arm = " " + sign + "0.22 ";
+  return visual_text("thigh" + side, "0" + leg + "0.685", capsule_text("0.08", "0.43"), kTrousers) +
+         visual_text("shank" + side, "0" + leg + "0.28", capsule_text("0.058", "0.38"), kTrousers) +
+         visual_text("foot" + side, "0.05" + leg + "0.035", box_text("0.25 0.09 0.07"),
+                     "0.12 0.12 0.13 1") +
+         visual_text("upper_arm" + side, "0" + arm + "1.27", capsule_text("0.05", "0.3"), kShirt) +
+         visual_text("forearm" + side, "0" + arm + "0.99", capsule_text("0.042", "0.26"), kBare);
+}
+
+/// The body of an <actor>, and the plug-in that walks it. describe_actor() adds the actor's own
+/// mass, temperatures and waypoints. The moments are those of a solid cylinder of a person's size.
+/// Collisions of one that sits or lies are from the seat or the bed up, x ahead.
+std::string person_text() {
+  return "<model name='person'><link name='body'><inertial><pose>0 0 0.875 0 0 0</pose>"
+         "<mass>70</mass><inertia><ixx>18.958333333333332</ixx><iyy>18.958333333333332</iyy>"
+         "<izz>2.1875</izz></inertia></inertial>" +
+         collision_text("collision", "0 0 0.875", capsule_text("0.25", "1.25")) +
+         collision_text("sit_thighs", "0.15 0 0.07", box_text("0.54 0.34 0.14")) +
+         collision_text("sit_trunk", "-0.02 0 0.38", box_text("0.2 0.48 0.48")) +
+         collision_text("sit_shanks", "0.37 0 -0.19", box_text("0.1 0.31 0.38")) +
+         collision_text("lie_legs", "-0.44 0 0.07", box_text("0.82 0.3 0.14")) +
+         collision_text("lie_trunk", "0.24 0 0.09", box_text("0.54 0.48 0.18")) +
+         collision_text("sit_head", "-0.02 0 0.75", sphere_text("0.11")) +
+         collision_text("lie_head", "0.64 0 0.2", sphere_text("0.11")) +  //
+         limb_texts("_left", "") + limb_texts("_right", "-") +
+         visual_text("trunk", "0 0 1.15", capsule_text("0.17", "0.36"), kShirt) +
+         visual_text("neck", "0 0 1.5",
+                     "<cylinder><radius>0.055</radius><length>0.12</length></cylinder>", kBare) +
+         visual_text("head", "0 0 1.635", sphere_text("0.115"), kBare) +
+         visual_text("hair", "-0.02 0 1.645", sphere_text("0.113"), "0.25 0.18 0.14 1") +
+         visual_text("nose", "0.115 0 1.625", sphere_text("0.02"), kBare) +
+         "</link><plugin name='person' filename='libperson_controller.so'/></model>";
+}
 
 constexpr double kSkin = 307.0;      // K: of a bare face and hands
 constexpr double kClothed = 299.0;   // K: of clothes, in a room
@@ -97,7 +161,7 @@ desc::Model describe_actor(const Element& given, Session& session) {
   if (pose != nullptr && pose->attribute("relative_to") != nullptr) {
     throw Error(pose->source, "an actor's pose is given in the world; leave relative_to out");
   }
-  Element person = parse_xml(kPerson, "person.h");
+  Element person = parse_xml(person_text(), "actor.cpp");
   set_source(person, actor.source);
   Element plugin = *person.child("plugin");
   remove_children(person, "plugin");

@@ -52,8 +52,7 @@ void check_children_names(const Element& parent, const Session& session) {
 }
 
 void check_plugin(const Element& plugin) {
-  const std::string* file = plugin.attribute("filename");
-  if (file == nullptr || file->empty()) {
+  if (plugin.attribute_text("filename").empty()) {
     throw Error(plugin.source, "<plugin> has no filename; write filename=\"libNAME.so\"");
   }
   const std::string problem = label_problem(name_of(plugin));
@@ -79,8 +78,7 @@ void check_typed_light(const Element& light, Session& session) {
 }
 
 void check_sensor(const Element& sensor) {
-  const std::string* type = sensor.attribute("type");
-  if (type == nullptr || type->empty()) {
+  if (sensor.attribute_text("type").empty()) {
     throw Error(sensor.source, tag_of(sensor) + " has no type; write type=\"ray\"");
   }
 }

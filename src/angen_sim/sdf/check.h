@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "core/element.h"
 #include "sdf/expand.h"
 

@@ -1,5 +1,3 @@
-#include "sdf/cost.h"
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -9,12 +7,12 @@
 #include <fstream>
 #include <map>
 
-#include "assets/png.h"
-#include "core/plain_file.h"
+#include "assets/mesh.h"
+#include "core/files.h"
 #include "core/text.h"
 #include "document/search.h"
-#include "document/values.h"
 #include "document/xml.h"
+#include "sdf/entry.h"
 #include "sdf/load.h"
 
 namespace angen::load {

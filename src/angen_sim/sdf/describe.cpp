@@ -10,10 +10,6 @@
 #include "sdf/check.h"
 #include "sdf/geometry.h"
 #include "sdf/home.h"
-#include "sdf/light.h"
-#include "sdf/material.h"
-#include "sdf/reader.h"
-#include "sdf/surface.h"
 
 namespace angen::load {
 

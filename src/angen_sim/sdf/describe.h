@@ -1,8 +1,10 @@
 #pragma once
 
 #include "desc/world.h"
+#include "document/session.h"
 #include "sdf/expand.h"
 #include "sdf/frames.h"
+#include "sdf/geometry.h"
 #include "sdf/reader.h"
 
 /// Checked trees to descriptions.
@@ -39,11 +41,17 @@ desc::Model describe_actor(const Element& actor, Session& session);
 /// The <physics> that a <world> is stepped by, null if it has none.
 const Element* chosen_physics(const Element& world);
 
-/// Physics, gravity and scene out of a checked <world>.
-void read_settings(const Element& world, desc::World& to, Session& session);
+/// The colors of a <visual>: its <diffuse> and <emissive>, or those of the Gazebo script it names.
+/// A script that is not known is a warning and leaves gray.
+desc::Material material_of(const Reader& visual, Session& session);
 
-/// Applies the world's <state>: poses and joint positions. Throws Error for unknown names, unless
-/// the dialect permits them.
-void apply_state(const Element& state, desc::World& world, Session& session);
+/// A checked <light>; `pose` is its pose in its link or the world.
+desc::Light light_of(const Element& light, const Pose& pose, Session& session);
+
+/// A text that light() reads, as an element of a world of SDF 1.9.
+Element light_element(const std::string& what, const std::string& name);
+
+/// The look of a mesh's file, on a visual whose SDF has no material of its own.
+void paint(const PlacedShape& mesh, const Source& at, Session& session, desc::Material& material);
 
 }  // namespace angen::load

@@ -4,10 +4,10 @@
 #include <map>
 #include <optional>
 
+#include "core/lists.h"
 #include "document/dialect.h"
 #include "document/xml.h"
 #include "sdf/check.h"
-#include "sdf/cost.h"
 #include "sdf/describe.h"
 
 namespace angen::load {
@@ -87,9 +87,7 @@ using ReadModels = std::map<std::string, std::optional<desc::Model>>;
 // All different models by their keys, without plug-ins; none for one that is left out.
 ReadModels read_once(std::vector<Entry>& entries, Session& session) {
   ReadModels read;
-  entries.erase(std::remove_if(entries.begin(), entries.end(),
-                               [&](Entry& entry) { return !check_entry(entry, session); }),
-                entries.end());
+  erase_if(entries, [&](Entry& entry) { return !check_entry(entry, session); });
   for (const Entry& entry : entries) {
     if (entry.expanded.name != "model") continue;
     const auto [at, fresh] = read.try_emplace(key_of(entry.expanded));

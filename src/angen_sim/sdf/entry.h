@@ -21,4 +21,9 @@ Entry expand_entry(const Element& element, Session& session);
 /// Error; removes the entries that the dialect leaves out.
 std::vector<desc::Model> describe_entries(std::vector<Entry>& entries, Session& session);
 
+/// Adds the memory of an expanded <model>, <actor> or <light> to the session's sum: its
+/// elements, links, sensors with their rays and pixels, and triangles of meshes and heightmaps by
+/// the sizes of their files. Throws Error at it where the sum passes memory_limit().
+void check_memory(const Element& expanded, Session& session);
+
 }  // namespace angen::load

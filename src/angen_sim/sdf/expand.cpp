@@ -1,14 +1,12 @@
 #include "sdf/expand.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
 
+#include "core/lists.h"
 #include "core/names.h"
-#include "core/text.h"
 #include "document/search.h"
-#include "document/values.h"
 #include "document/xml.h"
 #include "sdf/home.h"
 #include "sdf/upgrade.h"
@@ -101,13 +99,11 @@ void remove_replaced(const Element& plugin, Element& from) {
   const std::string* file = plugin.attribute("filename");
   if (file == nullptr || !made_for_gazebo(*file)) return;
   auto& all = from.children;
-  all.erase(std::remove_if(all.begin(), all.end(),
-                           [&](const Element& other) {
-                             const std::string* its = other.attribute("filename");
-                             return other.name == "plugin" && its != nullptr && *its == *file &&
-                                    name_of(other) == name_of(plugin);
-                           }),
-            all.end());
+  erase_if(all, [&](const Element& other) {
+    const std::string* its = other.attribute("filename");
+    return other.name == "plugin" && its != nullptr && *its == *file &&
+           name_of(other) == name_of(plugin);
+  });
 }
 
 void apply_include(const Element& include, Element& to, Session& session) {
@@ -189,7 +185,7 @@ Element expand_include(const Element& include, Session& session) {
   std::error_code failed;
   std::string real = std::filesystem::canonical(file, failed).string();
   if (failed) real = file;
-  if (std::find(session.open.begin(), session.open.end(), real) != session.open.end()) {
+  if (is_in(real, session.open)) {
     throw Error(uri->source, "a cycle of includes: '" + uri->text +
                                  "' includes itself, by way of " + join_names(session.open));
   }

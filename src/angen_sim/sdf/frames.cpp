@@ -19,8 +19,7 @@ std::string model_of(const std::string& scope) {
 
 std::string relative_to(const Element& element) {
   const Element* pose = element.child("pose");
-  const std::string* frame = pose == nullptr ? nullptr : pose->attribute("relative_to");
-  return frame == nullptr ? "" : *frame;
+  return pose == nullptr ? "" : pose->attribute_text("relative_to");
 }
 
 // The place to name where a pose is relative to something wrong.
@@ -31,11 +30,6 @@ const Source& place_of_pose(const Element& element) {
 bool is_frame(const Element& element) {
   return element.name == "link" || element.name == "joint" || element.name == "frame" ||
          element.name == "model";
-}
-
-std::string text_attribute(const Element& element, const char* name) {
-  const std::string* text = element.attribute(name);
-  return text == nullptr ? "" : *text;
 }
 
 }  // namespace
@@ -50,7 +44,7 @@ Frames::Frames(const Element& root) {
 
 // Frames without attached_to are attached to their model's canonical link.
 std::string Frames::canonical_link(const Element& model, const std::string& scope) const {
-  const std::string given = text_attribute(model, "canonical_link");
+  const std::string given = model.attribute_text("canonical_link");
   if (!given.empty()) return scope + given;
   for (const Element& child : model.children) {
     if (child.name == "link") return scope + name_of(child);
@@ -94,14 +88,14 @@ void Frames::add_parts(const Element& model, const std::string& scope) {
       attached = child.child_text("child");
       if (given.empty()) base = attached;
     } else if (child.name == "frame") {
-      attached = text_attribute(child, "attached_to");
+      attached = child.attribute_text("attached_to");
       if (given.empty() && !attached.empty()) base = attached;
       if (attached.empty()) attached = "__model__";
     } else if (child.name == "model") {
       const std::string inner = name + "::";
       add_parts(child, inner);
       add(name, child, scope, base, canonical_link(child, inner));
-      const std::string placed = text_attribute(child, "placement_frame");
+      const std::string placed = child.attribute_text("placement_frame");
       if (!placed.empty()) {
         Node& node = nodes_[name];
         node.given = node.given * Frames(child).pose(placed).inverse();

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <map>
 
-#include "assets/heightmap.h"
 #include "assets/mesh.h"
 #include "core/limits.h"
 #include "core/text.h"
 #include "document/search.h"
 #include "document/xml.h"
-#include "sdf/surface.h"
 
 namespace angen::load {
 

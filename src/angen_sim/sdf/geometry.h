@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/mesh_look.h"
 #include "core/shape.h"
 #include "core/texture.h"
 #include "sdf/reader.h"

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/limits.h"
+#include "core/lists.h"
 #include "core/names.h"
 #include "core/nearest.h"
 #include "core/text.h"
@@ -28,7 +29,7 @@ const std::string kHome = "angen:home";
 
 std::string known_word(const std::string& word, const std::vector<std::string>& known,
                        const Element& at, const std::string& what) {
-  if (std::find(known.begin(), known.end(), word) != known.end()) return word;
+  if (is_in(word, known)) return word;
   throw Error(at.source, what + " is '" + printable(word) + "'; known are " + join_names(known));
 }
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "assets/png.h"
+#include "assets/mesh.h"
 #include "core/text.h"
 #include "document/search.h"
 #include "sdf/geometry.h"

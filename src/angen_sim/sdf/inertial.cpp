@@ -1,8 +1,6 @@
 #include <Eigen/Eigenvalues>
-#include <cmath>
 
-#include "core/inertia.h"
-#include "core/text.h"
+#include "core/limits.h"
 #include "document/values.h"
 #include "document/xml.h"
 #include "sdf/describe.h"

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -18,13 +19,11 @@ constexpr double kFree = 1e16;           // SDF's "no limit"
 constexpr double kMostParallel = 0.999;  // cosine between two axes
 constexpr double kLeastPitch = 1e-3;     // rad/m; a thread with less does not turn
 
+/// Requires one of the types that check_joint() permits.
 desc::Joint::Type type_of(const std::string& type) {
-  if (type == "revolute" || type == "continuous") return desc::Joint::Type::kRevolute;
-  if (type == "prismatic") return desc::Joint::Type::kPrismatic;
-  if (type == "ball") return desc::Joint::Type::kBall;
-  if (type == "universal") return desc::Joint::Type::kUniversal;
-  if (type == "screw") return desc::Joint::Type::kScrew;
-  return desc::Joint::Type::kFixed;
+  const auto& known = desc::Joint::kTypes;
+  const std::string name = type == "continuous" ? "revolute" : type;
+  return static_cast<desc::Joint::Type>(std::find(known, std::end(known), name) - known);
 }
 
 // May be infinite, but no joint reaches beyond where positions end.

@@ -1,13 +1,11 @@
-#include "sdf/light.h"
-
 #include <array>
-#include <cmath>
 #include <memory>
 #include <utility>
 
 #include "assets/ies.h"
 #include "document/search.h"
 #include "document/xml.h"
+#include "sdf/describe.h"
 #include "sdf/reader.h"
 
 namespace angen::load {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "desc/world.h"
-#include "document/search_paths.h"
+#include "document/allowed.h"
 
 /// SDF and URDF files to plain descriptions. Every function throws Error (file:line) and changes
 /// nothing.

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/lists.h"
 #include "core/polygon.h"
-#include "core/text.h"
 #include "document/values.h"
 #include "sdf/geometry.h"
 
@@ -122,13 +122,11 @@ class Prism {
 // A strip that begins or ends in a corner has triangles without area.
 void remove_flat(TriangleMesh& mesh) {
   auto& all = mesh.triangles;
-  all.erase(std::remove_if(all.begin(), all.end(),
-                           [&](const auto& t) {
-                             const Eigen::Vector3f& a = mesh.vertices[t[0]];
-                             const Eigen::Vector3f b = mesh.vertices[t[1]] - a;
-                             return b.cross(mesh.vertices[t[2]] - a).norm() < 1e-9F;
-                           }),
-            all.end());
+  erase_if(all, [&](const auto& t) {
+    const Eigen::Vector3f& a = mesh.vertices[t[0]];
+    const Eigen::Vector3f b = mesh.vertices[t[1]] - a;
+    return b.cross(mesh.vertices[t[2]] - a).norm() < 1e-9F;
+  });
 }
 
 }  // namespace

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lists.h"
 #include "core/text.h"
 #include "document/dialect.h"
 #include "document/values.h"
-#include "sdf/vocabulary.h"
 
 namespace angen::load {
 
@@ -35,7 +35,7 @@ void check_number(const Element& element, double value, const Range& range) {
 // A shape without thickness is as thin as Gazebo makes it, as a plate of 0.3 0.2 0 m.
 void set_minimum_thickness(const Element& element, std::vector<double>& values, Session& session) {
   constexpr double kThin = 1e-4;  // m
-  if (std::find(values.begin(), values.end(), 0.0) == values.end()) return;
+  if (!is_in(0.0, values)) return;
   if (!session.dialect->corrects_values()) return;
   std::replace(values.begin(), values.end(), 0.0, kThin);
   session.warn(element.source,

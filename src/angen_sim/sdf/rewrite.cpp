@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "core/lists.h"
 #include "core/text.h"
 #include "document/dialect.h"
 #include "document/values.h"
 #include "document/xml.h"
 #include "sdf/describe.h"
-#include "sdf/light.h"
 
 namespace angen::load {
 
@@ -176,11 +176,9 @@ void write_lights(const desc::World& read, const std::vector<LightState>& now, E
     });
   };
   std::vector<Element>& parts = world.children;
-  parts.erase(std::remove_if(parts.begin(), parts.end(),
-                             [&](const Element& part) {
-                               return part.name == "light" && state_of(part) == now.end();
-                             }),
-              parts.end());
+  erase_if(parts, [&](const Element& part) {
+    return part.name == "light" && state_of(part) == now.end();
+  });
   for (Element& part : parts) {
     if (part.name != "light") continue;
     const desc::Light& light = *state_of(part)->light;

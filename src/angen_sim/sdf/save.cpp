@@ -3,7 +3,6 @@
 #include "core/text.h"
 #include "document/values.h"
 #include "document/xml.h"
-#include "sdf/describe.h"
 #include "sdf/load.h"
 #include "sdf/rewrite.h"
 
@@ -25,9 +24,8 @@ void attach(Element& model, const AttachedSensor& attached) {
 }
 
 bool is_same_plugin(const Element& a, const Element& b) {
-  const std::string* one = a.attribute("filename");
-  const std::string* other = b.attribute("filename");
-  return a.name == "plugin" && one != nullptr && other != nullptr && *one == *other;
+  const std::string file = a.attribute_text("filename");
+  return a.name == "plugin" && !file.empty() && file == b.attribute_text("filename");
 }
 
 // Instead of the model's own of that library, or after those that it includes: the last holds.

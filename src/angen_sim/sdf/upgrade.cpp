@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "core/lists.h"
 #include "core/text.h"
 #include "document/values.h"
 #include "document/xml.h"
@@ -72,8 +73,7 @@ void read_unlimited(Element& friction) {
 
 // Two axes that cross, as those of a car's front wheel: in ODE the same.
 void read_joint_type(Element& joint) {
-  const std::string* type = joint.attribute("type");
-  if (type != nullptr && *type == "revolute2") set_attribute(joint, "type", "universal");
+  if (joint.attribute_text("type") == "revolute2") set_attribute(joint, "type", "universal");
 }
 
 // Attributes of SDF 1.0 that are the text of their element since.
@@ -184,10 +184,7 @@ void upgrade_element(Element& element, int version, Session& session) {
       if (key == "frame" && version < 107) key = "relative_to";
     }
     auto& all = element.attributes;
-    all.erase(
-        std::remove_if(all.begin(), all.end(),
-                       [](const auto& a) { return a.first == "relative_to" && a.second.empty(); }),
-        all.end());
+    erase_if(all, [](const auto& a) { return a.first == "relative_to" && a.second.empty(); });
   }
   if (element.name == "world" && version < 106) {
     if (Element* physics = find_child(element, "physics")) {

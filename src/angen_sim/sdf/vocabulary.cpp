@@ -1,11 +1,10 @@
-#include "sdf/vocabulary.h"
-
 #include <map>
 #include <set>
 #include <sstream>
 #include <vector>
 
 #include "core/nearest.h"
+#include "sdf/reader.h"
 
 namespace angen::load {
 

@@ -5,16 +5,18 @@
 #include <optional>
 
 #include "core/alike.h"
+#include "core/limits.h"
+#include "core/named.h"
 #include "core/names.h"
+#include "core/text.h"
 #include "document/dialect.h"
-#include "document/search.h"
 #include "document/values.h"
 #include "document/xml.h"
 #include "sdf/check.h"
 #include "sdf/describe.h"
 #include "sdf/entry.h"
 #include "sdf/frames.h"
-#include "sdf/light.h"
+#include "sdf/home.h"
 #include "sdf/load.h"
 #include "sdf/reader.h"
 
@@ -22,7 +24,137 @@ namespace angen::load {
 
 namespace fs = std::filesystem;
 
+const Element* chosen_physics(const Element& world) {
+  const Element* chosen = nullptr;
+  for (const Element& child : world.children) {
+    if (child.name != "physics") continue;
+    const std::string marked = child.attribute_text("default");
+    if (chosen == nullptr || marked == "true" || marked == "1") chosen = &child;
+  }
+  return chosen;
+}
+
 namespace {
+
+void read_physics(const Reader& element, desc::Physics& physics, Session& session) {
+  const std::string* type = element.attribute("type");
+  element.attribute("default");
+  if (type != nullptr && *type != "ode" && *type != "ignored") {
+    session.warn(
+        element.element().source,
+        "<physics type=\"" + *type + "\">: ODE is used, the one engine here; write type=\"ode\"");
+  }
+  const Range step = Range::positive({"s", 1.0, 1e-9});
+  if (const auto seconds = element.number("max_step_size", step)) {
+    physics.step = from_seconds(*seconds);
+  }
+  physics.real_time_factor =
+      element.number("real_time_factor", physics.real_time_factor, Range::not_negative({"", 1e6}));
+  // SDF's way to say "as fast as possible".
+  if (element.number("real_time_update_rate", Range::not_negative()) == 0.0) {
+    physics.real_time_factor = 0.0;
+  }
+  const Reader ode = element.block("ode");
+  const Range iterations = Range::solver(1.0, 1e4, Range::Sign::kPositive);
+  physics.iterations =
+      static_cast<int>(ode.block("solver").number("iters", physics.iterations, iterations));
+  const Element* solver = ode.block("solver").child("type");  // the exact one, as here
+  if (solver != nullptr && solver->text != "world") {
+    session.ignore(solver->source, "<type> in <solver>");
+  }
+  const Reader constraints = ode.block("constraints");
+  physics.erp = constraints.number("erp", physics.erp, Range::solver(0.0, 1.0));
+  physics.cfm = constraints.number("cfm", physics.cfm, Range::solver(0.0, 1e6));
+  physics.contact_max_correcting_vel =
+      constraints.number("contact_max_correcting_vel", physics.contact_max_correcting_vel,
+                         Range::solver(0.0, limits::kSpeed.most));
+  physics.contact_surface_layer = constraints.number(
+      "contact_surface_layer", physics.contact_surface_layer, Range::solver(0.0, 1.0));
+}
+
+/// Physics, gravity and scene out of a checked <world>.
+void read_settings(const Element& element, desc::World& to, Session& session) {
+  const Reader world(element, session);
+  if (const Element* physics = chosen_physics(element)) {
+    read_physics({*physics, session}, to.physics, session);
+  }
+  to.gravity = world.vector("gravity", to.gravity, Range::any(limits::kGravity));
+  const Reader atmosphere = world.block("atmosphere");
+  atmosphere.attribute("type");
+  to.ambient_temperature = atmosphere.number("temperature", to.ambient_temperature,
+                                             Range::positive(limits::kTemperature));
+  const Reader scene = world.block("scene");
+  if (const auto ambient = scene.color("ambient")) to.scene.ambient = *ambient;
+  if (const auto background = scene.color("background")) to.scene.background = *background;
+  to.scene.shadows = scene.flag("shadows", to.scene.shadows);
+  for (const Element& child : element.children) {
+    if (child.name == "frame") Reader(child, session).attribute("attached_to");
+    if (child.name == "plugin") to.plugins.push_back(plugin_of(child));
+  }
+  world.note({"plugin"});
+  read_home_parts(world, Pose{}, to.home, session);
+  to.site = home_site_of(world, session);
+}
+
+template <class T>
+T& find_named(std::vector<T>& all, const Element& element, const std::string& where) {
+  const std::string name = name_of(element);
+  if (const auto found = index_in(all, name)) return all[*found];
+  throw Error(element.source, "<state> names an unknown " + element.name + " '" + name + "'" +
+                                  where + "; known are " + join_names(names_in(all)));
+}
+
+void apply_joint(const Element& element, desc::Joint& joint, Session& session) {
+  Reader(element, session);
+  for (const Element& angle : element.children) {
+    if (angle.name != "angle") continue;
+    const std::string* text = Reader(angle, session).attribute("axis");
+    const std::size_t axis = text == nullptr || *text == "0" ? 0 : *text == "1" ? 1 : 2;
+    if (axis >= joint.axes.size()) {
+      throw Error(angle.source, tag_of(element) + " has " + std::to_string(joint.axes.size()) +
+                                    " axes; there is no axis " + (text == nullptr ? "0" : *text));
+    }
+    const double position = number_of(angle);
+    desc::JointAxis& to = joint.axes[axis];
+    const std::string wrong = limit_problem(limits::kPosition, position);
+    if (!wrong.empty()) {
+      throw Error(angle.source, "the position of " + tag_of(element) + " is " +
+                                    number_text(position) + "; " + wrong);
+    }
+    constexpr double kSlack = 1e-3;  // a joint at its stop may stand a little beyond it
+    if (position < to.lower - kSlack || position > to.upper + kSlack) {
+      throw Error(angle.source, "the position " + number_text(position) + " of " + tag_of(element) +
+                                    " is outside its limits " + number_text(to.lower) + " … " +
+                                    number_text(to.upper));
+    }
+    to.initial_position = position;
+  }
+}
+
+void apply_model(const Element& element, desc::World& world, Session& session) {
+  const Reader reader(element, session);
+  desc::Model& model = find_named(world.models, element, "");
+  if (const Element* pose = element.child("pose")) model.pose = pose_of(*pose);
+  for (const Element& part : element.children) {
+    if (part.name == "joint") {
+      apply_joint(part, find_named(model.joints, part, " of model '" + model.name + "'"), session);
+    }
+  }
+}
+
+/// Applies the world's <state>: poses and joint positions. Throws Error for unknown names, unless
+/// the dialect permits them.
+void apply_state(const Element& state, desc::World& world, Session& session) {
+  Reader(state, session).attribute("world_name");
+  for (const Element& element : state.children) {
+    if (element.name != "model") continue;
+    try {
+      apply_model(element, world, session);
+    } catch (const Error& error) {
+      session.warn_or_throw(error);
+    }
+  }
+}
 
 // Models and settings of a <world>, includes written out.
 struct Parts {

@@ -1,7 +1,6 @@
 // libaccelerometer.so
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "plugin/registration.h"
 #include "plugin/view.h"
@@ -24,9 +23,7 @@ class Accelerometer : public Sensor {
   Nanoseconds sample_period() const override { return sample_period_; }
 
   void configure(Params& params, Wiring& wiring) override {
-    const double sample_rate =
-        params.number("sample_rate", 100.0, "Hz", "how often it samples", {1.0, 1e4});
-    sample_period_ = from_seconds(1.0 / sample_rate);
+    sample_period_ = read_sample_period(params, 100.0, {1.0, 1e4});
     activity_ = params.number("activity_threshold", 0.5, "m/s^2",
                               "difference of its acceleration from gravity's that counts as motion",
                               kPositive);

@@ -29,18 +29,16 @@ Fan cloud_fan() {
 }  // namespace
 
 void Cloud::read_rays(Params& params) {
-  fan_ = read_fan(params, cloud_fan());
+  read_fan(params, cloud_fan());
   const double more = params.number(
       "gaussianNoise", 0.0, "m", "standard deviation of a range, beside the rays'", kNotNegative);
   fan_.noise_stddev = std::hypot(fan_.noise_stddev, more);
   fan_.declare_noise("ranges", params);
-  read_near_blocks(params, fan_);
-  directions_ = fan_.directions();
 }
 
 void Cloud::read(const View& view, Hits hits, Rng&, Reading& reading) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  Ranges ranges = fan_.scan(view, directions_, hits);
+  Ranges ranges = scan(view, hits);
   std::vector<double> intensities;
   intensities.reserve(ranges.size());
   std::map<std::uint32_t, double> known;  // by shape

@@ -55,9 +55,9 @@ class Contact : public Sensor {
     params.noise("forces", "N", "of each component of a force");
     debounce_.duration = from_seconds(params.number(
         "debounce", 0.0, "s", "least duration of a touch or release that counts", {0.0, 1e6}));
-    const double sample_rate = params.number("sample_rate", 100.0, "Hz",
-                                             "how often it samples, given a debounce", {1e-3, 1e6});
-    sample_period_ = from_seconds(1.0 / sample_rate);
+    sample_period_ =
+        from_seconds(1.0 / params.number("sample_rate", 100.0, "Hz",
+                                         "how often it samples, given a debounce", {1e-3, 1e6}));
     params.text("bumperTopicName", "/angen/contact/NAME", "where it publishes");
     if (debounce_.duration == 0) window_ = params.update_period();
     read_frame(params, wiring);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/lists.h"
 #include "plugin/view.h"
 
 namespace angen::sensors {
@@ -46,7 +47,7 @@ void mark_too_near(const View& view, RayBatch open, std::vector<rays::Hit> hits,
     std::size_t left = 0;
     for (std::size_t i = 0; i < open.size(); ++i) {
       if (!hits[i].hit()) continue;
-      if (std::find(own.begin(), own.end(), hits[i].shape) == own.end()) {
+      if (!is_in(hits[i].shape, own)) {
         ranges[numbers[i]] = -std::numeric_limits<double>::infinity();
         continue;
       }
@@ -93,12 +94,6 @@ Ranges Fan::with_noise(Ranges ranges, Rng rng) const {
   return ranges;
 }
 
-void read_near_blocks(Params& params, Fan& fan) {
-  fan.near_blocks = params.flag("near_blocks", true,
-                                "a thing nearer than <min> gives no range; false: rays begin at "
-                                "<min>, as in Gazebo");
-}
-
 Fan read_fan(Params& params, const Fan& fallback) {
   Fan fan;
   static_cast<RayGeometry&>(fan) = read_rays(params, fallback);
@@ -109,6 +104,14 @@ Fan read_fan(Params& params, const Fan& fallback) {
                                    "standard deviation of a range", kNotNegative);
   if (noise == "none") fan.noise_mean = fan.noise_stddev = 0.0;
   return fan;
+}
+
+void Scanner::read_fan(Params& params, const Fan& fallback) {
+  fan_ = sensors::read_fan(params, fallback);
+  fan_.near_blocks = params.flag("near_blocks", true,
+                                 "a thing nearer than <min> gives no range; false: rays begin at "
+                                 "<min>, as in Gazebo");
+  directions_ = fan_.directions();
 }
 
 double greatest_difference(const Ranges& a, const Ranges& b) {

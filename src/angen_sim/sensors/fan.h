@@ -52,11 +52,26 @@ struct Fan : RayGeometry {
   Fan near_part() const;  // from the sensor to `min`
 };
 
-/// Reads <near_blocks>, for sensors that measure by scan().
-void read_near_blocks(Params& params, Fan& fan);
-
 /// Reads <scan>, <range> and <noise> of <ray>; `fallback` has the default values.
 Fan read_fan(Params& params, const Fan& fallback);
+
+/// A sensor whose rays are a fan: each sample is a scan of them.
+class Scanner : public Sensor {
+ public:
+  std::optional<RayGeometry> rays() const override { return fan_; }
+  int ray_set(const View&) override { return 0; }
+  void aim(const View& view, RayBatch& rays) override { fan_.aim_scan(view, directions_, rays); }
+
+ protected:
+  /// Reads <ray> and <near_blocks>; `fallback` has the default values of <ray>.
+  void read_fan(Params& params, const Fan& fallback);
+  Ranges scan(const View& view, Hits hits) const { return fan_.scan(view, directions_, hits); }
+
+  Fan fan_;
+
+ private:
+  std::vector<Vec3> directions_;
+};
 
 /// The greatest |a[i] - b[i]| in meters.
 double greatest_difference(const Ranges& a, const Ranges& b);

@@ -22,27 +22,21 @@ Fan default_fan() {
 }  // namespace
 
 /// A planar laser scanner. Ranges without a hit and too near are infinite, as REP 117 requires.
-class Lidar : public Sensor {
+class Lidar : public Scanner {
  public:
   void configure(Params& params, Wiring&) override {
-    fan_ = read_fan(params, default_fan());
+    read_fan(params, default_fan());
     if (fan_.rows != 1) {
       throw params.error("ray/scan/vertical/samples",
                          "a lidar has " + std::to_string(fan_.rows) + " rows of rays, must have 1");
     }
-    directions_ = fan_.directions();
-    read_near_blocks(params, fan_);
     period_ = to_seconds(params.update_period());
     fan_.declare_noise("ranges", params);
   }
 
-  std::optional<RayGeometry> rays() const override { return fan_; }
-  int ray_set(const View&) override { return 0; }
-  void aim(const View& view, RayBatch& rays) override { fan_.aim_scan(view, directions_, rays); }
-
   void read(const View& view, Hits hits, Rng&, Reading& reading) override {
     const int steps = std::max(1, fan_.columns - 1);
-    reading.set("ranges", fan_.scan(view, directions_, hits));
+    reading.set("ranges", scan(view, hits));
     reading.set("angle_min",
                 fan_.columns == 1 ? 0.5 * (fan_.min_yaw + fan_.max_yaw) : fan_.min_yaw);
     reading.set("angle_max",
@@ -54,8 +48,6 @@ class Lidar : public Sensor {
   }
 
  private:
-  Fan fan_;
-  std::vector<Vec3> directions_;
   double period_ = 0.0;  // s
 };
 

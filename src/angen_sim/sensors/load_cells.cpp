@@ -78,9 +78,7 @@ class LoadCells : public Sensor {
     step_ = params.number("event_step", 0.1, "kg", "a change by more is an event", kPositive);
     capacity_ = params.number("capacity", 50.0, "kg", "of each cell; it shows no more", kPositive);
     scale_.stddev = params.number("noise_stddev", 0.0, "kg", "of each cell", kNotNegative);
-    const double sample_rate =
-        params.number("sample_rate", 10.0, "Hz", "how often it samples", {1e-3, 1e6});
-    sample_period_ = from_seconds(1.0 / sample_rate);
+    sample_period_ = read_sample_period(params, 10.0);
     collisions_ = read_watched(params, wiring, "a set of load cells");
   }
 

@@ -65,9 +65,7 @@ class OpticalSwitch : public Sensor {
                                  "between; <ray><range><max> unless given",
                                  {0.0, beam_.fan.max});
     quiet_ = beam_.fan.quiet_within(beam_.threshold / 2.0, directions_.size());
-    const double sample_rate =
-        params.number("sample_rate", 100.0, "Hz", "how often it samples", {1e-3, 1e6});
-    sample_period_ = from_seconds(1.0 / sample_rate);
+    sample_period_ = read_sample_period(params);
   }
 
   std::optional<RayGeometry> rays() const override { return beam_.fan; }

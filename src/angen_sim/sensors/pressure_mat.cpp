@@ -25,9 +25,7 @@ class PressureMat : public Sensor {
     release_ = params.number("release", 0.8 * threshold_, "kg",
                              "and is free below this one; 0.8 of the threshold unless given",
                              {0.0, threshold_});
-    const double sample_rate =
-        params.number("sample_rate", 100.0, "Hz", "how often it samples", {1e-3, 1e6});
-    sample_period_ = from_seconds(1.0 / sample_rate);
+    sample_period_ = read_sample_period(params);
     debounce_.duration = from_seconds(
         params.number("debounce", 0.05, "s", "least duration of a load that counts", kNotNegative));
     noise_stddev_ = params.number("noise_stddev", 0.0, "kg", "of a load", kNotNegative);

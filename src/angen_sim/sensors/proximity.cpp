@@ -20,14 +20,12 @@ Fan proximity_fan() {
 }  // namespace
 
 void Proximity::read_rays(Params& params) {
-  fan_ = read_fan(params, proximity_fan());
-  directions_ = fan_.directions();
+  read_fan(params, proximity_fan());
   // One range, one error: the least of many noisy rays would always be too short.
   const double noise = params.number("gaussianNoise", 0.0, "m",
                                      "standard deviation, in place of the rays'", kNotNegative);
   if (noise > 0.0) fan_.noise_stddev = noise;
   fan_.declare_noise("range", params);
-  read_near_blocks(params, fan_);
   field_of_view_ = fan_.max_yaw - fan_.min_yaw;
 }
 
@@ -41,7 +39,7 @@ void Proximity::configure(Params& params, Wiring&) {
 }
 
 void Proximity::read(const View& view, Hits hits, Rng&, Reading& reading) {
-  Ranges ranges = fan_.scan(view, directions_, hits);
+  Ranges ranges = scan(view, hits);
   const double nearest = *std::min_element(ranges.begin(), ranges.end());
   reading.set("range", nearest);
   reading.set("near", nearest < std::numeric_limits<double>::infinity());

@@ -1,5 +1,5 @@
 // libradio_receiver.so
-#include <cmath>
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -13,6 +13,37 @@ namespace angen::sensors {
 namespace {
 
 constexpr double kSkin = 0.01;  // m: an antenna's distance from its carrier
+constexpr rays::Mobilities kStatic = rays::only(rays::Mobility::kStatic);
+
+/// The straight path from a transmitter, and the static shapes on it.
+class RadioPath {
+ public:
+  /// All shapes on the segment (m, world), in the order in which it enters them. Static ones are
+  /// searched again only if they or the ends have changed since the last call.
+  std::vector<rays::Crossing> crossings(const rays::Scene& scene, const Vec3& from,
+                                        const Vec3& to) {
+    if (revision_ != scene.static_revision() || from != from_ || to != to_) {
+      revision_ = scene.static_revision();
+      from_ = from;
+      to_ = to;
+      fixed_ = scene.crossings(from, to, kStatic);
+    }
+    std::vector<rays::Crossing> all = fixed_;
+    const std::vector<rays::Crossing> others = scene.crossings(from, to, rays::kAll & ~kStatic);
+    const auto middle = all.insert(all.end(), others.begin(), others.end());
+    std::inplace_merge(all.begin(), middle, all.end(),
+                       [](const rays::Crossing& a, const rays::Crossing& b) {
+                         return a.enter != b.enter ? a.enter < b.enter : a.shape < b.shape;
+                       });
+    return all;
+  }
+
+ private:
+  std::uint64_t revision_ = 0;
+  Vec3 from_ = Vec3::Zero();
+  Vec3 to_ = Vec3::Zero();
+  std::vector<rays::Crossing> fixed_;
+};
 
 }  // namespace
 
@@ -43,7 +74,9 @@ class RadioReceiver : public Sensor {
 
   void read(const View& view, Hits, Rng&, Reading& reading) override {
     std::map<std::string, double> received;  // by id
-    for (const DeviceView& device : view.devices("tx_power")) {
+    const std::vector<DeviceView> devices = view.devices("tx_power");
+    if (paths_.size() > devices.size()) paths_.clear();  // some are gone
+    for (const DeviceView& device : devices) {
       if (device.kind != "transmitter" || !device.state.get<bool>("on")) continue;
       const auto id = device.state.get<std::string>("id");
       const double least = sensitivity_ - (received_.count(id) > 0 ? hysteresis_ : 0.0);
@@ -84,7 +117,7 @@ class RadioReceiver : public Sensor {
   }
 
   // dBm; without obstacles if it is below `needed` anyway.
-  double strength(const DeviceView& transmitter, double needed, const View& view) const {
+  double strength(const DeviceView& transmitter, double needed, const View& view) {
     const Vec3 from = transmitter.place();
     const Vec3 way = view.pose().position - from;
     const double distance = way.norm();
@@ -93,7 +126,8 @@ class RadioReceiver : public Sensor {
     if (least < needed || distance <= 2.0 * kSkin) return least;
     const Vec3 ahead = way / distance;
     const Vec3 skin = kSkin * ahead;
-    const auto crossings = view.rays().crossings(from + skin, view.pose().position - skin);
+    const std::vector<rays::Crossing> crossings = paths_[std::string(transmitter.name)].crossings(
+        view.rays(), from + skin, view.pose().position - skin);
     return least - loss_of(obstacles_on(crossings, ahead), losses_);
   }
 
@@ -104,6 +138,7 @@ class RadioReceiver : public Sensor {
   std::map<std::string, Nanoseconds> silent_since_;  // ids, and their first sample without them
   double gain_ = 0.0;                                // dBi
   PathLoss losses_;
+  std::map<std::string, RadioPath> paths_;  // by transmitter
   IdChanges changes_{"received", "lost"};
 };
 

@@ -1,5 +1,4 @@
 // libreed_contact.so
-#include <cmath>
 #include <optional>
 #include <sstream>
 
@@ -23,9 +22,7 @@ class Reed : public Sensor {
     operate_ = params.number("operate_distance", 0.015, "m", "closes when it is nearer", kPositive);
     release_ =
         params.number("release_distance", 0.02, "m", "opens when it is farther", {operate_, 1e3});
-    const double sample_rate =
-        params.number("sample_rate", 100.0, "Hz", "how often it samples", {1e-3, 1e6});
-    sample_period_ = from_seconds(1.0 / sample_rate);
+    sample_period_ = read_sample_period(params);
 
     if (places.size() > 1) throw params.error("magnet", "a reed contact has one <magnet>");
     if (!places.empty()) magnet_ = Vec3(places[0][0], places[0][1], places[0][2]);

@@ -12,7 +12,7 @@ class Sonar : public Proximity {
   void configure(Params& params, Wiring&) override {
     read_rays(params);
     // The message's field of view: the narrower side of the cone.
-    field_of_view_ = std::min(field_of_view_, fan().max_pitch - fan().min_pitch);
+    field_of_view_ = std::min(field_of_view_, fan_.max_pitch - fan_.min_pitch);
     params.text("frameId", "", "frame_id of its messages");
     for (const char* path : {"offset", "drift", "driftFrequency"}) {
       params.text(path, "", "not used: its error is gaussianNoise");

@@ -13,13 +13,13 @@ class Velodyne : public Cloud {
     read_rays(params);
     const double least =
         params.number("min_range", 0.0, "m", "nearer is not seen, beside the rays'", kNotNegative);
-    const double most = params.number("max_range", fan().max, "m",
+    const double most = params.number("max_range", fan_.max, "m",
                                       "farther is not seen, beside the rays'", kPositive);
     organized_ = params.flag("organize_cloud", false, "points in rows and columns, NaN for none");
     least_intensity_ = params.number("min_intensity", 0.0, "", "weaker returns are left out");
-    fan().min = std::max(fan().min, least);
-    fan().max = std::min(fan().max, most);
-    if (fan().min > fan().max) throw params.error("max_range", "<max_range> is below <min_range>");
+    fan_.min = std::max(fan_.min, least);
+    fan_.max = std::min(fan_.max, most);
+    if (fan_.min > fan_.max) throw params.error("max_range", "<max_range> is below <min_range>");
   }
 };
 

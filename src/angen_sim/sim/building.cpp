@@ -1,14 +1,14 @@
 #include "sim/building.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/alike.h"
+#include "core/lists.h"
+#include "core/named.h"
 #include "core/nearest.h"
 #include "core/text.h"
 #include "plugin/view.h"
-#include "sim/customs.h"
-#include "sim/home.h"
+#include "sim/device_maker.h"
 
 namespace angen::sim {
 
@@ -99,11 +99,10 @@ const Building::DevicesByField& Building::devices_by_field(const std::string& fi
       (fixed ? all.fixed : all.movable).push_back(found(*live, device, order++));
     }
   }
-  std::stable_sort(
-      all.fixed.begin(), all.fixed.end(),
-      [](const FoundDevice& a, const FoundDevice& b) { return a.heights().low < b.heights().low; });
+  std::stable_sort(all.fixed.begin(), all.fixed.end(),
+                   [](const FoundDevice& a, const FoundDevice& b) { return a.low() < b.low(); });
   for (const FoundDevice& each : all.fixed) {
-    all.tallest = std::max(all.tallest, each.heights().high - each.heights().low);
+    all.tallest = std::max(all.tallest, each.high() - each.low());
   }
   return all;
 }
@@ -119,20 +118,14 @@ std::vector<Building::FoundDevice> Building::find_devices(const std::string& fie
   };
   const auto lower =
       std::lower_bound(all.fixed.begin(), all.fixed.end(), within.min().z() - all.tallest,
-                       [](const FoundDevice& t, double z) { return t.heights().low < z; });
-  for (auto at = lower; at != all.fixed.end() && at->heights().low <= within.max().z(); ++at) {
+                       [](const FoundDevice& t, double z) { return t.low() < z; });
+  for (auto at = lower; at != all.fixed.end() && at->low() <= within.max().z(); ++at) {
     add(*at);
   }
   for (const FoundDevice& each : all.movable) add(found(*each.live, *each.device, each.order));
   std::sort(in_box.begin(), in_box.end(),
             [](const FoundDevice& a, const FoundDevice& b) { return a.order < b.order; });
   return in_box;
-}
-
-void Building::note_state(const LiveModel& live, DeviceInstance& device,
-                          MoverIndex::Moment when) const {
-  if (!device.last || live.is_light) return;  // queries do not find the world's own lights
-  engines_->states.note(*device.last, found(live, device, 0).heights(), device.changes, when);
 }
 
 std::vector<Building::Target> Building::devices_named(const std::string& kind,
@@ -220,7 +213,7 @@ void Building::remove_names(const LiveModel& live) {
   for (const DeviceInstance& device : live.devices) {
     devices_.erase(key_of(device));
     std::vector<LiveModel*>& with = with_device_[device.name];
-    with.erase(std::remove(with.begin(), with.end(), &live), with.end());
+    erase_if(with, [&](const auto& each) { return each == &live; });
     if (with.empty()) with_device_.erase(device.name);
   }
   for (const SensorInstance& sensor : live.sensors) sensors_.erase(key_of(sensor));
@@ -288,17 +281,15 @@ void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanos
     throw Error("no model named '" + printable(link.substr(0, split)) + "'; " +
                 did_you_mean(link.substr(0, split), model_names()));
   }
-  std::vector<std::string> names;
-  for (const desc::Link& l : live->desc->links) names.push_back(l.name);
-  const auto at = std::find(names.begin(), names.end(), link.substr(split + 2));
-  if (at == names.end()) {
+  const std::vector<desc::Link>& links = live->desc->links;
+  const auto at = index_in(links, link.substr(split + 2));
+  if (!at) {
     throw Error("model '" + live->desc->name + "' has no link '" +
-                printable(link.substr(split + 2)) + "'; known are " + join_names(names));
+                printable(link.substr(split + 2)) + "'; known are " + join_names(names_in(links)));
   }
   if (sensor.plugin.empty()) throw Error(sensor.source, "the sensor has no <plugin>");
-  SensorInstance instance =
-      make_sensor(*live, static_cast<std::uint32_t>(at - names.begin()),
-                  std::make_shared<const desc::Sensor>(sensor), sensor.name, *catalog_, warnings_);
+  SensorInstance instance = make_sensor(*live, *at, std::make_shared<const desc::Sensor>(sensor),
+                                        sensor.name, *catalog_, warnings_);
   check_sensor_name(instance);
   instance.attached = true;
   start(instance, now);
@@ -326,7 +317,7 @@ void Building::erase(const std::string& name) {
   if (model != models_.end()) {
     engines_->remove((*model)->parts);
     pushes_.forget(**model);
-    placed_.erase(std::remove(placed_.begin(), placed_.end(), model->get()), placed_.end());
+    erase_if(placed_, [&](const auto& each) { return each == model->get(); });
     remove_names(**model);
     home_changed_ = home_changed_ || is_of_home(**model);
     const auto number = static_cast<std::size_t>(model - models_.begin());

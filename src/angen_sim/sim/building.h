@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -53,16 +53,13 @@ class Building {
     Vec3 place;  // see DeviceView::place()
     std::size_t order;
 
-    Heights heights() const {
-      return Heights{pose.position.z(), pose.position.z()} | Heights{place.z(), place.z()};
-    }
+    double low() const { return std::min(pose.position.z(), place.z()); }
+    double high() const { return std::max(pose.position.z(), place.z()); }
   };
   /// The devices whose last state has a field of that name and that are in `within`, or whose
   /// models are, in the order of the models.
   std::vector<FoundDevice> find_devices(const std::string& field,
                                         const Eigen::AlignedBox3d& within) const;
-  /// To be called when a device reports another state, or has moved.
-  void note_state(const LiveModel& live, DeviceInstance& device, MoverIndex::Moment when) const;
   /// To be called when a device has other fields than before.
   void forget_fields() {
     by_field_.clear();
@@ -159,6 +156,11 @@ class Building {
   std::vector<std::shared_ptr<const Plugin>> device_plugins();
   void append(LiveModel& live, Structure& all) const;
   HomeSurvey survey_home() const;
+  /// Whether the description of the home may change with that model: it says something of it, has a
+  /// door or elevator, or may be a wall.
+  static bool is_of_home(const LiveModel& live);
+  /// Whether storeys follow from it: it describes them, or rooms, or has walls, a floor or doors.
+  static bool may_have_storeys(const desc::Model& model);
   void find_storeys(const std::vector<const desc::Model*>& added);
   std::size_t number_of(const LiveModel& live) const;
   void make_engines();
@@ -207,7 +209,7 @@ class Building {
   struct DevicesByField {
     std::vector<FoundDevice>
         fixed;             // by height: a storey's are found without going through a tower
-    double tallest = 0.0;  // m, the largest span of heights() of these
+    double tallest = 0.0;  // m, the largest span of low() to high() of these
     std::vector<FoundDevice> movable;
   };
   const DevicesByField& devices_by_field(const std::string& field) const;

@@ -1,7 +1,7 @@
 // Changes of models and lights that exist; building.cpp adds and removes them.
-#include <algorithm>
 #include <utility>
 
+#include "core/lists.h"
 #include "core/nearest.h"
 #include "core/text.h"
 #include "desc/own_lamp.h"
@@ -11,7 +11,7 @@
 namespace angen::sim {
 
 void Building::note_placed(LiveModel& live) {
-  if (std::find(placed_.begin(), placed_.end(), &live) == placed_.end()) placed_.push_back(&live);
+  if (!is_in(&live, placed_)) placed_.push_back(&live);
 }
 
 const std::vector<LiveModel*>& Building::note_awake(std::int64_t tick) {
@@ -31,7 +31,9 @@ const std::vector<LiveModel*>& Building::note_awake(std::int64_t tick) {
 void Building::note_moved(LiveModel& live, MoverIndex::Moment when) const {
   if (live.changed >= when) return;
   live.changed = when;
-  for (DeviceInstance& device : live.devices) note_state(live, device, when);
+  for (const DeviceInstance& device : live.devices) {
+    if (device.last) engines_->states.note(*device.last, when);
+  }
 }
 
 std::vector<LiveModel*> Building::take_placed() { return std::exchange(placed_, {}); }
@@ -150,8 +152,7 @@ void Building::drop_taken_lamps(LiveModel& live) {
         Diagnostic{Diagnostic::Severity::kWarning, device.element.source, text}.text());
     return true;
   };
-  live.devices.erase(std::remove_if(live.devices.begin(), live.devices.end(), is_taken),
-                     live.devices.end());
+  erase_if(live.devices, is_taken);
 }
 
 void Building::add_light(const desc::Light& light, const std::string& sdf, Nanoseconds now) {

@@ -4,7 +4,6 @@
 #include <exception>
 #include <functional>
 #include <limits>
-#include <utility>
 
 #include "core/alike.h"
 #include "core/nearest.h"

@@ -4,12 +4,12 @@
 #include <optional>
 #include <set>
 
+#include "core/lists.h"
+#include "core/named.h"
 #include "core/names.h"
 #include "desc/own_lamp.h"
 #include "plugin/wiring.h"
-#include "sim/customs.h"
 #include "sim/wiring.h"
-#include "sim/with_source.h"
 
 namespace angen::sim {
 
@@ -132,7 +132,7 @@ class DeviceMaker {
  private:
   // Once where several leaves read one plug-in.
   void warn(const std::string& text) {
-    if (std::find(warnings_.begin(), warnings_.end(), text) != warnings_.end()) return;
+    if (is_in(text, warnings_)) return;
     warnings_.push_back(text);
   }
 
@@ -195,9 +195,7 @@ class DeviceMaker {
     if (name.empty()) return 0;
     const std::string prefix = model_.name + "::";
     const std::string local = name.rfind(prefix, 0) == 0 ? name.substr(prefix.size()) : name;
-    for (std::uint32_t i = 0; i < model_.links.size(); ++i) {
-      if (model_.links[i].name == local) return i;
-    }
+    if (const auto index = index_in(model_.links, local)) return *index;
     throw Error("model '" + model_.name + "' has no link '" + name + "'; known are " +
                 join_names(info_.links));
   }
@@ -255,10 +253,8 @@ class DeviceMaker {
   void check_joints_named(const desc::Plugin& described) const {
     for (const Element& child : described.element.children) {
       if (child.name != "joint" || info_.joint(child.text) != nullptr) continue;
-      std::vector<std::string> known;
-      for (const ModelInfo::Joint& joint : info_.joints) known.push_back(joint.name);
       throw Error(child.source, "model '" + model_.name + "' has no joint '" + child.text +
-                                    "'; known are " + join_names(known));
+                                    "'; known are " + join_names(names_in(info_.joints)));
     }
   }
 
@@ -316,6 +312,25 @@ void remake_own_lamp(LiveModel& live, DeviceInstance& lamp, bool keep_level, Cat
   lamp.error.clear();
   lamp.idle_until = 0;
   lamp.to_report = true;
+}
+
+std::vector<std::string> ignored(const Error& error) {
+  std::vector<std::string> texts;
+  for (const Diagnostic& each : error.diagnostics()) texts.push_back(each.text() + " (ignored)");
+  return texts;
+}
+
+std::vector<std::string> set_aside(const Error& error, const desc::Customs& customs) {
+  if (!customs.sets_aside) throw Error(error);
+  return ignored(error);
+}
+
+std::vector<std::string> finish(const Params& params, const desc::Customs& customs) {
+  std::vector<std::string> texts;
+  if (!customs.sets_aside) params.finish();
+  for (const Diagnostic& each : params.unread()) texts.push_back(each.text() + " (ignored)");
+  for (const Diagnostic& warning : params.warnings()) texts.push_back(warning.text());
+  return texts;
 }
 
 }  // namespace angen::sim

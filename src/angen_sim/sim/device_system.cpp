@@ -4,7 +4,7 @@
 
 #include "plugin/declared.h"
 #include "plugin/outputs.h"
-#include "plugin/report_period.h"
+#include "plugin/reading.h"
 #include "sim/command_queue.h"
 #include "sim/guard.h"
 #include "sim/view.h"
@@ -170,15 +170,13 @@ void DeviceSystem::report(Building& building, Clock clock, Snapshot& next) {
     device.cost += meter_.watch.lap();
     if (all) device.to_report = false;
     if (device.last && device.last->same_values(device.scratch)) continue;
-    const bool other_fields = !device.last || !device.last->same_names(device.scratch);
-    device.scratch.stamp = clock.time;
-    device.last = std::make_shared<const Reading>(device.scratch);
-    if (other_fields) {
-      device.changes = {};
+    if (!device.last || !device.last->same_names(device.scratch)) {
       building.forget_fields();
     } else {
-      building.note_state(live, device, building.engines().movers.now());
+      building.engines().states.note(device.scratch, building.engines().movers.now());
     }
+    device.scratch.stamp = clock.time;
+    device.last = std::make_shared<const Reading>(device.scratch);
     next.devices.set(index, device.last);
     next.new_states.push_back(index);
   }

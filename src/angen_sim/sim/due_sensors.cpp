@@ -37,10 +37,7 @@ bool queries_unchanged(const Engines& engines, const LiveModel& live,
   if (queried.model && model_changed) return false;
   if (queried.heat && heat_changed(engines, sensor)) return false;
   if (queried.heat_set && heat_set(engines, sensor)) return false;
-  if (queried.devices &&
-      engines.states.changed_since(queried.fields, queried.heights, sensor.seen)) {
-    return false;
-  }
+  if (queried.devices && engines.states.changed_since(queried.fields, sensor.seen)) return false;
   if (queried.light && !light_unchanged(engines, sensor)) return false;
   if (queried.contacts && contacts_revision(engines, sensor) != sensor.contacts_seen) return false;
   return !sensor.link_moves || !model_changed || pose_of(engines, live, sensor) == sensor.seen_from;
@@ -127,7 +124,7 @@ DueSensors::Visit DueSensors::visit(const Engines& engines, std::uint32_t index,
   sensor.unchanged = changed ? 0 : sensor.unchanged + 1;
   if (!sensor.idle) idle_until_[index] = 0;  // it may depend on `unchanged`
   if (changed || !is_idle(index, clock)) return Visit::kSample;
-  if (!sensor.idle && !begin_idle(index, sensor, next)) return Visit::kSample;
+  if (!sensor.idle && !begin_idle(index, clock, next)) return Visit::kSample;
   stop_visits(engines, index);
   return Visit::kRepeat;
 }
@@ -147,19 +144,32 @@ Nanoseconds DueSensors::idle_until(SensorInstance& sensor, Nanoseconds after) co
                                                 sensor.key, sensor.known_noise));
 }
 
+bool DueSensors::stays(std::uint32_t index, Clock clock) {
+  const SensorInstance& sensor = *entries_[index].sensor;
+  return sensor.lasts && sensor.up_to_date && sensor.scans.size() == 1 && sensor.near == nullptr &&
+         !sensor.queried.any() && is_idle(index, clock);
+}
+
 bool DueSensors::note_sampled(std::uint32_t index, Clock clock) {
   SensorInstance& sensor = *entries_[index].sensor;
   idle_until_[index] = idle_until(sensor, clock.time);
   return idle_until_[index] > clock.time;
 }
 
-/// From now on the sensor repeats its reading, if that is the last one, or makes it when it is
-/// read.
-bool DueSensors::begin_idle(std::uint32_t index, SensorInstance& sensor, Snapshot& next) {
+bool DueSensors::begin_idle(std::uint32_t index, Clock clock, Snapshot& next) {
+  SensorInstance& sensor = *entries_[index].sensor;
+  if (idle_until_[index] <= clock.time) return false;
   std::shared_ptr<const LazyReading> lazy = sensor.lazy_reading();
   if (lazy ? !sensor.published.reading : !sensor.up_to_date) return false;
   sensor.idle = true;
   if (!lazy) return true;
+  const Nanoseconds last = next.stamp(index);
+  if (last < clock.time && last != sensor.published.reading->stamp) {
+    // The lazy one makes the next publication, not the last one, which repeated a reading.
+    auto repeated = std::make_shared<Reading>(*sensor.published.reading);
+    repeated->stamp = last;
+    sensor.published.reading = std::move(repeated);
+  }
   sensor.published.lazy = std::move(lazy);
   next.sensors.set(index, sensor.published);
   return true;
@@ -214,7 +224,7 @@ void DueSensors::note_moved(const LiveModel& live) {
   }
 }
 
-std::int64_t DueSensors::next_end(Building& building, Clock clock, std::int64_t end) {
+std::int64_t DueSensors::next_end(Building& building, Clock clock, std::int64_t end, bool moving) {
   if (outdated_) list(building, clock.time);
   const std::int64_t soonest = clock.time / clock.step + 1;
   const Engines& engines = building.engines();
@@ -235,7 +245,8 @@ std::int64_t DueSensors::next_end(Building& building, Clock clock, std::int64_t 
     const SensorInstance& sensor = *entries_[index].sensor;
     if (!sensor.error.empty() || scheduler_.is_idle(index)) continue;
     if (sensor.on_demand() && !requested_.has(sensor.kind, sensor.name)) continue;
-    const bool is_idle = sensor.idle && unchanged(engines, entries_[index]);
+    const bool is_idle =
+        sensor.idle && (!moving || sensor.unchanged > 0) && unchanged(engines, entries_[index]);
     stop_for(sensor.schedule, is_idle ? idle_until_[index] : 0);
   }
   return end;

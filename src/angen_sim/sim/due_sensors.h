@@ -34,8 +34,14 @@ class DueSensors {
   /// What the sensor does at this due time. One that repeats its reading, and that only changes in
   /// its watch regions, or of its model, can wake, is not visited again until then.
   Visit visit(const Engines& engines, std::uint32_t index, Clock clock, Snapshot& next);
+  /// Whether its reading stays although something moves in its region. The hits of its rays must
+  /// be as at its last sample; it must depend on nothing else but time.
+  bool stays(std::uint32_t index, Clock clock);
   /// The sensor has sampled. Whether its next sample would be the same, but for noise.
   bool note_sampled(std::uint32_t index, Clock clock);
+  /// From now on the sensor repeats its reading, if that is the last one, or makes it when it is
+  /// read. Returns false if its next sample may be another, or if it has yet to publish this one.
+  bool begin_idle(std::uint32_t index, Clock clock, Snapshot& next);
   /// Sensors that are due and were not visited publish their last readings again; ends what
   /// collect() began.
   void publish_idle(const Engines& engines, Clock clock, Snapshot& next);
@@ -43,9 +49,9 @@ class DueSensors {
   /// The sensors of a model that has moved, or is awake, are visited at their next due times.
   void note_moved(const LiveModel& live);
 
-  /// The end of the next tick that sensors need, `end` at the latest, while nothing changes that
-  /// they query.
-  std::int64_t next_end(Building& building, Clock clock, std::int64_t end);
+  /// The end of the next tick that sensors need, `end` at the latest. While something is `moving`,
+  /// a sensor for which something had changed at its last sample needs the next one, too.
+  std::int64_t next_end(Building& building, Clock clock, std::int64_t end, bool moving);
   /// Counts the publications of the ticks from that of `clock` up to `tick`, which
   /// next_end() allowed to be skipped.
   void skip_to(Clock clock, std::int64_t tick, Snapshot& next);
@@ -57,7 +63,6 @@ class DueSensors {
   bool is_idle(std::uint32_t index, Clock clock);
   Nanoseconds idle_until(SensorInstance& sensor, Nanoseconds after) const;
   void stop_visits(const Engines& engines, std::uint32_t index);
-  static bool begin_idle(std::uint32_t index, SensorInstance& sensor, Snapshot& next);
   /// Whether all that the sensor sampled last is unchanged.
   static bool unchanged(const Engines& engines, const Entry& entry);
 

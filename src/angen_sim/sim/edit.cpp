@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/inertia.h"
 #include "core/limits.h"
 #include "core/text.h"
 #include "sim/building.h"
@@ -75,8 +74,7 @@ class Apply {
       : building_(building), physics_(building.engines().physics), now_(now) {}
 
   void operator()(const SetModelState& edit) {
-    const Entity entity = find_entity(building_, edit.model);
-    if (!entity.is_model) throw Error("'" + printable(edit.model) + "' is not a model");
+    const Entity entity = find_model(edit.model);
     LiveModel& live = *entity.model;
     const Motion to = in_world(building_, edit.state);
     const Pose from = motion_of(building_, entity).pose;
@@ -104,9 +102,7 @@ class Apply {
       throw Error(std::to_string(edit.joints.size()) + " joints and " +
                   std::to_string(edit.positions.size()) + " positions");
     }
-    const Entity entity = find_entity(building_, edit.model);
-    if (!entity.is_model) throw Error("'" + printable(edit.model) + "' is not a model");
-    LiveModel& live = *entity.model;
+    LiveModel& live = *find_model(edit.model).model;
     std::vector<std::optional<double>> positions(live.parts.joints.size());
     for (std::size_t i = 0; i < edit.joints.size(); ++i) {
       check("position", limits::kAngle, edit.positions[i]);
@@ -260,6 +256,12 @@ class Apply {
 
  private:
   static constexpr int kMaxIterations = 10'000;
+
+  Entity find_model(const std::string& name) const {
+    const Entity entity = find_entity(building_, name);
+    if (!entity.is_model) throw Error("'" + printable(name) + "' is not a model");
+    return entity;
+  }
 
   static void check_share(const char* what, double value) {
     if (!(value >= 0.0 && value <= 1.0)) {

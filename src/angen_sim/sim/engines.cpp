@@ -1,16 +1,13 @@
 #include "sim/engines.h"
 
-#include <algorithm>
 #include <set>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 #include "desc/own_lamp.h"
 #include "light/photometry.h"
 #include "plugin/plugin.h"
 #include "sim/joined.h"
-#include "sim/like_visual.h"
 
 namespace angen::sim {
 

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/named.h"
 #include "desc/world.h"
 #include "light/lighting.h"
 #include "physics/world.h"
@@ -114,5 +115,12 @@ class Engines {
   MoverIndex::Moment standing_changed_ = 0;
   MoverIndex::Moment light_followed_ = 0;  // advance_light() knows all changes before
 };
+
+/// The number of the link's visual that a collision has its surface from (albedo, temperature):
+/// the visual of the same name, or its first; -1 if the link has none.
+inline int like_visual(const desc::Link& link, const desc::Collision& collision) {
+  if (const auto index = index_in(link.visuals, collision.name)) return static_cast<int>(*index);
+  return link.visuals.empty() ? -1 : 0;
+}
 
 }  // namespace angen::sim

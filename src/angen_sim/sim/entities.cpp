@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/named.h"
 #include "core/nearest.h"
 #include "core/text.h"
 #include "sim/building.h"
@@ -28,29 +29,18 @@ Parted part(const Building& building, const std::string& name) {
 }
 
 template <class T>
-std::optional<std::uint32_t> index_of(const std::vector<T>& all, const std::string& name) {
-  const auto at =
-      std::find_if(all.begin(), all.end(), [&](const T& item) { return item.name == name; });
-  if (at == all.end()) return std::nullopt;
-  return static_cast<std::uint32_t>(at - all.begin());
-}
-
-template <class T>
 Error none_of(const Parted& parted, const char* what, const std::vector<T>& all) {
-  std::vector<std::string> names;
-  names.reserve(all.size());
-  for (const T& item : all) names.push_back(item.name);
   return Error("model '" + parted.model->desc->name + "' has no " + what + " '" +
-               printable(parted.rest) + "'; " + did_you_mean(parted.rest, names));
+               printable(parted.rest) + "'; " + did_you_mean(parted.rest, names_in(all)));
 }
 
 std::optional<Entity> find_collision(const Parted& parted) {
   const std::vector<desc::Link>& links = parted.model->desc->links;
   const std::size_t split = parted.rest.rfind("::");
   if (split == std::string::npos) return std::nullopt;
-  const auto link = index_of(links, parted.rest.substr(0, split));
+  const auto link = index_in(links, parted.rest.substr(0, split));
   if (!link) return std::nullopt;
-  const auto collision = index_of(links[*link].collisions, parted.rest.substr(split + 2));
+  const auto collision = index_in(links[*link].collisions, parted.rest.substr(split + 2));
   if (!collision) return std::nullopt;
   return Entity{parted.model, *link, links[*link].collisions[*collision].pose, false};
 }
@@ -60,7 +50,7 @@ std::optional<Entity> find_collision(const Parted& parted) {
 Entity find_link(const Building& building, const std::string& name) {
   const Parted parted = part(building, name);
   const std::vector<desc::Link>& links = parted.model->desc->links;
-  if (const auto link = index_of(links, parted.rest)) return {parted.model, *link, {}, false};
+  if (const auto link = index_in(links, parted.rest)) return {parted.model, *link, {}, false};
   throw none_of(parted, "link", links);
 }
 
@@ -77,7 +67,7 @@ Entity find_entity(const Building& building, const std::string& name) {
 FoundJoint find_joint(const Building& building, const std::string& name) {
   const Parted parted = part(building, name);
   const std::vector<desc::Joint>& joints = parted.model->desc->joints;
-  if (const auto joint = index_of(joints, parted.rest)) return {parted.model, *joint};
+  if (const auto joint = index_in(joints, parted.rest)) return {parted.model, *joint};
   throw none_of(parted, "joint", joints);
 }
 

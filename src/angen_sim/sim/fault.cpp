@@ -6,6 +6,8 @@
 #include <sstream>
 
 #include "core/diagnostics.h"
+#include "core/lists.h"
+#include "core/named.h"
 #include "core/nearest.h"
 #include "core/text.h"
 
@@ -37,12 +39,6 @@ const std::vector<Form>& forms() {
   return all;
 }
 
-std::vector<std::string> form_names() {
-  std::vector<std::string> names;
-  for (const Form& form : forms()) names.emplace_back(form.name);
-  return names;
-}
-
 double number(const std::string& key, const std::string& text, double low, double high) {
   const std::optional<double> value = parse_finite(text);
   if (!value || *value < low || *value > high) {
@@ -65,7 +61,7 @@ Numbers numbers_of(const Form& form, std::istringstream& words) {
   for (std::string word; words >> word;) {
     const std::size_t split = word.find('=');
     const std::string key = word.substr(0, split);
-    if (split == std::string::npos || std::find(known.begin(), known.end(), key) == known.end()) {
+    if (split == std::string::npos || !is_in(key, known)) {
       throw Error(std::string("fault ") + form.name + ": '" + printable(word) +
                   "' is not one of its numbers, as " + known.front() + "=1; it takes " +
                   join_names(known));
@@ -119,13 +115,11 @@ std::vector<Fault> parse_faults(const std::string& text) {
     std::istringstream words(part);
     std::string name;
     if (!(words >> name)) continue;
-    const auto form = std::find_if(forms().begin(), forms().end(),
-                                   [&](const Form& each) { return each.name == name; });
-    if (form == forms().end()) {
-      throw Error("no fault '" + printable(name) + "'; " + did_you_mean(name, form_names()));
+    const auto form = index_in(forms(), name);
+    if (!form) {
+      throw Error("no fault '" + printable(name) + "'; " + did_you_mean(name, names_in(forms())));
     }
-    found.push_back(
-        made_of(static_cast<Fault::Kind>(form - forms().begin()), numbers_of(*form, words)));
+    found.push_back(made_of(static_cast<Fault::Kind>(*form), numbers_of(forms()[*form], words)));
   }
   return found;
 }

@@ -2,40 +2,19 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "plugin/declared.h"
-#include "plugin/ray_color.h"
+#include "plugin/ray_geometry.h"
 #include "plugin/wiring.h"
-#include "sim/customs.h"
 #include "sim/device_maker.h"
 #include "sim/joined.h"
 #include "sim/wiring.h"
-#include "sim/with_source.h"
 
 namespace angen::sim {
 
 namespace {
 
 constexpr MoverIndex::Moment kUnmoved = 1000;  // ticks, after which a mover is settled in caches
-
-const char* type_name(desc::Joint::Type type) {
-  switch (type) {
-    case desc::Joint::Type::kFixed:
-      return "fixed";
-    case desc::Joint::Type::kRevolute:
-      return "revolute";
-    case desc::Joint::Type::kPrismatic:
-      return "prismatic";
-    case desc::Joint::Type::kBall:
-      return "ball";
-    case desc::Joint::Type::kUniversal:
-      return "universal";
-    case desc::Joint::Type::kScrew:
-      return "screw";
-  }
-  return "";
-}
 
 // The world, and all links that can never move against it.
 std::set<std::string> fixed_to_world(const desc::Model& model) {
@@ -96,9 +75,10 @@ void CachedScan::measure(Engines& engines) {
   region.resize(cache.reach());
   settled_at = 0;
   settled = 0;
+  may_differ = true;
 }
 
-void CachedScan::cast(const Engines& engines, MoverIndex::SplitMovers& scratch,
+bool CachedScan::cast(const Engines& engines, MoverIndex::SplitMovers& scratch,
                       std::vector<rays::Hit>& hits) {
   const MoverIndex::Moment now = engines.movers.now();
   hits.resize(cache.size());
@@ -110,8 +90,11 @@ void CachedScan::cast(const Engines& engines, MoverIndex::SplitMovers& scratch,
     region.split(settled_at, scratch);
     settled = scratch.still.size();
     cache.settle(engines.rays, scratch.still);
+    may_differ = true;
   }
-  cache.cast(engines.rays, scratch.moving, hits.data());
+  const bool hit_before = may_differ;
+  may_differ = cache.cast(engines.rays, scratch.moving, hits.data());
+  return may_differ || hit_before;
 }
 
 void SensorInstance::forget_regions() {
@@ -146,7 +129,7 @@ ModelInfo info_of(const desc::Model& model) {
   }
   const std::set<std::string> fixed = fixed_to_world(model);
   for (const desc::Joint& joint : model.joints) {
-    ModelInfo::Joint as{joint.name, type_name(joint.type), joint.parent, joint.child};
+    ModelInfo::Joint as{joint.name, joint.type_name(), joint.parent, joint.child};
     as.height = (model.pose * joint.anchor).z();
     as.on_world = fixed.count(joint.parent) != 0 && fixed.count(joint.child) == 0;
     if (!joint.axes.empty()) {

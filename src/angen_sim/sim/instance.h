@@ -24,7 +24,6 @@ struct DeviceInstance : DeviceInfo {
   Reading scratch;                 // it reports into this, which is then compared
   std::size_t checked_fields = 0;  // how many of these
   std::shared_ptr<const Reading> last;
-  StateChanges::Device changes;
   LimbPoses limbs;             // limbs with that state
   Nanoseconds updated = 0;     // when it last was
   Nanoseconds idle_until = 0;  // unless it is commanded or its model wakes
@@ -47,13 +46,14 @@ struct CachedScan {
   /// Casts against the static scene again, after static shapes came or went; the scene must be
   /// committed.
   void measure(Engines& engines);
-  /// The hits now.
-  void cast(const Engines& engines, MoverIndex::SplitMovers& scratch, std::vector<rays::Hit>& hits);
+  /// The hits now; false if they are those of the last cast.
+  bool cast(const Engines& engines, MoverIndex::SplitMovers& scratch, std::vector<rays::Hit>& hits);
 
   rays::RayCache cache;
   MoverIndex::WatchRegion region;
   MoverIndex::Moment settled_at = 0;  // movers that have not moved since are settled in the cache
   std::size_t settled = 0;            // how many
+  bool may_differ = true;             // the next hits from those of the last cast
 };
 
 /// The region through which light reaches a sensor that measures it, at its present pose.
@@ -81,7 +81,6 @@ struct Queried {
   bool heat = false;                // temperatures of surfaces
   bool heat_set = false;            // only when they begin to change
   bool model = false;               // links and joints of its own model
-  Heights heights{};                // at which it queried devices
 
   bool any() const { return contacts || light || devices || other || heat || heat_set || model; }
   /// Whether only its model, and what happens in the regions that it watches, change the answers;
@@ -90,9 +89,8 @@ struct Queried {
     return !(contacts || light || devices || other || heat || (heat_set && !near));
   }
   Queried operator|(const Queried& o) const {
-    return {contacts || o.contacts, light || o.light,  devices || o.devices,
-            other || o.other,       fields | o.fields, heat || o.heat,
-            heat_set || o.heat_set, model || o.model,  heights | o.heights};
+    return {contacts || o.contacts, light || o.light, devices || o.devices,   other || o.other,
+            fields | o.fields,      heat || o.heat,   heat_set || o.heat_set, model || o.model};
   }
 };
 
@@ -105,6 +103,7 @@ struct SensorInstance : SensorInfo {
   MoverIndex::Moment seen = 0;                     // its last sample has all changes before
   bool idle = false;        // its samples are replaced until something changes
   bool up_to_date = false;  // the last published reading has the values of its last sample
+  bool lasts = false;       // while nothing changes, its samples are the last one for some time
   int unchanged = 0;        // due times in a row at which all that it queries was
   Queried queried{false, false, false, true, 0, false, false, false};  // for its reading
   bool link_moves = true;  // false if its link is static

@@ -1,8 +1,6 @@
 #include "sim/mover_index.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 
 #include "core/cells.h"
@@ -15,29 +13,8 @@ constexpr double kCell = 4.0;       // m
 constexpr double kSlack = 0.25;     // m, that a mover's box is larger by, on each side
 constexpr double kManyCells = 512;  // a box in more is checked in each query
 
-using Cells = std::array<int, 6>;  // first and last along x, y, z
-
-bool cells_of(const MoverIndex::Box& box, Cells& cells) {
-  double count = 1.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto at = static_cast<std::size_t>(2 * axis);
-    const double first = std::floor(box.min()[axis] / kCell);
-    const double last = std::floor(box.max()[axis] / kCell);
-    if (!(first > -kCellLimit && last < kCellLimit)) return false;
-    count *= last - first + 1.0;
-    cells[at] = static_cast<int>(first);
-    cells[at + 1] = static_cast<int>(last);
-  }
-  return count <= kManyCells;
-}
-
-template <class F>
-void each_cell(const Cells& cells, F&& visit) {
-  for (int x = cells[0]; x <= cells[1]; ++x) {
-    for (int y = cells[2]; y <= cells[3]; ++y) {
-      for (int z = cells[4]; z <= cells[5]; ++z) visit(cell_key(x, y, z));
-    }
-  }
+bool cells_of(const MoverIndex::Box& box, CellRange& cells) {
+  return find_cells(box.min(), box.max(), kCell, kCellLimit, kManyCells, cells);
 }
 
 // Keeps the order: the oldest is mostly removed first, and is then found at once.
@@ -107,7 +84,7 @@ void MoverIndex::each_region_in(const Box& box, F&& visit) {
     if (found.box.intersects(box)) visit(region, found);
   };
   for (const std::uint32_t region : wide_) check(region);
-  Cells cells{};
+  CellRange cells{};
   if (!cells_of(box, cells)) {
     for (std::uint32_t region = 0; region < regions_.size(); ++region) {
       if (regions_[region].used) check(region);
@@ -153,7 +130,7 @@ void MoverIndex::close(std::uint32_t region) {
 
 bool MoverIndex::find_cells(const Box& box, std::vector<std::uint32_t>& numbers) {
   numbers.clear();
-  Cells cells{};
+  CellRange cells{};
   if (!cells_of(box, cells)) return false;
   each_cell(cells, [&](std::uint64_t key) {
     const auto count = static_cast<std::uint32_t>(cells_.size());

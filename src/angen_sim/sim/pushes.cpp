@@ -2,18 +2,10 @@
 
 #include <algorithm>
 
+#include "core/lists.h"
 #include "sim/instance.h"
 
 namespace angen::sim {
-
-namespace {
-
-template <class T, class F>
-void erase_if(std::vector<T>& all, F&& matches) {
-  all.erase(std::remove_if(all.begin(), all.end(), matches), all.end());
-}
-
-}  // namespace
 
 void Pushes::add(const LiveModel& model, std::uint32_t link, const Vec3& force, const Vec3& torque,
                  const PushTime& time) {

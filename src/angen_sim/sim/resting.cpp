@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/lists.h"
+
 namespace angen::sim {
 
 namespace {
@@ -32,7 +34,7 @@ Resting::Body Resting::add(const Pose& pose) {
 void Resting::remove(Body body) {
   bodies_[body] = {};
   free_.push_back(body);
-  moving_.erase(std::remove(moving_.begin(), moving_.end(), body), moving_.end());
+  erase_if(moving_, [&](const auto& each) { return each == body; });
 }
 
 bool Resting::move(Body body, const Pose& pose) {

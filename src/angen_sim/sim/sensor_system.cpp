@@ -52,7 +52,10 @@ void SensorSystem::sample(Building& building, Clock clock, std::int64_t tick, Sn
   }
   cast(engines);
   const std::size_t repeated = next.new_readings.size();
-  for (const Sample& sample : samples_) read(building, sample, clock, tick, next);
+  for (const Sample& sample : samples_) {
+    read(building, sample, clock, tick, next);
+    due_[sample.index].sensor->cost += meter_.watch.lap();
+  }
   merge_from(next.new_readings, repeated);
   due_.publish_idle(engines, clock, next);
   engines.movers.advance();
@@ -118,18 +121,20 @@ void SensorSystem::cast(Engines& engines) {
   }
 }
 
-Hits SensorSystem::hits_of(Engines& engines, const Sample& sample) {
-  if (sample.scan == nullptr) return {hits_.data() + sample.first_ray, sample.ray_count};
-  sample.scan->cast(engines, split_, cached_hits_);
-  return {cached_hits_.data(), cached_hits_.size()};
-}
-
 void SensorSystem::read(Building& building, const Sample& sample, Clock clock, std::int64_t tick,
                         Snapshot& next) {
   SensorInstance& sensor = *due_[sample.index].sensor;
   Engines& engines = building.engines();
-  const Hits hits = hits_of(engines, sample);
+  Hits hits{hits_.data() + sample.first_ray, sample.ray_count};
   sensor.seen = engines.movers.now() + 1;
+  if (sample.scan != nullptr) {
+    const bool differ = sample.scan->cast(engines, split_, cached_hits_);
+    if (!differ && !sample.queried.any() && due_.stays(sample.index, clock)) {
+      if (publishes(sensor, clock)) repeat(sample.index, next);
+      return;
+    }
+    hits = {cached_hits_.data(), cached_hits_.size()};
+  }
   const std::string thrown = thrown_by(
       [&] { note_sampled(engines, sample, measure(building, sample, hits, clock, tick), clock); });
   if (!thrown.empty()) {
@@ -144,7 +149,7 @@ void SensorSystem::read(Building& building, const Sample& sample, Clock clock, s
   if (publishes(sensor, clock) || (reading.urgent && !sensor.up_to_date)) {
     publish(sample.index, clock.time, next);
   }
-  sensor.cost += meter_.watch.lap();
+  due_.begin_idle(sample.index, clock, next);
 }
 
 /// The sensor's reading, with its noise.
@@ -170,8 +175,8 @@ Queried SensorSystem::measure(Building& building, const Sample& sample, Hits hit
 void SensorSystem::note_sampled(const Engines& engines, const Sample& sample,
                                 const Queried& queried, Clock clock) {
   SensorInstance& sensor = *due_[sample.index].sensor;
-  sensor.up_to_date =
-      due_.note_sampled(sample.index, clock) && as_published(sensor) && !sensor.lazy_reading();
+  sensor.lasts = due_.note_sampled(sample.index, clock) && !sensor.lazy_reading();
+  sensor.up_to_date = sensor.lasts && as_published(sensor);
   sensor.queried = sample.queried | queried;
   const bool light_twice = sample.queried.light && queried.light;
   sensor.queried.other =
@@ -201,9 +206,11 @@ void SensorSystem::end_idle(std::uint32_t index, Clock clock, Snapshot& next) {
   SensorInstance& sensor = *due_[index].sensor;
   if (!std::exchange(sensor.idle, false) || !sensor.published.lazy) return;
   const Nanoseconds last = sensor.schedule.last_sample(clock.time - clock.step);
-  sensor.sensor->skip(last, draws_at(sensor.schedule, last, seed_, sensor.key));
-  if (publishes(sensor, clock)) return;
-  sensor.published = {next.reading(index), nullptr};  // it may be lazy again before the next
+  if (last > sensor.latest.stamp) {
+    sensor.sensor->skip(last, draws_at(sensor.schedule, last, seed_, sensor.key));
+  }
+  if (!publishes(sensor, clock)) sensor.published.reading = next.reading(index);
+  sensor.published.lazy = nullptr;  // it may be lazy again before the next publication
   next.sensors.set(index, sensor.published);
 }
 

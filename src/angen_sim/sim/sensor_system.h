@@ -33,7 +33,6 @@ class SensorSystem {
   void begin_sample(Building& building, std::uint32_t index, Clock clock, Snapshot& next);
   void aim(Building& building, std::uint32_t index, Clock clock);
   void cast(Engines& engines);
-  Hits hits_of(Engines& engines, const Sample& sample);
   void read(Building& building, const Sample& sample, Clock clock, std::int64_t tick,
             Snapshot& next);
   Queried measure(Building& building, const Sample& sample, Hits hits, Clock clock,

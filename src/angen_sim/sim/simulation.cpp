@@ -94,10 +94,11 @@ struct Simulation::Impl {
          tick_of(building.pushes().next(next.time)) + (moving ? 0 : 1)});
     const std::int64_t steps = std::min(end - next.tick, commands.ticks_to_go());
     if (steps <= 1) return soonest;
-    return std::max(soonest,
-                    sensors.due().next_end(
-                        building, clock(),
-                        std::min(next.tick + steps, devices.next_end(building, clock(), moving))));
+    return std::max(
+        soonest,
+        sensors.due().next_end(
+            building, clock(),
+            std::min(next.tick + steps, devices.next_end(building, clock(), moving)), moving));
   }
 
   /// Time passes without ticks.

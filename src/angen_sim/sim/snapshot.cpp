@@ -4,6 +4,13 @@
 
 namespace angen::sim {
 
+std::uint32_t Structure::first_link(std::uint32_t model) const {
+  const auto first =
+      std::lower_bound(links.begin(), links.end(), model,
+                       [](const LinkEntry& link, std::uint32_t m) { return link.model < m; });
+  return static_cast<std::uint32_t>(first - links.begin());
+}
+
 Nanoseconds Snapshot::stamp(std::size_t sensor) const {
   if (sensors[sensor].stamp >= 0) return sensors[sensor].stamp;
   const SensorEntry& entry = structure->sensors[sensor];

@@ -98,6 +98,15 @@ struct Structure {
   Vec3 gravity = Vec3::Zero();              // m/s^2
   std::vector<Storey> storeys;              // result of storeys_of()
   std::shared_ptr<const DerivedHome> home;  // home of these models
+
+  const desc::Link& described(const LinkEntry& link) const {
+    return models[link.model]->links[link.link];
+  }
+  const desc::Joint& described(const JointEntry& joint) const {
+    return models[joint.model]->joints[joint.joint];
+  }
+  /// The index in `links` of a model's first one: each model has one, and they are in its order.
+  std::uint32_t first_link(std::uint32_t model) const;
 };
 
 struct Counts {

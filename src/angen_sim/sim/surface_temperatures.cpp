@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lists.h"
+
 namespace angen::sim {
 
 void SurfaceTemperatures::set(rays::ShapeId shape, double temperature, double limit,
@@ -18,12 +20,8 @@ void SurfaceTemperatures::set(rays::ShapeId shape, double temperature, double li
 }
 
 void SurfaceTemperatures::remove(rays::ShapeId shape) {
-  changing_.erase(std::remove_if(changing_.begin(), changing_.end(),
-                                 [&](const Changing& each) { return each.shape == shape; }),
-                  changing_.end());
-  changes_.erase(std::remove_if(changes_.begin(), changes_.end(),
-                                [&](const Change& each) { return each.shape == shape; }),
-                 changes_.end());
+  erase_if(changing_, [&](const Changing& each) { return each.shape == shape; });
+  erase_if(changes_, [&](const Change& each) { return each.shape == shape; });
 }
 
 SurfaceTemperatures::Change& SurfaceTemperatures::note_changed(rays::ShapeId shape, Moment moment) {
@@ -68,9 +66,7 @@ void SurfaceTemperatures::advance(Nanoseconds now, Moment moment) {
     rays_.warm(each.shape, Warming::constant(each.course.limit));
     note_changed(each.shape, moment);
   }
-  changing_.erase(std::remove_if(changing_.begin(), changing_.end(),
-                                 [](const Changing& each) { return each.arrived; }),
-                  changing_.end());
+  erase_if(changing_, [](const Changing& each) { return each.arrived; });
 }
 
 }  // namespace angen::sim

@@ -1,9 +1,5 @@
 #include "sim/view.h"
 
-#include <utility>
-
-#include "plugin/view.h"
-
 namespace angen::sim {
 
 namespace {
@@ -58,7 +54,6 @@ std::vector<DeviceView> InstanceView::devices(const std::string& field,
                                               const Eigen::AlignedBox3d& within) const {
   queried_.devices = true;
   queried_.fields |= engines_.states.bit_of(field);
-  queried_.heights = queried_.heights | Heights{within.min().z(), within.max().z()};
   std::vector<DeviceView> found;
   const std::vector<Building::FoundDevice> all = building_.find_devices(field, within);
   found.reserve(all.size());

@@ -2,31 +2,14 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
-#include "plugin/wiring.h"
+#include "core/named.h"
+#include "sim/engines.h"
 #include "sim/joined.h"
-#include "sim/like_visual.h"
 
 namespace angen::sim {
 
 namespace {
-
-template <class List>
-std::vector<std::string> names_of(const List& list) {
-  std::vector<std::string> names;
-  names.reserve(list.size());
-  for (const auto& item : list) names.push_back(item.name);
-  return names;
-}
-
-template <class List>
-int index_of(const List& list, const std::string& name) {
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    if (list[i].name == name) return static_cast<int>(i);
-  }
-  return -1;
-}
 
 [[noreturn]] void unknown(const std::string& model, const char* what, const std::string& name,
                           const std::vector<std::string>& known) {
@@ -79,20 +62,20 @@ std::vector<double> ModelWiring::floors() const {
 }
 
 bool ModelWiring::has_joint(const std::string& joint) const {
-  return index_of(model_.joints, joint) >= 0;
+  return index_in(model_.joints, joint).has_value();
 }
 
-std::vector<std::string> ModelWiring::joint_names() const { return names_of(model_.joints); }
+std::vector<std::string> ModelWiring::joint_names() const { return names_in(model_.joints); }
 
 JointRef ModelWiring::joint(const std::string& joint) {
-  const int index = index_of(model_.joints, joint);
-  if (index < 0) unknown(model_.name, "joint", joint, names_of(model_.joints));
+  const auto index = index_in(model_.joints, joint);
+  if (!index) unknown(model_.name, "joint", joint, names_in(model_.joints));
   joints_.insert(joint);
-  return {index};
+  return {static_cast<int>(*index)};
 }
 
 JointLimits ModelWiring::limits(JointRef joint) const {
-  const desc::Joint& described = model_.joints.at(static_cast<std::size_t>(joint.index));
+  const desc::Joint& described = at(joint);
   if (described.axes.empty()) return {};
   const desc::JointAxis& axis = described.axes.front();
   const double effort = axis.effort >= 0.0 ? axis.effort : std::numeric_limits<double>::infinity();
@@ -101,37 +84,27 @@ JointLimits ModelWiring::limits(JointRef joint) const {
 
 LinkRef ModelWiring::link(const std::string& link) {
   const std::string& own = sensor_link_.empty() ? model_.links.front().name : sensor_link_;
-  const int index = index_of(model_.links, link.empty() ? own : link);
-  if (index < 0) unknown(model_.name, "link", link, names_of(model_.links));
-  return {index};
+  const auto index = index_in(model_.links, link.empty() ? own : link);
+  if (!index) unknown(model_.name, "link", link, names_in(model_.links));
+  return {static_cast<int>(*index)};
 }
 
-bool ModelWiring::is_fixed(JointRef joint) const {
-  return angen::sim::is_fixed(model_.joints.at(static_cast<std::size_t>(joint.index)));
-}
+bool ModelWiring::is_fixed(JointRef joint) const { return angen::sim::is_fixed(at(joint)); }
 
-std::string ModelWiring::child_of(JointRef joint) const {
-  return model_.joints.at(static_cast<std::size_t>(joint.index)).child;
-}
+std::string ModelWiring::child_of(JointRef joint) const { return at(joint).child; }
 
-Vec3 ModelWiring::anchor(JointRef joint) const {
-  return model_.joints.at(static_cast<std::size_t>(joint.index)).anchor;
-}
+Vec3 ModelWiring::anchor(JointRef joint) const { return at(joint).anchor; }
 
-Vec3 ModelWiring::axis(JointRef joint) const {
-  return model_.joints.at(static_cast<std::size_t>(joint.index)).axes.at(0).xyz;
-}
+Vec3 ModelWiring::axis(JointRef joint) const { return at(joint).axes.at(0).xyz; }
 
 double ModelWiring::mass(LinkRef link) const {
-  const std::string& name = model_.links.at(static_cast<std::size_t>(link.index)).name;
+  const std::string& name = at(link).name;
   double mass = 0.0;
   for (const desc::Link* l : moving_with(model_, name)) mass += l->inertial.mass;
   return mass;
 }
 
-Vec3 ModelWiring::center(LinkRef link) const {
-  return model_.links.at(static_cast<std::size_t>(link.index)).inertial.pose.position;
-}
+Vec3 ModelWiring::center(LinkRef link) const { return at(link).inertial.pose.position; }
 
 LightRef ModelWiring::light(const std::string& light) {
   std::vector<std::string> names;
@@ -148,15 +121,15 @@ LightRef ModelWiring::light(const std::string& light) {
 }
 
 std::vector<std::string> ModelWiring::collision_names(LinkRef link) const {
-  return names_of(model_.links.at(static_cast<std::size_t>(link.index)).collisions);
+  return names_in(at(link).collisions);
 }
 
 ContactRef ModelWiring::collision(LinkRef ref, const std::string& collision) {
   const std::size_t scope = collision.rfind("::");
   const std::string local = scope == std::string::npos ? collision : collision.substr(scope + 2);
-  const desc::Link& link = model_.links.at(static_cast<std::size_t>(ref.index));
-  if (index_of(link.collisions, local) < 0) {
-    unknown(model_.name, "collision", collision, names_of(link.collisions));
+  const desc::Link& link = at(ref);
+  if (!index_in(link.collisions, local)) {
+    unknown(model_.name, "collision", collision, names_in(link.collisions));
   }
   collisions_.push_back(model_.name + "::" + link.name + "::" + local);
   return {static_cast<int>(collisions_.size() - 1)};
@@ -164,10 +137,10 @@ ContactRef ModelWiring::collision(LinkRef ref, const std::string& collision) {
 
 std::optional<SensorPart> ModelWiring::sensor(const std::string& sensor) {
   for (std::size_t i = 0; i < model_.links.size(); ++i) {
-    const int index = index_of(model_.links[i].sensors, sensor);
-    if (index < 0) continue;
+    const auto index = index_in(model_.links[i].sensors, sensor);
+    if (!index) continue;
     sensors_.insert(sensor);
-    const desc::Sensor& found = model_.links[i].sensors[static_cast<std::size_t>(index)];
+    const desc::Sensor& found = model_.links[i].sensors[*index];
     return SensorPart{{static_cast<int>(i)}, found.pose, found.element};
   }
   return std::nullopt;

@@ -53,6 +53,13 @@ class ModelWiring : public Wiring {
   const std::vector<std::pair<int, double>>& led() const { return led_; }
 
  private:
+  const desc::Joint& at(JointRef joint) const {
+    return model_.joints.at(static_cast<std::size_t>(joint.index));
+  }
+  const desc::Link& at(LinkRef link) const {
+    return model_.links.at(static_cast<std::size_t>(link.index));
+  }
+
   const desc::Model& model_;
   const std::vector<Storey>& storeys_;
   std::string name_;

@@ -22,7 +22,7 @@ void JointStates::on_structure(const sim::Snapshot& snapshot, const std::vector<
     Source source;
     for (const sim::JointEntry& entry : structure.joints) {
       if (entry.model != robot.model) continue;
-      const desc::Joint& joint = structure.models[entry.model]->joints[entry.joint];
+      const desc::Joint& joint = structure.described(entry);
       if (joint.axes.size() != 1) continue;
       source.joints.joints.push_back(entry.name);
       source.names.push_back(joint.name);

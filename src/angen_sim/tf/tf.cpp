@@ -1,12 +1,8 @@
 #include "tf/tf.h"
 
-#include <tf2_msgs/TFMessage.h>
-
 #include <algorithm>
 #include <chrono>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "ros/convert.h"
 #include "ros/kinds/states.h"

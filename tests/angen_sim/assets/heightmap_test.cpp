@@ -1,6 +1,5 @@
-#include "assets/heightmap.h"
-
 #include "angen_sim/assets/pngs.h"
+#include "assets/mesh.h"
 #include "sdf/geometry.h"
 
 namespace angen::load {

@@ -1,11 +1,10 @@
-#include "physics/boxes.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 
 #include "core/random.h"
+#include "physics/touching.h"
 
 namespace angen::physics::testing {
 namespace {

@@ -58,6 +58,10 @@ TEST(Drive, WhoTouchesAWallOrAThingDoesMoreThanWalk) {
   EXPECT_EQ(world.longest_step(20), 20);
   world.run(1.5);
   EXPECT_EQ(world.longest_step(20), 1);
+  world.drive(body, {0, 0, 0}, 0.0, 150.0);
+  world.run(0.1);
+  EXPECT_TRUE(world.awake(body));
+  EXPECT_EQ(world.longest_step(20), 20) << "it rests at the wall";
 }
 
 TEST(Drive, WhatCameToRestAllowsLongSteps) {

@@ -1,5 +1,3 @@
-#include "physics/flat_parts.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "models.h"
+#include "physics/touching.h"
 
 namespace angen::physics::testing {
 namespace {

@@ -344,5 +344,29 @@ TEST(Friction, StaysWithinCoulombsLawAtTenThousandRandomPoints) {
   EXPECT_LT(worst, 1.02);
 }
 
+// Boxes jammed in a pit, whose bounds of friction never agree, fall asleep.
+TEST(Friction, LetsHeapsInPitsSleep) {
+  for (const int seed : {1, 2, 3, 4}) {
+    Rng random(seed, 5, 0);
+    const auto draw = [&](double most) { return most * (2.0 * random.uniform() - 1.0); };
+    TestWorld world;
+    world.add(floor_model(10.0));
+    for (const double side : {-0.45, 0.45}) {
+      const std::string name = std::to_string(side);
+      world.add(static_box("x" + name, {0.2, 3.0, 6.0}, {side, 0, 3}, 10.0));
+      world.add(static_box("y" + name, {3.0, 0.2, 6.0}, {0, side, 3}, 10.0));
+    }
+    for (int i = 0; i < 6; ++i) {
+      const double x = draw(0.1), y = draw(0.1), roll = draw(1.0), pitch = draw(1.0);
+      desc::Model box =
+          box_model("box" + std::to_string(i), 5.0, {0.3, 0.3, 0.3}, {x, y, 0.4 + 0.55 * i}, 0.6);
+      box.pose.rotation = from_rpy(roll, pitch, draw(3.0));
+      world.add(box);
+    }
+    for (int step = 0; step < 5000 && world.awake_count() > 0; ++step) world.run(kStep);
+    EXPECT_EQ(world.awake_count(), 0U) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace angen::physics::testing

@@ -1,11 +1,10 @@
-#include "physics/mesh_plane.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "models.h"
+#include "physics/touching.h"
 
 namespace angen::physics::testing {
 namespace {

@@ -57,6 +57,7 @@ TEST(Command, NumbersAloneAreValuesOfAKindThatTakesThem) {
   EXPECT_EQ(parsed(drive(), "0.1 -0.2").values, (std::vector<double>{0.1, -0.2}));
   EXPECT_EQ(parsed(drive(), "", {0.3, 0.4}).values, (std::vector<double>{0.3, 0.4}));
   EXPECT_EQ(parsed(drive(), "stop").verb, "Stop");
+  EXPECT_EQ(parsed(drive(), "stop").values, (std::vector<double>{0.0, 0.0}));
   EXPECT_NE(rejection(drive(), "0.1"), "");
   EXPECT_NE(rejection(drive(), "", {0.1, std::numeric_limits<double>::infinity()}), "");
   EXPECT_NE(rejection(lamp(), "", {0.1, 0.2}), "");

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "core/random.h"
 #include "shapes.h"
@@ -160,6 +161,36 @@ TEST(Scene, RevisionCountsOnlyChanges) {
   scene.remove(fixed);
   scene.commit();
   EXPECT_EQ(scene.revision(), start + 3);
+}
+
+TEST(Scene, KnowsWhereShapesCameWentAndMoved) {
+  Scene scene;
+  const Eigen::AlignedBox3d near{Vec3(-1, -1, -1), Vec3(1, 1, 1)};
+  const Eigen::AlignedBox3d far{Vec3(9, -1, -1), Vec3(11, 1, 1)};
+  std::uint64_t then = scene.moment();
+  const auto moved_near_and_far = [&] {
+    const auto since = std::exchange(then, scene.moment());
+    return std::pair(scene.moved_since(since, near), scene.moved_since(since, far));
+  };
+  const ShapeId mover = add(scene, box(1, 1, 1), at(0, 0, 0), Mobility::kMoving);
+  EXPECT_EQ(moved_near_and_far(), std::pair(true, false));
+  scene.move(mover, at(0, 0, 0));
+  EXPECT_EQ(moved_near_and_far(), std::pair(false, false));
+  scene.move(mover, at(10, 0, 0));
+  EXPECT_EQ(moved_near_and_far(), std::pair(true, true)) << "where it was, and where it is";
+  scene.show(mover, false);
+  EXPECT_EQ(moved_near_and_far(), std::pair(false, true));
+  scene.move(mover, at(0, 0, 0));
+  EXPECT_EQ(moved_near_and_far(), std::pair(false, false)) << "it is hidden";
+  scene.show(mover, true);
+  scene.remove(mover);
+  EXPECT_EQ(moved_near_and_far(), std::pair(true, false));
+  add(scene, plane(), at(0, 0, 50));
+  EXPECT_EQ(moved_near_and_far(), std::pair(true, true)) << "a plane is everywhere";
+  const ShapeId other = add(scene, box(1, 1, 1), at(50, 0, 0), Mobility::kMoving);
+  then = scene.moment();
+  for (int i = 0; i < 2000; ++i) scene.move(other, at(50, i + 1.0, 0));
+  EXPECT_EQ(moved_near_and_far(), std::pair(true, true)) << "too long ago";
 }
 
 TEST(Scene, ReflectanceBelongsToTheShapeMet) {

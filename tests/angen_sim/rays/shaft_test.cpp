@@ -40,10 +40,13 @@ struct Answers {
       ++(expected ? seen : hidden);
       EXPECT_EQ(shaft.sees(r), expected);
       EXPECT_TRUE(expected || !shaft.clear());
-      EXPECT_TRUE(!expected || !shaft.blocked());
+      EXPECT_TRUE(!expected || shaft.blocked_by() == UINT32_MAX);
     }
     if (shaft.clear()) ++clear;
-    if (shaft.blocked()) ++blocked;
+    if (shaft.blocked_by() != UINT32_MAX) {
+      ++blocked;
+      EXPECT_TRUE(scene.blocks(shaft.blocked_by(), from, kNear, target.index));
+    }
     if (seen > 0 && hidden > 0) ++partly;
   }
 };
@@ -83,11 +86,17 @@ TEST(Shaft, AWallWithAGapDoesNotBlockIt) {
   add(scene, box(0.1, 2, 2), at(2, 1.02, 0));
   const ShapeId other = add(scene, box(0.1, 2, 2), at(2, -1.02, 0), Mobility::kMoving);
   scene.commit();
-  EXPECT_FALSE(scene.shaft(Vec3::Zero(), kNear, ball.index).blocked());
+  EXPECT_EQ(scene.shaft(Vec3::Zero(), kNear, ball.index).blocked_by(), UINT32_MAX);
   EXPECT_TRUE(scene.shaft(Vec3::Zero(), kNear, ball.index).sees(ray({0, 0, 0}, {1, 0, 0})));
   scene.move(other, at(2, 0.5, 0));
   scene.commit();
-  EXPECT_TRUE(scene.shaft(Vec3::Zero(), kNear, ball.index).blocked());
+  EXPECT_EQ(scene.shaft(Vec3::Zero(), kNear, ball.index).blocked_by(), other.index);
+  EXPECT_TRUE(scene.blocks(other.index, Vec3::Zero(), kNear, ball.index));
+  EXPECT_FALSE(scene.blocks(UINT32_MAX, Vec3::Zero(), kNear, ball.index));
+  EXPECT_FALSE(scene.blocks(other.index, Vec3(3, 0, 0), kNear, ball.index)) << "it is behind";
+  scene.remove(other);
+  scene.commit();
+  EXPECT_FALSE(scene.blocks(other.index, Vec3::Zero(), kNear, ball.index));
 }
 
 TEST(Shaft, ADetectorsOwnHousingIsNotInIt) {

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/mesh_look.h"
 #include "core/random.h"
 #include "core/texture.h"
 #include "scene_view.h"

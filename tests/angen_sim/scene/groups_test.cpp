@@ -72,6 +72,14 @@ TEST(Groups, OfABuildingHaveItsStoreyAndSide) {
   }
 }
 
+TEST(Groups, OfAModelWithRoomsAreThoseOfABuilding) {
+  desc::Model room = house(4.0);
+  room.links.erase(room.links.begin() + 3, room.links.end());
+  EXPECT_EQ(group_of(structure_of({room}), 2), "furniture 1");
+  room.home.rooms.emplace_back();
+  EXPECT_EQ(group_of(structure_of({room}), 2), "ceilings 1");
+}
+
 TEST(Groups, HaveTheStoreyOfTheirModelUnlessItTravels) {
   desc::Model chair;
   chair.pose.position.z() = 3.6;

@@ -1,13 +1,11 @@
-#include "sdf/surface.h"
-
 #include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "angen_sim/assets/pngs.h"
-#include "core/mesh_look.h"
 #include "core/texture.h"
+#include "sdf/describe.h"
 
 namespace angen::load {
 namespace {

@@ -20,82 +20,34 @@ Reading state(const char* field, double value) {
   return made;
 }
 
-constexpr Heights kAnywhere{-HUGE_VAL, HUGE_VAL};
-
-constexpr Heights height(double z) { return {z, z}; }
-
 TEST(StateChanges, OnlyDevicesWithTheFieldCount) {
   StateChanges changes;
-  StateChanges::Device device;
   const auto gap = changes.bit_of("gap");
   const auto heat = changes.bit_of("heat");
-  changes.note(state("gap", 0.2), height(0.0), device, 7);
-  EXPECT_TRUE(changes.changed_since(gap, kAnywhere, 7));
-  EXPECT_FALSE(changes.changed_since(gap, kAnywhere, 8));
-  EXPECT_FALSE(changes.changed_since(heat, kAnywhere, 7));
-  EXPECT_FALSE(changes.changed_since(0, kAnywhere, 7));
-  EXPECT_TRUE(changes.changed_since(heat | gap, kAnywhere, 7));
+  changes.note(state("gap", 0.2), 7);
+  EXPECT_TRUE(changes.changed_since(gap, 7));
+  EXPECT_FALSE(changes.changed_since(gap, 8));
+  EXPECT_FALSE(changes.changed_since(heat, 7));
+  EXPECT_FALSE(changes.changed_since(0, 7));
+  EXPECT_TRUE(changes.changed_since(heat | gap, 7));
 }
 
 TEST(StateChanges, ThatADeviceComesOrGoesCountsForEachField) {
   StateChanges changes;
   const auto gap = changes.bit_of("gap");
   changes.note_all(3);
-  EXPECT_TRUE(changes.changed_since(gap, kAnywhere, 3));
-  EXPECT_FALSE(changes.changed_since(gap, kAnywhere, 4));
-  EXPECT_TRUE(changes.changed_since(changes.bit_of("new"), kAnywhere, 3));
+  EXPECT_TRUE(changes.changed_since(gap, 3));
+  EXPECT_FALSE(changes.changed_since(gap, 4));
+  EXPECT_TRUE(changes.changed_since(changes.bit_of("new"), 3));
 }
 
 TEST(StateChanges, FieldsAfterManyOthersChangeWithAnyDevice) {
   StateChanges changes;
   for (int i = 0; i < 100; ++i) changes.bit_of("field" + std::to_string(i));
   const auto late = changes.bit_of("late");
-  StateChanges::Device device;
-  changes.note(state("another", 0.1), height(0.0), device, 4);
-  EXPECT_TRUE(changes.changed_since(late, kAnywhere, 4));
-  EXPECT_FALSE(changes.changed_since(changes.bit_of("field3"), kAnywhere, 4));
-}
-
-TEST(StateChanges, ADeviceCountsAtItsHeightAndAtThatWhichItLeaves) {
-  StateChanges changes;
-  StateChanges::Device lift;
-  const auto gap = changes.bit_of("gap");
-  const auto changed = [&](double low, double high, StateChanges::Moment since) {
-    return changes.changed_since(gap, {low, high}, since);
-  };
-  changes.note(state("gap", 0.1), height(1.0), lift, 3);
-  EXPECT_TRUE(changed(0.0, 3.0, 3));
-  EXPECT_FALSE(changed(8.0, 11.0, 3));
-  EXPECT_FALSE(changes.changed_since(gap, {}, 3)) << "a query of nothing";
-  changes.note(state("gap", 0.1), height(9.0), lift, 5);
-  EXPECT_TRUE(changed(8.0, 11.0, 5));
-  EXPECT_TRUE(changed(0.0, 3.0, 5)) << "it has left";
-  EXPECT_FALSE(changed(-9.0, -6.0, 5));
-  changes.note(state("gap", 0.2), height(9.0), lift, 6);
-  EXPECT_FALSE(changed(0.0, 3.0, 6));
-  EXPECT_TRUE(changes.changed_since(gap, kAnywhere, 6));
-  EXPECT_TRUE(changed(-1e6, 1e6, 6));
-}
-
-TEST(StateChanges, ADeviceInManyLayersCountsInAll) {
-  StateChanges changes;
-  StateChanges::Device tall;
-  const auto gap = changes.bit_of("gap");
-  changes.note(state("gap", 0.1), {1.0, 9.0}, tall, 3);
-  EXPECT_TRUE(changes.changed_since(gap, {5.0, 7.0}, 3));
-  EXPECT_FALSE(changes.changed_since(gap, {13.0, 15.0}, 3));
-  changes.note(state("gap", 0.1), {1.0, 1e7}, tall, 4);
-  EXPECT_TRUE(changes.changed_since(gap, {1e6, 1e6 + 1.0}, 4));
-  EXPECT_FALSE(changes.changed_since(gap, {}, 4));
-}
-
-TEST(StateChanges, AFieldThatIsQueriedLaterIsNotedFromThenOn) {
-  StateChanges changes;
-  StateChanges::Device device;
-  changes.note(state("gap", 0.1), height(1.0), device, 3);
-  const auto gap = changes.bit_of("gap");
-  changes.note(state("gap", 0.2), height(1.0), device, 4);
-  EXPECT_TRUE(changes.changed_since(gap, {0.0, 3.0}, 4));
+  changes.note(state("another", 0.1), 4);
+  EXPECT_TRUE(changes.changed_since(late, 4));
+  EXPECT_FALSE(changes.changed_since(changes.bit_of("field3"), 4));
 }
 
 /// Queries devices by a field, and counts how often.

@@ -15,10 +15,8 @@ double altitude_of(double pressure, double reference) {
   return kScale * (1.0 - std::pow(pressure / reference, kExponent));
 }
 
-void fill(const Reading& reading, const Label&, angen_msgs::BarometerMsg& message) {
-  message.pressure = reading.get<double>("pressure");
-  message.variance = reading.get<double>("variance");
-  message.reference_pressure = reading.get<double>("reference_pressure");
+void fill(const Reading& reading, const Label& label, angen_msgs::BarometerMsg& message) {
+  fill_by_name(reading, label, message, {"altitude"});
   message.altitude = altitude_of(message.pressure, message.reference_pressure);
 }
 

@@ -5,7 +5,6 @@
 
 #include "ros/convert.h"
 #include "ros/kinds/states.h"
-#include "ros/kinds/twist.h"
 #include "ros/ros_kind.h"
 
 namespace angen::node {

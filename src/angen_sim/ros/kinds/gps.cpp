@@ -3,6 +3,7 @@
 
 #include "ros/convert.h"
 #include "ros/kinds/frames.h"
+#include "ros/kinds/states.h"
 
 namespace angen::node {
 namespace {
@@ -20,9 +21,7 @@ void fill(const Reading& reading, const Label&, sensor_msgs::NavSatFix& message)
 }
 
 void fill_velocity(const Reading& reading, const Label&, geometry_msgs::Vector3Stamped& message) {
-  auto v = reading.get<std::vector<double>>("velocity");
-  v.resize(3, 0.0);
-  message.vector = to_vector(Vec3(v[0], v[1], v[2]));
+  message.vector = to_vector(vector_in(reading, "velocity"));
 }
 
 ANGEN_REGISTER_ROS_KIND({"gps"}, RosKindBuilder()

@@ -1,24 +1,16 @@
 #include <sensor_msgs/Imu.h>
 
+#include "ros/convert.h"
 #include "ros/kinds/frames.h"
+#include "ros/kinds/states.h"
 
 namespace angen::node {
 namespace {
 
 void fill(const Reading& reading, const Label&, sensor_msgs::Imu& message) {
-  const auto q = reading.get<std::vector<double>>("orientation");
-  message.orientation.x = q[0];
-  message.orientation.y = q[1];
-  message.orientation.z = q[2];
-  message.orientation.w = q[3];
-  const auto set = [&](const char* field, geometry_msgs::Vector3& to) {
-    const auto v = reading.get<std::vector<double>>(field);
-    to.x = v[0];
-    to.y = v[1];
-    to.z = v[2];
-  };
-  set("angular_velocity", message.angular_velocity);
-  set("acceleration", message.linear_acceleration);
+  message.orientation = to_ros(orientation_in(reading));
+  message.angular_velocity = to_vector(vector_in(reading, "angular_velocity"));
+  message.linear_acceleration = to_vector(vector_in(reading, "acceleration"));
   auto variances = reading.get<std::vector<double>>("variances");
   variances.resize(9, 0.0);
   for (std::size_t i = 0; i < 3; ++i) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/kinds/twist.h"
+#include "ros/kinds/states.h"
 #include "ros/ros_kind.h"
 
 namespace angen::node {

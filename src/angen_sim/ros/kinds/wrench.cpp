@@ -1,6 +1,7 @@
 #include <geometry_msgs/WrenchStamped.h>
 
 #include "ros/convert.h"
+#include "ros/kinds/states.h"
 #include "ros/ros_kind.h"
 
 namespace angen::node {
@@ -8,14 +9,9 @@ namespace {
 
 /// In the frame that the reading is in.
 void fill(const Reading& reading, const Label&, geometry_msgs::WrenchStamped& message) {
-  const auto vector = [&](const char* field) {
-    auto v = reading.get<std::vector<double>>(field);
-    v.resize(3, 0.0);
-    return to_vector(Vec3(v[0], v[1], v[2]));
-  };
   message.header.frame_id = reading.get<std::string>("frame");
-  message.wrench.force = vector("force");
-  message.wrench.torque = vector("torque");
+  message.wrench.force = to_vector(vector_in(reading, "force"));
+  message.wrench.torque = to_vector(vector_in(reading, "torque"));
 }
 
 ANGEN_REGISTER_ROS_KIND({"ft_sensor"},

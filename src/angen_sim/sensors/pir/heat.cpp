@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "plugin/rooms.h"
 #include "plugin/view.h"
@@ -217,13 +216,18 @@ double Heat::factor_of(const rays::WarmShape& shape, const View& view) {
   Scan& found = scan_of(shape);
   if (found.windows.empty()) return 0.0;
   near_ = true;
-  const rays::Shaft shaft = view.rays().shaft(pose_.position, kHousing, shape.shape);
-  const std::uint64_t blockers = shaft.fingerprint();
-  if (!found.is_known || found.blockers != blockers) {
-    found.factor = seen_factor(shaft, found);
-    found.blockers = blockers;
-    found.is_known = true;
+  const rays::Scene& rays = view.rays();
+  const Eigen::AlignedBox3d between = Eigen::AlignedBox3d(found.box).extend(pose_.position);
+  if (found.is_known && !rays.moved_since(found.moment, between)) return found.factor;
+  found.moment = rays.moment();
+  found.is_known = true;
+  if (rays.blocks(found.wall, pose_.position, kHousing, shape.shape)) {
+    found.blockers.reset();
+    return found.factor = 0.0;
   }
+  const rays::Shaft shaft = rays.shaft(pose_.position, kHousing, shape.shape);
+  const std::optional<std::uint64_t> before = std::exchange(found.blockers, shaft.fingerprint());
+  if (before != found.blockers) found.factor = seen_factor(shaft, found);
   return found.factor;
 }
 
@@ -234,7 +238,9 @@ Heat::Scan& Heat::scan_of(const rays::WarmShape& shape) {
   const bool rests = !is_new && found.box.min() == shape.box.min() &&
                      found.box.max() == shape.box.max() && found.rotation == shape.rotation;
   if (rests) return found;
+  const std::uint32_t wall = found.wall;
   found = Scan{};
+  found.wall = wall;
   found.box = shape.box;
   found.rotation = shape.rotation;
   const Window around = window_of(shape.box, pose_, lens_.window());
@@ -246,7 +252,8 @@ Heat::Scan& Heat::scan_of(const rays::WarmShape& shape) {
 }
 
 double Heat::seen_factor(const rays::Shaft& shaft, Scan& found) {
-  if (shaft.blocked()) return 0.0;
+  found.wall = shaft.blocked_by();
+  if (found.wall != UINT32_MAX) return 0.0;
   if (found.parts.empty()) {
     for (const Window& seen : found.windows) found.parts.push_back(scan(seen, shaft));
   }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "core/warming.h"
@@ -77,9 +77,12 @@ class Heat {
     std::vector<Window> windows;  // windows of the lens, around the shape
     /// The cells of each window that it fills; found when they are needed.
     std::vector<std::vector<Cell>> parts;
-    std::uint64_t blockers = 0;  // blockers of its shaft, when it was last looked at …
-    double factor = 0.0;         // … and the part of it that was visible, m^2 sr
+    // Blockers of its shaft, when it was last looked at; none if `wall` hid it …
+    std::optional<std::uint64_t> blockers;
+    std::uint64_t moment = 0;  // … by rays::Scene::moment() …
+    double factor = 0.0;       // … and the part of it that was visible, m^2 sr
     bool is_known = false;
+    std::uint32_t wall = UINT32_MAX;  // the shape that hid it whole, when one last did
   };
 
   std::vector<rays::Ray> all_rays(const Pose& pose) const;
