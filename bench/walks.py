@@ -17,6 +17,7 @@ from pathlib import Path
 from random import Random
 
 from angen_apps.data.site import SAMPLES, Site, apartment
+from angen_apps.residents.figures import walker
 
 SAMPLE = 1 / SAMPLES  # s
 SETTLES = 12.0  # s: filters of motion sensors come to rest
@@ -43,8 +44,8 @@ class Walker:
         """Sensors' events on a way, and where it ended. `sent`: when it went for each place; it is
         filled where it is empty."""
         room = self.site.home.room_at(*points[0], 0.5)
-        self.site.simulator.appear('ann', *points[0], room.floor if room else 0.0, 0.0, 1.1,
-                                   'person')
+        self.site.simulator.appear('ann', walker('ann', 1.1, 'person'), *points[0],
+                                   room.floor if room else 0.0, 0.0)
         self.run(SETTLES)
         self.world.events()
         begun, spent = self.world.time, time.process_time()
@@ -96,16 +97,11 @@ def main() -> None:
         path = Path(folder) / 'home.world'
         apartment(path)
         fast, exact = Walker(path, True), Walker(path, False)
-        ground, numbers = fast.site.ground, Random(5)
+        floors, numbers = fast.site.floors, Random(5)
         rooms = [room for room in fast.site.home.rooms if room.use not in ('landing', 'outdoor')]
         events, wrong, away = 0, 0, 0.0
         for number in range(count):
-            start, goal = (ground.spots(numbers.choice(rooms).name, 1, numbers)[0]
-                           for _ in range(2))
-            legs = ground.way(start, goal, next(iter(ground.planners)))
-            if legs is None:
-                continue
-            points = [start, *(point for leg in legs for point in leg.points)]
+            points = [floors.spots(numbers.choice(rooms).name, 1, numbers)[0] for _ in range(2)]
             sent: list[float] = []
             other, there = exact.walk(points, sent)
             one, at = fast.walk(points, sent)

@@ -2,41 +2,35 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Iterable
 
 import angen
 import matplotlib.pyplot as plt
 import numpy as np
+import plot_base
+from plot_base import ROOT, include, sampled, sdf_world
 
-LENSES = Path(__file__).resolve().parents[1] / 'src/angen_sim/sensors/pir/lenses.txt'
+LENSES = ROOT / 'src/angen_sim/sensors/pir/lenses.txt'
 AZIMUTHS = np.arange(-60, 60.1, 3)  # degrees
 HEIGHT = 2.2  # m
 
 
 def room(content: str) -> angen.World:
-    """A floor, and `content`."""
-    return angen.World.from_text(f'''<sdf version="1.6"><world name="plot">
-      <physics type="ode"><max_step_size>0.005</max_step_size></physics>
-      <model name="floor"><static>true</static><link name="link"><collision name="box">
-      <pose>0 0 -0.05 0 0 0</pose><geometry><box><size>60 60 0.1</size></box></geometry>
-      </collision></link></model>{content}</world></sdf>''', seed=1)
+    """A floor, and `content`; steps of 5 ms."""
+    text = sdf_world(content).replace('0.001', '0.005').replace('20 20 0.1', '60 60 0.1')
+    return angen.World.from_text(text, seed=1)
 
 
 def pir(name: str, azimuth: float) -> str:
     """A PIR that has the x axis in this direction, in degrees to its left."""
-    return f'''<include><uri>model://pir_pyroelectric</uri><name>{name}</name>
-      <pose>0 0 {HEIGHT} 0 0 {-math.radians(azimuth)}</pose></include>'''
+    return include('pir_pyroelectric', name, f'0 0 {HEIGHT} 0 0 {-math.radians(azimuth)}')
 
 
 def walker(points: Iterable[tuple[float, float, float]]) -> str:
     """A person who is at x y at each time t, after that at the last."""
-    way = ''.join(f'<waypoint><time>{t}</time><pose>{x} {y} 0 0 0 0</pose></waypoint>'
-                  for t, x, y in points)
-    return f'''<actor name="anna"><script><loop>false</loop>
-      <trajectory id="0" type="walk">{way}</trajectory></script>
+    return plot_base.walker('anna', *(f'{t} {x} {y}' for t, x, y in points), plugin='''
       <plugin name="person" filename="libperson_controller.so"><avoid>false</avoid>
-      <force_max>2000</force_max></plugin></actor>'''
+      <force_max>2000</force_max></plugin>''')
 
 
 def first_motion(points: list[tuple[float, float, float]], start: float) -> dict[float, float]:
@@ -114,13 +108,8 @@ def pir_zones() -> plt.Figure:
 def pir_signal() -> plt.Figure:
     w = room(pir('eye', 0) + walker([(0, 5, -4), (2, 5, -4), (10, 5, 4), (16, 5, 4), (20, 9, 4),
                                      (24, 9, 0), (28, 9, 0), (36.4, 0.6, 0), (40, 0.6, 0)]))
-    times, volts, motion = [], [], []
-    while w.time < 40:
-        w.run(0.02)
-        reading = w.sensor('pir', 'eye')
-        times.append(w.time)
-        volts.append(1e6 * reading['signal'])
-        motion.append(reading['motion'])
+    times, (volts, motion) = sampled(w, 0.02, 2000, lambda: (
+        1e6 * w.sensor('pir', 'eye')['signal'], w.sensor('pir', 'eye')['motion']))
     drawn, (ax, state) = plt.subplots(2, 1, sharex=True, figsize=(7, 4.6), height_ratios=[3, 1])
     ax.plot(times, volts, linewidth=0.8)
     for limit in (-300, 300):

@@ -1,38 +1,42 @@
-"""Worlds and axes of the plots; docs/plots.py draws them."""
+"""Worlds, runs and axes of the plots; docs/plots.py draws them."""
 from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Callable, Iterable, Mapping, Sequence
 
 import angen
 import matplotlib.pyplot as plt
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / 'tests/py'))
+from sdf_text import air, box, holder, include, sdf_world, sensor, walker  # noqa: E402, F401
 
 PLUGINS = '''<plugin name="doors" filename="libdoor_world_plugin.so"/>
 <plugin name="robots" filename="librobot_controller.so">
 <wheelDiameter>0.0704</wheelDiameter></plugin>'''
+Order = tuple[int, str, str, str]  # the step before which it is given, kind, name, text
 
 
 def world(content: str) -> angen.World:
     """A floor, the plug-ins of doors and robots, and `content`."""
-    return angen.World.from_text(f'''<sdf version="1.6"><world name="plot">
-      <physics type="ode"><max_step_size>0.001</max_step_size></physics>{PLUGINS}
-      <model name="floor"><static>true</static><link name="link"><collision name="box">
-      <pose>0 0 -0.05 0 0 0</pose><geometry><box><size>20 20 0.1</size></box></geometry>
-      </collision></link></model>{content}</world></sdf>''', seed=1)
+    return angen.World.from_text(sdf_world(content, PLUGINS), seed=1)
 
 
-def block(model: str, name: str, pose: str, plugin: str = '') -> str:
-    """A model of worlds/models."""
-    return (f'<include><uri>model://{model}</uri><name>{name}</name><pose>{pose}</pose>{plugin}'
-            '</include>')
-
-
-def box(name: str, pose: str, size: str, mass: float = 0.0) -> str:
-    """A box, static unless it has a mass in kg."""
-    x, y, z = (float(v) for v in size.split())
-    moments = [mass / 12 * v for v in (y * y + z * z, x * x + z * z, x * x + y * y)]
-    return f'''<model name="{name}"><static>{str(not mass).lower()}</static><pose>{pose}</pose>
-      <link name="link"><inertial><mass>{mass or 1}</mass><inertia><ixx>{moments[0] or 1}</ixx>
-      <iyy>{moments[1] or 1}</iyy><izz>{moments[2] or 1}</izz></inertia></inertial>
-      <collision name="box"><geometry><box><size>{size}</size></box></geometry></collision></link>
-      </model>'''
+def sampled(w: angen.World, seconds: float, count: int, read: Callable[[], Iterable[float]],
+            orders: Iterable[Order] = ()) -> tuple[np.ndarray, list[np.ndarray]]:
+    """Runs `count` steps of `seconds`. The time after each, s, and the values that `read` returns
+    then, as columns."""
+    rows = []
+    for step in range(count):
+        for at, *order in orders:
+            if at == step:
+                w.command(*order)
+        w.run(seconds)
+        rows.append((w.time, *read()))
+    times, *columns = np.array(rows, float).T
+    return times, columns
 
 
 def figure(rows: int, heading: str) -> tuple[plt.Figure, list[plt.Axes]]:
@@ -42,3 +46,23 @@ def figure(rows: int, heading: str) -> tuple[plt.Figure, list[plt.Axes]]:
     for ax in axes[:, 0]:
         ax.grid(alpha=0.3)
     return drawn, list(axes[:, 0])
+
+
+def curves(ax: plt.Axes, x: Sequence[float], unit: str, columns: Mapping[str, Sequence[float]],
+           x_unit: str = '', mark: str = '-') -> None:
+    """Draws columns by their labels; '' is one without."""
+    for label, values in columns.items():
+        ax.plot(x, values, mark, label=label or None)
+    ax.set_ylabel(unit)
+    if x_unit:
+        ax.set_xlabel(x_unit)
+    if any(columns):
+        ax.legend()
+
+
+def states(ax: plt.Axes, times: Sequence[float], flags: Sequence[float], words: Sequence[str]
+           ) -> None:
+    """Draws a flag over the time in s; `words` for false and true."""
+    ax.step(times, flags, where='post')
+    ax.set_yticks([0, 1], words)
+    ax.set_xlabel('s')

@@ -7,7 +7,6 @@
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 from typing import Callable
 
 import matplotlib
@@ -21,20 +20,22 @@ import matplotlib.pyplot as plt  # noqa: E402
 from device_plots import (appliance, cup, cup_cools, plant, stove,  # noqa: E402
                           warm_surface)
 from pir_plots import pir_polar, pir_signal, pir_zones  # noqa: E402
-from plot_base import block, box, figure, world  # noqa: E402
+from plot_base import (ROOT, air, box, curves, figure, holder, include, sampled,  # noqa: E402
+                       sensor, states, world)
 
-IMAGES = Path(__file__).resolve().parent / 'images'
+IMAGES = ROOT / 'docs/images'
 
 
 def proximity() -> plt.Figure:
-    w = world(block('proximity', 'd', '0 0 0.5 0 0 0'))
+    w = world(include('proximity', 'd', '0 0 0.5 0 0 0'))
     times, truth, read = [], [], []
     for k in range(60):
         away = 3.2 - 0.05 * k
         post = 20 <= k < 35
-        w.spawn(box('wall', '0 0 0 0 0 0', '0.1 3 1'), 'wall', [away + 0.05, 0, 0.5, 0, 0, 0])
+        w.spawn(box('wall', '0 0 0 0 0 0', '0.1 3 1', True), 'wall',
+                [away + 0.05, 0, 0.5, 0, 0, 0])
         if post:
-            w.spawn(box('post', '0 0 0 0 0 0', '0.05 0.05 1'), 'post',
+            w.spawn(box('post', '0 0 0 0 0 0', '0.05 0.05 1', True), 'post',
                     [away - 0.3, 0, 0.5, 0, 0, 0])
         w.run(0.1)
         times.append(w.time)
@@ -48,20 +49,19 @@ def proximity() -> plt.Figure:
     ax.plot(times, read, '.', label='range')
     ax.set_ylabel('m')
     ax.legend()
-    error.plot(times, 1000 * (np.array(read) - truth), '.')
-    error.set_ylabel('error, mm')
-    error.set_xlabel('s')
+    curves(error, times, 'error, mm', {'': 1000 * (np.array(read) - truth)}, 's', '.')
     return drawn
 
 
 def pressure_mat() -> plt.Figure:
-    w = world(block('pressure_mat', 'm', '0 0 0 0 0 0'))
+    w = world(include('pressure_mat', 'm'))
     steps = {2.0: ('low', 9.0, 0.156), 6.0: ('high', 20.0, 0.457)}
     times, load, pressed = [], [], []
     while w.time < 16:
         for at, (name, mass, z) in steps.items():
             if abs(w.time - at) < 1e-6:
-                w.spawn(box(name, '0 0 0 0 0 0', '0.3 0.3 0.3', mass), name, [0, 0, z, 0, 0, 0])
+                w.spawn(box(name, '0 0 0 0 0 0', '0.3 0.3 0.3', mass=mass), name,
+                        [0, 0, z, 0, 0, 0])
         for at, name in ((10.0, 'high'), (13.0, 'low')):
             if abs(w.time - at) < 1e-6:
                 w.delete(name)
@@ -74,43 +74,32 @@ def pressure_mat() -> plt.Figure:
     ax.axhline(10, color='tab:red', linewidth=0.8)
     ax.axhline(8, color='tab:orange', linewidth=0.8)
     ax.set_ylabel('load, kg')
-    state.step(times, pressed, where='post')
-    state.set_yticks([0, 1], ['free', 'pressed'])
-    state.set_xlabel('s')
+    states(state, times, pressed, ['free', 'pressed'])
     return drawn
 
 
 def reed() -> plt.Figure:
-    w = world(block('window', 'hall_window0', '0 0 1 0 0 0'))
-    index = w.joints.index('hall_window0::sash')
-    times, angles, closed = [], [], []
-    for k in range(800):
-        if k == 50:
-            w.command('window', 'hall0', 'Set -0.2')
-        if k == 400:
-            w.command('window', 'hall0', 'Close')
-        w.run(0.01)
-        times.append(w.time)
-        angles.append(-w.joint_positions[index])
-        closed.append(w.sensor('reed', 'hall_window0')['closed'])
+    w = world(include('window', 'hall_window0', '0 0 1 0 0 0'))
+    times, (angles, closed) = sampled(
+        w, 0.01, 800, lambda: (-w.joint('hall_window0::sash')['position'],
+                               w.sensor('reed', 'hall_window0')['closed']),
+        [(50, 'window', 'hall0', 'Set -0.2'), (400, 'window', 'hall0', 'Close')])
     drawn, (ax, state) = figure(2, 'Reed contact of a window')
-    ax.plot(times, angles)
+    curves(ax, times, 'sash, rad', {'': angles})
     ax.axhline(0.0172, color='tab:red', linewidth=0.8, label='opens')
     ax.axhline(0.0097, color='tab:orange', linewidth=0.8, label='closes')
-    ax.set_ylabel('sash, rad')
     ax.legend()
-    state.step(times, closed, where='post')
-    state.set_yticks([0, 1], ['open', 'closed'])
-    state.set_xlabel('s')
+    states(state, times, closed, ['open', 'closed'])
     return drawn
 
 
 def rfid() -> plt.Figure:
     places = [(x, y) for x in np.arange(-0.5, 2.41, 0.1) for y in np.arange(-2.2, 2.21, 0.1)]
-    tags = ''.join(block('rfid_tag', f't{i}', f'{x + 0.013} {y + 0.007} 1 0 0 0')
+    tags = ''.join(include('rfid_tag', f't{i}', f'{x + 0.013} {y + 0.007} 1 0 0 0')
                    for i, (x, y) in enumerate(places))
-    w = world(block('rfid_reader', 'r', '0 0 1 0 0 0') + box('a', '1 0.7 1 0 0 0', '0.1 1 2')
-              + box('b', '1 -0.6 1 0 0 0', '0.1 0.6 2') + tags)
+    w = world(include('rfid_reader', 'r', '0 0 1 0 0 0')
+              + box('a', '1 0.7 1 0 0 0', '0.1 1 2', True)
+              + box('b', '1 -0.6 1 0 0 0', '0.1 0.6 2', True) + tags)
     w.run(0.2)
     seen = {int(name[1:]) for name in w.sensor('rfid', 'r')['ids']}
     drawn, ax = plt.subplots(figsize=(5, 6))
@@ -129,82 +118,52 @@ def rfid() -> plt.Figure:
 
 
 def smart_plug() -> plt.Figure:
-    w = world(block('heater', 'heater1', '0 0 0 0 0 0') + '''<model name="p"><static>true</static>
-      <link name="l"><sensor name="p" type="custom"><update_rate>2</update_rate><plugin name="p"
-      filename="libsmart_plug.so"><load>heater/heater1</load></plugin></sensor></link></model>''')
-    times, power, energy = [], [], []
-    for k in range(240):
-        for at, text in ((20, 'On'), (100, 'Set 40'), (180, 'Off')):
-            if k == at:
-                w.command('heater', 'heater1', text)
-        w.run(0.5)
+    w = world(include('heater', 'heater1')
+              + holder('p', sensor('libsmart_plug.so', '<load>heater/heater1</load>', 2)))
+
+    def read() -> tuple[float, float]:
         reading = w.sensor('plug', 'p')
-        times.append(w.time)
-        power.append(reading['power'])
-        energy.append(reading['energy'] / 3600)
+        return reading['power'], reading['energy'] / 3600
+
+    times, (power, energy) = sampled(w, 0.5, 240, read, [
+        (20, 'heater', 'heater1', 'On'), (100, 'heater', 'heater1', 'Set 40'),
+        (180, 'heater', 'heater1', 'Off')])
     drawn, (ax, sum_) = figure(2, 'Smart plug with a heater')
     ax.step(times, power, where='post')
     ax.set_ylabel('W')
-    sum_.plot(times, energy)
-    sum_.set_ylabel('Wh')
-    sum_.set_xlabel('s')
+    curves(sum_, times, 'Wh', {'': energy}, 's')
     return drawn
 
 
-def room(name: str, low: float, high: float) -> str:
-    """A room of 4 m along x, from y = low to high."""
-    return (f'<angen:room name="{name}"><angen:polygon>0 {low} 4 {low} 4 {high} 0 {high}'
-            '</angen:polygon></angen:room>')
-
-
 def temperature() -> plt.Figure:
-    rooms = room('warm', 0.05, 3) + room('cold', -3, -0.05)
-    w = world(f'''<model name="flat"><static>true</static><link name="l"/>{rooms}
-      <plugin name="air" filename="libroom_climate.so"><heat_capacity>5</heat_capacity>
-      </plugin></model>''' + block('heater', 'heater1', '0.1 1.5 0 0 0 0')
-              + block('kitchen_door', 'hall_door0', '1.5 0 0 0 0 0')
-              + block('temperature_sensor', 'warm', '2 1.5 1.5 0 0 0')
-              + block('temperature_sensor', 'cold', '2 -1.5 1.5 0 0 0')
-              + block('humidity_sensor', 'h', '2 1.4 1.5 0 0 0'))
-    w.command('heater', 'heater1', 'On')
-    times, rows = [], []
-    for k in range(180):
-        if k == 60:
-            w.command('door', 'hall0', 'Open')
-        w.run(5)
-        times.append(w.time / 60)
-        rows.append((w.sensor('temperature', 'warm')['temperature'],
-                     w.sensor('temperature', 'cold')['temperature'],
-                     w.sensor('humidity', 'h')['humidity']))
-    warm, cold, humidity = zip(*rows)
+    w = world(air('0 0.05 0 4 3 2.5', '0 -3 0 4 -0.05 2.5',
+                  extra='<heat_capacity>5</heat_capacity>')
+              + include('heater', 'heater1', '0.1 1.5 0 0 0 0')
+              + include('kitchen_door', 'hall_door0', '1.5 0 0 0 0 0')
+              + include('temperature_sensor', 'warm', '2 1.5 1.5 0 0 0')
+              + include('temperature_sensor', 'cold', '2 -1.5 1.5 0 0 0')
+              + include('humidity_sensor', 'h', '2 1.4 1.5 0 0 0'))
+    times, (warm, cold, humidity) = sampled(
+        w, 5, 180, lambda: (w.sensor('temperature', 'warm')['temperature'],
+                            w.sensor('temperature', 'cold')['temperature'],
+                            w.sensor('humidity', 'h')['humidity']),
+        [(0, 'heater', 'heater1', 'On'), (60, 'door', 'hall0', 'Open')])
     drawn, (ax, wet) = figure(2, 'A heater of 1 kW in one of two rooms; the door opens after 5 min')
-    ax.plot(times, warm, label='room with the heater')
-    ax.plot(times, cold, label='next room')
-    ax.set_ylabel('°C')
-    ax.legend()
-    wet.plot(times, humidity)
-    wet.set_ylabel('% RH by the heater')
-    wet.set_xlabel('min')
+    curves(ax, times / 60, '°C', {'room with the heater': warm, 'next room': cold})
+    curves(wet, times / 60, '% RH by the heater', {'': humidity}, 'min')
     return drawn
 
 
 def battery() -> plt.Figure:
-    w = world(block('turtlebot', 'robot', '0 0 0.001 0 0 0', '''<plugin name="battery"
+    w = world(include('turtlebot', 'robot', '0 0 0.001 0 0 0', '''<plugin name="battery"
       filename="librobot_battery.so"><capacity>0.08</capacity><level>9</level></plugin>'''))
-    times, charge, speed = [], [], []
-    for k in range(100):
-        if k > 20:
-            w.command('drive', 'robot', values=[0.4, 0.4])
-        w.run(0.5)
-        times.append(w.time)
-        charge.append(100 * w.device('battery', 'robot_battery')['percentage'])
-        speed.append(w.device('drive', 'robot')['v'])
+    times, (charge, speed) = sampled(
+        w, 0.5, 100, lambda: (100 * w.device('battery', 'robot_battery')['percentage'],
+                              w.device('drive', 'robot')['v']),
+        [(step, 'drive', 'robot', '0.4 0.4') for step in range(21, 100)])
     drawn, (ax, fast) = figure(2, 'Battery of a TurtleBot')
-    ax.plot(times, charge)
-    ax.set_ylabel('%')
-    fast.plot(times, speed)
-    fast.set_ylabel('m/s')
-    fast.set_xlabel('s')
+    curves(ax, times, '%', {'': charge})
+    curves(fast, times, 'm/s', {'': speed}, 's')
     return drawn
 
 
@@ -225,41 +184,34 @@ def coupled_levels(doors: list[dict]) -> list[float]:
 
 
 def microphone() -> plt.Figure:
-    rooms = [(0.05, 2.95), (-2.95, -0.05), (-5.95, -3.05)]
-    described = ''.join(room(f'room{i}', *edges) for i, edges in enumerate(rooms))
-    w = world(f'''<model name="flat"><static>true</static><link name="l"/>{described}
-      <plugin name="air" filename="libroom_climate.so"/></model>'''
-              + block('stereo', 'stereo', '0.9 1.5 0.9 0 0 0')
-              + block('kitchen_door', 'near_door0', '1.5 0 0 0 0 0')
-              + block('kitchen_door', 'far_door0', '1.5 -3 0 0 0 0')
-              + block('microphone', 'm0', '3 1.5 1 0 0 3.14159')
-              + ''.join(block('microphone', f'm{i}', f'2 {-3 * i + 1.4} 1.2 0 0 0')
+    w = world(air('0 0.05 0 4 2.95 2.5', '0 -2.95 0 4 -0.05 2.5', '0 -5.95 0 4 -3.05 2.5')
+              + include('stereo', 'stereo', '0.9 1.5 0.9 0 0 0')
+              + include('kitchen_door', 'near_door0', '1.5 0 0 0 0 0')
+              + include('kitchen_door', 'far_door0', '1.5 -3 0 0 0 0')
+              + include('microphone', 'm0', '3 1.5 1 0 0 3.14159')
+              + ''.join(include('microphone', f'm{i}', f'2 {-3 * i + 1.4} 1.2 0 0 0')
                         for i in (1, 2)))
-    w.command('appliance', 'stereo', 'Volume 50')
-    w.command('appliance', 'stereo', 'On')
-    times, rows, expected = [], [], []
-    for k in range(160):
-        for at, name, text in ((40, 'near0', 'Open'), (80, 'far0', 'Open'),
-                               (120, 'near0', 'Close')):
-            if k == at:
-                w.command('door', name, text)
-        w.run(0.25)
-        times.append(w.time)
-        rows.append([w.sensor('microphone', f'm{i}')['level'] for i in range(3)])
-        expected.append(coupled_levels([w.device('door', name) for name in ('near0', 'far0')]))
+
+    def read() -> list[float]:
+        return [*(w.sensor('microphone', f'm{i}')['level'] for i in range(3)),
+                *coupled_levels([w.device('door', name) for name in ('near0', 'far0')])]
+
+    times, columns = sampled(w, 0.25, 160, read, [
+        (0, 'appliance', 'stereo', 'Volume 50'), (0, 'appliance', 'stereo', 'On'),
+        (40, 'door', 'near0', 'Open'), (80, 'door', 'far0', 'Open'),
+        (120, 'door', 'near0', 'Close')])
     drawn, (ax,) = figure(1, 'A stereo in the first of three rooms')
     drawn.set_size_inches(7, 4.2)
-    ax.plot(times, expected, color='0.7', linewidth=4)
-    for label, values in zip(('its room, 2 m away', 'second room', 'third room'), zip(*rows)):
-        ax.plot(times, values, label=label)
-    ax.set_ylabel('dB')
-    ax.set_xlabel('s')
+    for expected in columns[3:]:
+        ax.plot(times, expected, color='0.7', linewidth=4)
+    curves(ax, times, 'dB', dict(zip(('its room, 2 m away', 'second room', 'third room'), columns)),
+           's')
     ax.legend(loc='lower right')
     return drawn
 
 
 def radio() -> plt.Figure:
-    w = angen.World(str(IMAGES.parents[1] / 'worlds/angen.world'))
+    w = angen.World(str(ROOT / 'worlds/angen.world'))
     w.spawn('model://radio_beacon', 'kitchen_beacon', [0.3, 1.0, 1.2, 0, 0, 0])
     corners = np.array([(3.6, 1.0), (2.9, 2.4), (2.9, 4.9), (6.3, 4.9), (9.3, 5.2), (9.3, 8.5)])
     path, walked = [], [0.0]
@@ -279,10 +231,7 @@ def radio() -> plt.Figure:
     drawn, (ax,) = figure(1, 'A beacon of 0 dBm in the kitchen')
     drawn.set_size_inches(7, 4)
     ax.plot(walked, free, color='0.7', label='free space')
-    ax.plot(walked, rssi, '.-', label='RSSI')
-    ax.set_ylabel('dBm')
-    ax.set_xlabel('m walked')
-    ax.legend()
+    curves(ax, walked, 'dBm', {'RSSI': rssi}, 'm walked', '.-')
     return drawn
 
 
@@ -292,8 +241,8 @@ def load_cells() -> plt.Figure:
     for mass, mark in ((0.5, 'o'), (4.0, 's')):
         said = []
         for x, y in places:
-            w = world(block('weighing_table', 't', '0 0 0.001 0 0 0')
-                      + box('crate', f'{x} {y} 0.555 0 0 0', '0.1 0.1 0.1', mass))
+            w = world(include('weighing_table', 't', '0 0 0.001 0 0 0')
+                      + box('crate', f'{x} {y} 0.555 0 0 0', '0.1 0.1 0.1', mass=mass))
             w.run(3)
             reading = w.sensor('load_cells', 't')
             said.append((reading['x'], reading['y']))

@@ -30,7 +30,8 @@ from angen_apps.plan.apartment import apartment
 from angen_apps.plan.writer import write_world
 from angen_apps.residents.household import Household
 from angen_apps.residents.profiles import read
-from angen_apps.residents.resident import Resident, make
+from angen_apps.residents.members import make
+from angen_apps.residents.resident import Resident
 from angen_tools.live.sandbox import Sandbox
 
 SIZE = (720, 560)
@@ -53,7 +54,7 @@ def moments(folder: Path) -> Iterator[Moment]:
     """A day of two retired people, and a ride of a worker."""
     furnished(folder / 'home.world')
     site, home = household(folder / 'home.world', MIDNIGHT)
-    anna, bert = make(home, [('anna', read('retired')), ('bert', read('retired'))])
+    anna, bert, *_ = make(home, [('anna', read('retired')), ('bert', read('retired'))])
 
     def until(caption: str, who: Any, there: Callable[[], bool], yaw: float) -> Moment:
         while not there() and home.now < LATEST:

@@ -36,6 +36,7 @@ WIDTH, HEIGHT = 1280, 800
 PHONE = 390, 844
 LIT = ('kitchen0', 'livingroom0', 'bedroom0')
 PLACE, AHEAD = (7.6, 3.2, 0.0), (8.6, 3.2, 0.0)  # of the goal, and where the drag ends
+CARRIED = (9.0, 1.2), (7.2, 2.6)  # an armchair, and to where it goes
 LIMIT = 180.0  # s; the processor draws
 REST = 5.0  # s until changes are drawn
 PLAIN = '''if (!angen.view) return;
@@ -50,22 +51,29 @@ HAPPENS = 20.0  # s of the day's plot
 
 
 @contextmanager
-def page_of(sandbox: Sandbox, size: tuple[int, int], *words: str) -> Iterator[Page]:
-    """The page that angen web serves, open."""
+def served(sandbox: Sandbox, size: tuple[int, int], command: str, *words: str
+           ) -> Iterator[tuple[Page, str]]:
+    """A browser's page of that size, and the address that angen web or angen edit serves."""
     port = free_port()
-    sandbox.start(['angen', 'web', '--port', str(port), *words], 'web')
-    log = sandbox.folder / 'web.log'
-    wait(lambda: f':{port}/' in log.read_text(), 'angen web does not serve', LIMIT)
+    sandbox.start(['angen', command, '--port', str(port), *words], command)
+    log = sandbox.folder / f'{command}.log'
+    wait(lambda: f':{port}/' in log.read_text(), f'angen {command} does not serve', LIMIT)
     with tempfile.TemporaryDirectory() as folder:
         page = Page(Path(folder), *size)
         try:
-            page.driver.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
-                'width': size[0], 'height': size[1], 'deviceScaleFactor': 1, 'mobile': False})
-            page.open(f'http://127.0.0.1:{port}/')
-            page.run('document.querySelector("#welcome").hidden = true')
-            yield page
+            resize(page, *size)
+            yield page, f'http://127.0.0.1:{port}/'
         finally:
             page.close()
+
+
+@contextmanager
+def page_of(sandbox: Sandbox, size: tuple[int, int], *words: str) -> Iterator[Page]:
+    """The page that angen web serves, open."""
+    with served(sandbox, size, 'web', *words) as (page, address):
+        page.open(address)
+        page.run('document.querySelector("#welcome").hidden = true')
+        yield page
 
 
 def save(page: Page, name: str) -> None:
@@ -73,13 +81,9 @@ def save(page: Page, name: str) -> None:
     order(page, do='pause')
     time.sleep(REST)
     page.run(PLAIN, False)
-    time.sleep(REST)
-    shown = Image.open(BytesIO(page.driver.get_screenshot_as_png())).convert('RGB')
-    path = ROOT / f'docs/images/{name}.png'
-    shown.save(path, optimize=True)
+    shoot(page, name, REST)
     page.run(PLAIN, True)
     order(page, do='resume')
-    print(path, flush=True)
 
 
 def order(page: Page, **what: Any) -> None:
@@ -107,6 +111,16 @@ def drag_goal(page: Page) -> None:
     pointer.pointer_up()
     actions.perform()
     page.until('return document.querySelector("#hint").hidden')
+
+
+def carry(page: Page) -> None:
+    """Takes a piece of furniture, and does not put it down."""
+    page.press('#carry')
+    begin, end = page.run('''const to = angen.plan.root.getScreenCTM();
+        return arguments[0].map(([x, y]) => new DOMPoint(x, -y).matrixTransform(to)).map(
+            (at) => [at.x, at.y])''', CARRIED)
+    mouse(page, 'Pressed', *begin, True)
+    mouse(page, 'Moved', *end, True)
 
 
 def mouse(page: Page, kind: str, x: float, y: float, down: bool = False) -> None:
@@ -141,6 +155,10 @@ def live(sandbox: Sandbox) -> None:
             order(page, do='command', target=f'lamp/{lamp}', text='On')
         time.sleep(HAPPENS / 2)
         save(page, 'web_dark')
+    with page_of(sandbox, (WIDTH, HEIGHT)) as page:
+        page.run('angen.setTheme("light"); angen.setStorey(0); angen.setView("plan")')
+        carry(page)
+        save(page, 'web_move')
     with page_of(sandbox, PHONE) as page:
         page.run('angen.setTheme("light"); angen.setStorey(0)')
         show(page, 'lamp', 'kitchen0')
@@ -181,21 +199,12 @@ def resize(page: Page, wide: int, high: int) -> None:
 @contextmanager
 def empty_lot(sandbox: Sandbox, wide: int, high: int) -> Iterator[Page]:
     """The page that angen edit serves, open."""
-    port = free_port()
-    sandbox.start(['angen', 'edit', str(sandbox.folder / 'home.world'), '--port', str(port)],
-                  'edit')
-    log = sandbox.folder / 'edit.log'
-    wait(lambda: f':{port}/' in log.read_text(), 'angen edit does not serve', LIMIT)
-    with tempfile.TemporaryDirectory() as folder:
-        page = Page(Path(folder), wide, high)
-        try:
-            resize(page, wide, high)
-            page.driver.get(f'http://127.0.0.1:{port}/')
-            page.until('return !!window.angen?.history')
-            page.run('document.documentElement.dataset.theme = "light"')
-            yield page
-        finally:
-            page.close()
+    with served(sandbox, (wide, high), 'edit', str(sandbox.folder / 'home.world')
+                ) as (page, address):
+        page.driver.get(address)
+        page.until('return !!window.angen?.history')
+        page.run('document.documentElement.dataset.theme = "light"')
+        yield page
 
 
 def edit(sandbox: Sandbox) -> None:
@@ -290,11 +299,13 @@ def edit_more(page: Page) -> None:
     page.run('angen.undo(); angen.undo()')
 
 
-def shoot(page: Page, name: str) -> None:
-    """A picture of the page as it is now."""
-    time.sleep(0.5)
+def shoot(page: Page, name: str, rest: float = 0.5) -> None:
+    """A picture of the page as it is in `rest` s."""
+    time.sleep(rest)
     shown = Image.open(BytesIO(page.driver.get_screenshot_as_png())).convert('RGB')
-    shown.save(ROOT / f'docs/images/{name}.png', optimize=True)
+    path = ROOT / f'docs/images/{name}.png'
+    shown.save(path, optimize=True)
+    print(path, flush=True)
 
 
 def main(names: list[str]) -> None:

@@ -2,12 +2,16 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.ndimage import distance_transform_edt
 
 from angen_apps.plan.outlines import Shape, shapes_of
 from angen_tools.common.catalog import angen_module
+
+if TYPE_CHECKING:
+    from angen import Grid
 
 CELL = 0.05  # m of the map on which a person's ways are found
 BODY = 0.22  # m, radius of a person
@@ -21,19 +25,17 @@ def solids(path: Path, floor: float) -> list[Shape]:
             and shape.bottom < floor + TALL and shape.top > floor + STEP_OVER]
 
 
-def free_map(path: Path, floor: float, body: float = BODY
-             ) -> tuple[np.ndarray, float, float]:
+def free_map(path: Path, floor: float, body: float = BODY) -> Grid:
+    """Its free cells have numbers from 0 on, those of a connected part the same one."""
+    grids = angen_module().Grid
     shapes = solids(path, floor)
     points = np.array([p for s in shapes for p in s.corners] or [(0.0, 0.0)])
     west, south = points.min(axis=0) - 1
     columns, rows = (np.ceil((points.max(axis=0) + 1 - (west, south)) / CELL)).astype(int)
-    x = west + (np.arange(columns) + 0.5) * CELL
-    y = south + (np.arange(rows) + 0.5) * CELL
-    solid = np.zeros((rows, columns), bool)
+    grid = grids(np.full((rows, columns), grids.FREE), (west, south), CELL)
     for shape in shapes:
-        corners = np.array(shape.corners)
-        inside = np.ones((rows, columns), bool)
-        for (ax, ay), (bx, by) in zip(corners, np.roll(corners, -1, axis=0)):
-            inside &= (bx - ax) * (y[:, None] - ay) - (by - ay) * (x[None] - ax) > -1e-9
-        solid |= inside
-    return distance_transform_edt(~solid) * CELL > body, float(west), float(south)
+        grid.fill(shape.corners, grids.WALL)
+    free = distance_transform_edt(grid.cells != grids.WALL) * CELL > body
+    found = grid.with_cells(np.where(free, grids.FREE, grids.WALL))
+    found.number_parts()
+    return found

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import os
 import queue
-import socket
 import subprocess
 import threading
 import time
@@ -12,6 +11,7 @@ from pathlib import Path
 from typing import Mapping
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.port import free_port
 from angen_tools.common.watchdog import watchdog
 from angen_tools.live.sandbox import end
 from angen_tools.world.models import worlds_models
@@ -81,15 +81,12 @@ class Gazebo:
     def __init__(self, root: Path, folder: Path, world: str, environment: Mapping[str, str]
                  ) -> None:
         import psutil
-        with socket.socket() as probe:
-            probe.bind(('127.0.0.1', 0))
-            port = probe.getsockname()[1]
         self._answers: dict[str, queue.SimpleQueue[float]] = {
             word: queue.SimpleQueue() for word in ('first', 'reading', 'gone')}
         self._last: Tick | None = None
         self._log = folder / 'gazebo.log'
         words = ['unshare', '--mount', 'sh', '-c', LAUNCH, 'sh', str(root), str(folder),
-                 str(worlds_models().resolve()), str(port), world]
+                 str(worlds_models().resolve()), str(free_port()), world]
         settings = {'DISPLAY': '', **environment}
         launched = time.monotonic()
         with self._log.open('wb') as log:

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import time
 import zipfile
-from collections import deque
 from dataclasses import dataclass
 from math import cos, sin
 from pathlib import Path
@@ -17,6 +16,7 @@ from angen_bench.free_map import CELL, free_map
 from angen_bench.walks import walk
 from angen_apps.plan.travel import LEAST_TURN
 from angen_apps.plan.model import Plan
+from angen_apps.plan.polygons import area, inside
 from angen_apps.plan.writer import write_world
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import writing
@@ -93,14 +93,9 @@ def in_world(imported: Imported) -> dict[str, int]:
 
 
 def areas_in_file(xml: bytes) -> list[float]:
-    """Areas of the rooms, m2, by the shoelace formula on the file's points in cm."""
-    areas = []
-    for room in etree.fromstring(xml).iter('room'):
-        points = [(float(p.get('x')), float(p.get('y'))) for p in room.findall('point')]
-        after = points[1:] + points[:1]
-        twice = sum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in zip(points, after))
-        areas.append(abs(twice) / 2e4)
-    return areas
+    """Areas of the rooms, m2, of the file's points in cm."""
+    return [area([(float(p.get('x')), float(p.get('y'))) for p in room.findall('point')]) / 1e4
+            for room in etree.fromstring(xml).iter('room')]
 
 
 def through(world: Any, plan: Plan) -> dict[str, bool]:
@@ -156,44 +151,12 @@ def reached(path: Path, home: Mapping[str, Any]) -> tuple[set[str], set[str]]:
     here = {name: room for name, room in rooms.items() if abs(room['floor'] - floor) < 0.3}
     joined = {name for door in home['doors'] if door['kind'] != 'window'
               for name in door['rooms'] if name in here}
-    free, west, south = free_map(path, floor)
-    start = _cell(entrance['pose'], west, south)
-    seen = _flood(free, start)
-    found = set()
-    for name, room in here.items():
-        cells = [(r, c) for r, c in seen if _inside(room['polygon'], west + (c + .5) * CELL,
-                                                    south + (r + .5) * CELL)]
-        if len(cells) * CELL * CELL > 0.1:
-            found.add(name)
-    return joined, found
-
-
-def _cell(pose: Any, west: float, south: float) -> tuple[int, int]:
-    return int((pose[1] - south) / CELL), int((pose[0] - west) / CELL)
-
-
-def _flood(free: np.ndarray, start: tuple[int, int]) -> set[tuple[int, int]]:
-    """Cells that are reached from the free cell nearest to the start."""
-    cells = np.argwhere(free)
-    row, column = cells[np.abs(cells - start).sum(axis=1).argmin()]
-    nearest = (int(row), int(column))
-    seen, queue = {nearest}, deque([nearest])
-    while queue:
-        r, c = queue.popleft()
-        for here in ((r + 1, c), (r - 1, c), (r, c + 1), (r, c - 1)):
-            if here not in seen and 0 <= here[0] < free.shape[0] and 0 <= here[1] < free.shape[1] \
-                    and free[here]:
-                seen.add(here)
-                queue.append(here)
-    return seen
-
-
-def _inside(polygon: Any, x: float, y: float) -> bool:
-    found = False
-    for (x0, y0), (x1, y1) in zip(polygon, polygon[1:] + polygon[:1]):
-        if (y0 > y) != (y1 > y) and x < (x1 - x0) * (y - y0) / (y1 - y0) + x0:
-            found = not found
-    return found
+    grid = free_map(path, floor)
+    free = np.argwhere(grid.cells >= 0)
+    near = np.abs(free - grid.cell(*entrance['pose'][:2])).sum(axis=1).argmin()
+    rows, columns = np.nonzero(grid.cells == grid.cells[tuple(free[near])])
+    return joined, {name for name, room in here.items() if CELL ** 2 * np.count_nonzero(
+        inside(room['polygon'], grid.x[columns], grid.y[rows])) > 0.1}
 
 
 def moved(world: Any, seconds: float) -> tuple[str, float]:

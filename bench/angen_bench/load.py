@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import itertools
 import random
-import subprocess
 import sys
 import tempfile
 import threading
@@ -15,9 +14,11 @@ from pathlib import Path
 from statistics import median
 from typing import Any, Callable, Sequence
 
+import numpy as np
+
 from angen_bench import listeners
+from angen_bench.measure import STATS_LIMIT, Meter, Sample
 from angen_bench.measure import load as cpu_load
-from angen_bench.measure import machine_time
 from angen_bench.report import REAL_TIME, cell
 from angen_models import plan
 from angen_tools.common.failure import Failure
@@ -41,7 +42,6 @@ SETTLED = 3.0  # simulated s, until which furniture comes to rest
 WARM_UP = 5.0  # s of wall time, under load
 SETTLE_LIMIT = 600.0
 CONNECT_LIMIT = 120.0
-STATS_LIMIT = 120.0
 VERBS = {'door': ('Open', 'Close')}  # with a lamp lit, each spawn has its light computed again
 
 
@@ -73,63 +73,9 @@ class Row:
         return self.rtf >= REAL_TIME
 
 
-@dataclass
-class Second:
-    """The fields of a /angen/stats, and the node's state then: s, of ticks ms, bytes."""
-    wall: float
-    sim: float
-    cpu: float
-    machine: float
-    rss: int
-    tick_median: float
-    tick_p99: float
-    tick_longest: float
-
-
 def quantile(values: Sequence[float], share: float) -> float:
     """The smallest value that at least that share of them does not exceed."""
-    ordered = sorted(values)
-    return ordered[max(0, -int(-share * len(ordered) // 1) - 1)]
-
-
-class Watch:
-    """The seconds of a node, by its /angen/stats. A context: its end unsubscribes."""
-
-    def __init__(self, client: Live, node: subprocess.Popen[bytes]) -> None:
-        import psutil
-        import rospy
-
-        from angen_msgs.msg import Stats
-        client.join()
-        self._node = psutil.Process(node.pid)
-        self.seconds: list[Second] = []
-        self._subscriber = rospy.Subscriber('/angen/stats', Stats, self._take)
-
-    def __enter__(self) -> Watch:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._subscriber.unregister()
-
-    def _take(self, stats: Any) -> None:
-        import psutil
-        try:
-            times, rss = self._node.cpu_times(), self._node.memory_info().rss
-        except psutil.NoSuchProcess:
-            return
-        self.seconds.append(Second(
-            time.monotonic(), stats.sim_time.to_sec(), times.user + times.system, machine_time(),
-            rss, 1e3 * stats.tick_median, 1e3 * stats.tick_p99, 1e3 * stats.tick_longest))
-
-    def pass_by(self, length: float) -> list[Second]:
-        """Returns what came from the next second on, `length` s of wall time or a little more."""
-        first = len(self.seconds)
-        while True:
-            count = len(self.seconds)
-            wait(lambda: len(self.seconds) > count, 'the node has not published /angen/stats',
-                 STATS_LIMIT)
-            if self.seconds[-1].wall - self.seconds[first].wall >= length:
-                return self.seconds[first:]
+    return float(np.quantile(values, share, method='inverted_cdf'))
 
 
 @dataclass
@@ -227,8 +173,8 @@ def run(sandbox: Sandbox, topics: str, sensors: int, seconds: float) -> Row:
         node = sandbox.node(world, 1.0, topics=topics)
         open_now.callback(end, node)
         client = Live()
-        watch = open_now.enter_context(Watch(client, node))
-        wait(lambda: bool(watch.seconds) and watch.seconds[-1].sim >= SETTLED,
+        meter = open_now.enter_context(Meter(client, node))
+        wait(lambda: bool(meter.samples) and meter.samples[-1].sim >= SETTLED,
              'the world has not come to rest', SETTLE_LIMIT)
         said = sandbox.folder / 'listeners.log'
         readers = READERS[topics]
@@ -243,9 +189,9 @@ def run(sandbox: Sandbox, topics: str, sensors: int, seconds: float) -> Row:
         callers = Callers()
         open_now.callback(callers.end)
         start_calls(callers, client)
-        watch.pass_by(WARM_UP)
+        meter.pass_by(WARM_UP)
         del callers.answers[:], callers.rejected[:]
-        taken = watch.pass_by(seconds)
+        taken = meter.pass_by(seconds)
         answers, rejected = list(callers.answers), list(callers.rejected)
         callers.end()
     if not answers:
@@ -256,11 +202,11 @@ def run(sandbox: Sandbox, topics: str, sensors: int, seconds: float) -> Row:
                   connections=connections, rejected=len(rejected))
 
 
-def row_of(seconds: Sequence[Second], answers: Sequence[float], **what: Any) -> Row:
+def row_of(seconds: Sequence[Sample], answers: Sequence[float], **what: Any) -> Row:
     """The figures of a run."""
     first, last = seconds[0], seconds[-1]
     wall = last.wall - first.wall
-    cpu = cpu_load(first.cpu, last.cpu, wall)
+    cpu = cpu_load(first.server, last.server, wall)
     within = seconds[1:]  # the ticks of the first came before it
     memory = [second.rss / 1e6 for second in seconds]
     return Row(

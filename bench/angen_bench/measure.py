@@ -15,7 +15,7 @@ from angen_tools.session.live import Live
 from angen_tools.world.placing import Placement
 
 SUBSCRIBED = 10  # topics that are subscribed to; more would measure the subscriber
-STATS_LIMIT = 60.0  # s of wall time
+STATS_LIMIT = 120.0  # s of wall time
 
 
 @dataclass(frozen=True)
@@ -29,6 +29,9 @@ class Sample:
     client: float | None
     machine: float  # of all processes
     rss: int  # bytes, of the node
+    tick_median: float  # ms of the ticks of the second before
+    tick_p99: float
+    tick_longest: float
 
 
 def due(rate: float, begin: float, end: float) -> int:
@@ -55,7 +58,7 @@ class Meter:
         self._server = psutil.Process(server.pid)
         self._viewer: psutil.Process | None = None
         self._gone = psutil.NoSuchProcess
-        self._last: Sample | None = None
+        self.samples: list[Sample] = []
         self._lock = threading.Lock()
         self._received = 0
         self.began: float | None = None  # wall time of the first tick, of a node at rate 1
@@ -110,19 +113,25 @@ class Meter:
         wall, sim = time.monotonic(), stats.sim_time.to_sec()
         if self.began is None:
             self.began = wall - sim
-        self._last = Sample(wall, sim, stats.readings, self._received, server, client,
-                            machine_time(), rss)
+        self.samples.append(Sample(
+            wall, sim, stats.readings, self._received, server, client, machine_time(), rss,
+            1e3 * stats.tick_median, 1e3 * stats.tick_p99, 1e3 * stats.tick_longest))
 
     def sample(self, after: float) -> Sample:
         """The first sample that came later than the wall time `after`; waits for it."""
         end = max(after, time.monotonic()) + STATS_LIMIT
         while True:
-            last = self._last
-            if last and last.wall > after:
-                return last
+            if self.samples and self.samples[-1].wall > after:
+                return self.samples[-1]
             if time.monotonic() > end or not self._server.is_running():
                 raise Failure('the node no longer publishes /angen/stats')
             time.sleep(0.01)
+
+    def pass_by(self, length: float) -> list[Sample]:
+        """The samples from the next one on, `length` s of wall time or a little more."""
+        first = self.sample(time.monotonic())
+        self.sample(first.wall + length)
+        return [sample for sample in self.samples if sample.wall >= first.wall]
 
     def window(self, warm_up: float, length: float, simulated: float = 0.0
                ) -> tuple[Sample, Sample]:
@@ -170,7 +179,7 @@ def spread(sensors: Sequence[Placement], most: int) -> list[Placement]:
     return list(sensors[::step])
 
 
-def handled(client: Live, limit: float = 6 * STATS_LIMIT) -> None:
+def handled(client: Live, limit: float = 3 * STATS_LIMIT) -> None:
     """Returns when the simulator has handled all that it has received. The tick in which lamps
     shine on many sensors for the first time takes longer than a service waits."""
     end = time.monotonic() + limit

@@ -83,17 +83,12 @@ def extremes(sessions: Sequence[Session]) -> dict[str, tuple[float, float]]:
 
 def fit(counts: Sequence[float], values: Sequence[float | None]) -> Line | None:
     """The least-squares line through the points that have a value; None below two counts."""
+    from scipy.stats import linregress
     points = [(c, v) for c, v in zip(counts, values) if v is not None]
     if len({c for c, _ in points}) < 2:
         return None
-    mean_c, mean_v = (sum(p[i] for p in points) / len(points) for i in (0, 1))
-    slope = (sum((c - mean_c) * (v - mean_v) for c, v in points)
-             / sum((c - mean_c) ** 2 for c, _ in points))
-    base = mean_v - slope * mean_c
-    rest = sum((v - base - slope * c) ** 2 for c, v in points)
-    spread = sum((c - mean_c) ** 2 for c, _ in points)
-    error = math.sqrt(rest / (len(points) - 2) / spread) if len(points) > 2 else math.nan
-    return Line(base, slope, error)
+    line = linregress(*zip(*points))
+    return Line(line.intercept, line.slope, line.stderr if len(points) > 2 else math.nan)
 
 
 def fit_of(rows: Sequence[Row], panel: str) -> Line | None:

@@ -199,16 +199,21 @@ class Node:
 
 
 def soak(home: Home, cycles: int, progress: Progress) -> tuple[list[Sample], list[str]]:
-    """A sample after each round of `round_size` cycles, and the problems in them."""
+    """A sample after each round of `ROUND` cycles, and the problems in them. Memory that seems to
+    grow is watched for as many cycles again: a leak goes on, what the allocator keeps does not.
+    """
     all_things = things()
     warm = [_warm(home, all_things, lit) for _ in range(WARM_UP) for lit in (True, False)]
     registered = home.registered()
     turns = itertools.cycle(all_things)
-    samples = []
-    for cycle in range(ROUND, cycles + 1, ROUND):
-        samples.append(_round(home, turns, cycle))
-        progress.update(cycle / cycles, f'cycle {cycle}, {samples[-1].rss_mb:.1f} MB')
-    return samples, [*grown(samples), *_left(home, warm, registered, cycles)]
+    samples: list[Sample] = []
+    for end in (cycles, 2 * cycles):
+        for cycle in range(len(samples) * ROUND + ROUND, end + 1, ROUND):
+            samples.append(_round(home, turns, cycle))
+            progress.update(cycle / end, f'cycle {cycle}, {samples[-1].rss_mb:.1f} MB')
+        if not grown(samples):
+            break
+    return samples, [*grown(samples), *_left(home, warm, registered, samples[-1].cycle)]
 
 
 def _warm(home: Home, all_things: Sequence[Thing], lit: bool) -> Sample:
@@ -240,7 +245,7 @@ def _cycle(home: Home, thing: Thing) -> None:
 
 def grown(samples: Sequence[Sample]) -> list[str]:
     """Whether memory grows on: the medians of the last two quarters. In the first half the
-    allocator and caches fill, by up to 4 MB; a leak goes on after it.
+    allocator and caches fill, by up to 4 MB.
     """
     memory = [sample.rss_mb for sample in samples]
     quarter = max(1, len(memory) // 4)
@@ -296,7 +301,7 @@ def measure(cycles: int, core: bool, folder: Path, json: bool) -> None:
         print(as_json([asdict(sample) for sample in samples]))
     else:
         memory = [sample.rss_mb for sample in samples]
-        print(f'{cycles} cycles of {len(things())} things in {seconds:.0f} s: memory '
+        print(f'{samples[-1].cycle} cycles of {len(things())} things in {seconds:.0f} s: memory '
               f'{memory[0]:.1f} MB at the start, {memory[-1]:.1f} at the end, '
               f'{min(memory):.1f} to {max(memory):.1f} between\nwrote {table}', flush=True)
     if wrong:

@@ -3,14 +3,15 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from math import cos, hypot, sin
+from math import hypot
 from pathlib import Path
-from typing import Any, Mapping
+from typing import TYPE_CHECKING, Any, Mapping
 
-import numpy as np
-from scipy.ndimage import label
+from angen_bench.free_map import free_map, solids
+from angen_tools.common.geometry import local, turned
 
-from angen_bench.free_map import CELL, free_map, solids
+if TYPE_CHECKING:
+    from angen import Grid
 
 BODY = 0.25  # m, half a person's width
 ROOMY = 0.32  # m from a place to something, at best
@@ -26,24 +27,24 @@ Spot = tuple[float, float]
 
 @dataclass
 class Floor:
-    """A storey: the regions in which a person's middle may be, and where it has more room."""
+    """A storey: the parts in which a person's middle may be, and where it has more room."""
 
-    z: float
-    roomy: np.ndarray
-    west: float
-    south: float
-    regions: np.ndarray
+    parts: Grid
+    roomy: Grid
 
     @staticmethod
     def of(path: Path, z: float) -> Floor:
-        free, west, south = free_map(path, z, BODY)
-        return Floor(z, free_map(path, z, ROOMY)[0], west, south, label(free)[0])
+        return Floor(free_map(path, z, BODY), free_map(path, z, ROOMY))
 
-    def region(self, x: float, y: float, roomy: bool) -> int:
-        row, column = int((y - self.south) / CELL), int((x - self.west) / CELL)
-        if not (0 <= row < self.roomy.shape[0] and 0 <= column < self.roomy.shape[1]):
-            return 0
-        return int(self.regions[row, column]) if self.roomy[row, column] or not roomy else 0
+    def part(self, x: float, y: float, roomy: bool) -> int:
+        """The number of the part that a place is in, below 0 if it is in none."""
+        row, column = self.parts.cell(x, y)
+        rows, columns = self.parts.cells.shape
+        if not (0 <= row < rows and 0 <= column < columns):
+            return -1
+        if roomy and self.roomy.cells[row, column] < 0:
+            return -1
+        return int(self.parts.cells[row, column])
 
 
 def spots(floor: Floor, door: Mapping[str, Any]) -> tuple[Spot, Spot] | None:
@@ -51,14 +52,13 @@ def spots(floor: Floor, door: Mapping[str, Any]) -> tuple[Spot, Spot] | None:
     x, y, _, yaw = door['pose']
     sides = []
     for sign in (-1, 1):
-        sides.append([(x - sign * away * sin(yaw) + aside * cos(yaw),
-                       y + sign * away * cos(yaw) + aside * sin(yaw))
+        sides.append([turned((x, y), yaw, aside, sign * away)
                       for away in BESIDE for aside in (0.0, 0.3, -0.3)])
     for roomy in (True, False):
         for first in sides[0]:
             for second in sides[1]:
-                region = floor.region(*first, roomy)
-                if region and region == floor.region(*second, roomy):
+                part = floor.part(*first, roomy)
+                if part >= 0 and part == floor.part(*second, roomy):
                     return first, second
     return None
 
@@ -149,10 +149,9 @@ def _through(world: Any, door: Mapping[str, Any], goal: Spot) -> str:
     if what:
         return what
     x, y, _, yaw = door['pose']
-    local = [((px - x) * cos(yaw) + (py - y) * sin(yaw), (py - y) * cos(yaw) - (px - x) * sin(yaw))
-             for px, py in seen]
+    way = [local((x, y), yaw, at) for at in seen]
     half = door['width'] / 2
-    for (u0, v0), (u1, v1) in zip(local, local[1:]):
+    for (u0, v0), (u1, v1) in zip(way, way[1:]):
         if v0 * v1 <= 0 and v0 != v1 and abs(u0 + (u1 - u0) * v0 / (v0 - v1)) < half:
             return ''
     return 'took another way'

@@ -8,11 +8,12 @@ import threading
 import pytest
 
 from angen_bench import listeners, load
+from angen_bench.measure import Sample
 
 
-def second(wall: float, sim: float, longest: float = 1.0, rss: int = 0) -> load.Second:
-    return load.Second(wall, sim, cpu=0.5 * wall, machine=0.8 * wall, rss=rss, tick_median=0.1,
-                       tick_p99=0.5, tick_longest=longest)
+def second(wall: float, sim: float, longest: float = 1.0, rss: int = 0) -> Sample:
+    return Sample(wall, sim, readings=0, received=0, server=0.5 * wall, client=None,
+                  machine=0.8 * wall, rss=rss, tick_median=0.1, tick_p99=0.5, tick_longest=longest)
 
 
 def test_a_row_is_of_the_window_between_its_first_and_last_second() -> None:

@@ -71,6 +71,16 @@ def test_everything_comes_while_lamps_are_lit_before_the_first_sample() -> None:
     assert {thing for thing, lit in home.seen if lit} == set(things())
 
 
+def test_memory_that_seems_to_grow_is_watched_for_as_long_again() -> None:
+    kept = WARM + 1000 // ROUND * 3 // 4
+    found, wrong = run(Fake([40.0] * kept + [42.0]), 1000)
+    assert found[-1].cycle == 2000
+    assert wrong == []
+    found, wrong = run(Fake([40.0 + 0.15 * i for i in range(100)]), 1000)
+    assert found[-1].cycle == 2000
+    assert len(wrong) == 1
+
+
 def test_descriptors_that_stay_are_reported() -> None:
     assert run(Fake([40.0], [20, 25, 25 + MASTER]), 100)[1] == []
     assert run(Fake([40.0], [20] * WARM + [21 + MASTER]), 100)[1] == [

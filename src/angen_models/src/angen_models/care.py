@@ -5,18 +5,17 @@ from dataclasses import dataclass, field
 from math import atan2, hypot
 from pathlib import Path
 
-from lxml import etree
-
 from angen_models import plan
-from angen_models.sdf import add, add_plugin, numbers, write
-from angen_models.world import (add_devices, add_home_site, add_openers, add_readers, add_state,
-                                add_world_plugins, comment, furniture_in, include, new_world)
+from angen_models.sdf import write
+from angen_models.things import add_tag
+from angen_models.world import (add_actor, add_devices, add_home_site, add_openers, add_readers,
+                                add_state, add_world_plugins, comment, furniture_in, include,
+                                new_world)
 
 BEGINS = 60 * int(plan.BEGINS[:2])      # min of the day at which the worlds begin
 SPEED = 0.8             # m/s
 PAUSE = 0.6             # s, to turn
 HALL = 4.9              # y of the way along the entrance
-CHEST = "0.26 0 1.3"    # in the person's frame
 
 # room: its door from the entrance's side, the first place behind it, and places in it
 WAYS: dict[str, tuple[tuple[float, float], ...]] = {
@@ -113,21 +112,6 @@ def wrong() -> Day:
     return day
 
 
-def add_person(world: etree._Element, day: Day) -> None:
-    """Appends the person, with a tag on the chest."""
-    actor = add(world, "actor", name="person")
-    script = add(actor, "script")
-    add(script, "loop", "false")
-    add(script, "delay_start", 0)
-    add(script, "auto_start", "true")
-    trajectory = add(script, "trajectory", id="0", type="walk")
-    for t, x, y, yaw in day.rows:
-        waypoint = add(trajectory, "waypoint")
-        add(waypoint, "time", round(t, 2))
-        add(waypoint, "pose", numbers(x, y, 0, 0, 0, round(yaw, 4)))
-    add_plugin(actor, "tag", "librfid_tag.so", position=CHEST)
-
-
 def write_days(folder: Path) -> None:
     """Writes both worlds."""
     write_day(folder, "ordinary", ordinary())
@@ -153,6 +137,6 @@ def write_day(folder: Path, name: str, day: Day) -> None:
                     (x, y, plan.PIR_HEIGHT, 0, plan.PIR_PITCH, yaw))
     add_readers(world)
     comment(world, "who lives there")
-    add_person(world, day)
+    add_tag(add_actor(world, day.rows, False, 2), plan.BADGE)
     add_state(world, name, [f"{room}_door0" for room in plan.ROOMS if room != "entrance"])
     write(root, folder / f"{name}.world")

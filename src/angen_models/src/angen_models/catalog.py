@@ -6,7 +6,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from angen_models.devices import add_ray, add_sensor
+from angen_models.devices import add_ray, add_sensor, write_static
 from angen_models.sdf import (Color, Part, add, add_fixed, add_home, add_joint, add_link,
                               add_plugin, add_pose, add_thing, new_model, numbers, spanned,
                               write_model)
@@ -23,16 +23,50 @@ def write_catalog(models: Path) -> None:
     write_pressure_mat(models)
     write_window(models)
     write_wall_cabinet(models)
-    write_rfid_reader(models)
-    write_rfid_tag(models)
     write_smart_plug(models)
-    write_heater(models)
-    write_warm_surface(models)
     write_daylight(models)
-    write_doorbell(models)
-    write_barometer(models)
-    for kind, title in (("temperature", "Temperature sensor"), ("humidity", "Humidity sensor")):
-        _write_air_sensor(models, kind, title)
+    _write_on_walls(models)
+
+
+def _write_on_walls(models: Path) -> None:
+    """Writes what hangs on a wall or lies flat; x into the room, or up."""
+    write_static(models, "rfid_reader", "RFID reader",
+                 "Reads tags that it sees within 2 m and 120 degrees.", "reader",
+                 [spanned("antenna", (-0.04, -0.12, -0.12), (-0.005, 0.12, 0.12), collide=False)],
+                 "librfid_reader.so", sensor=("rfid", 10), max_range=2.0)
+    write_static(models, "rfid_tag", "RFID tag",
+                 "A card that an RFID reader reads by its model's name.", "card",
+                 [spanned("card", (-0.043, -0.027, 0.0), (0.043, 0.027, 0.001),
+                          material=(0.2, 0.55, 0.75), collide=False)], "librfid_tag.so", "tag")
+    write_static(models, "heater", "Heater",
+                 "An electric convector of 1 kW, off at the start.", "heater", [
+                     spanned("body", (0.02, -0.3, 0.1), (0.12, 0.3, 0.5)),
+                     spanned("grille", (0.03, -0.28, 0.5), (0.11, 0.28, 0.505), material=GREY,
+                             collide=False),
+                     spanned("foot_left", (0.0, 0.2, 0.0), (0.16, 0.24, 0.1), material=GREY),
+                     spanned("foot_right", (0.0, -0.24, 0.0), (0.16, -0.2, 0.1), material=GREY)],
+                 "libheater.so", thing="heater", power=1000)
+    # a button, and its chime 0.8 m above it
+    write_static(models, "doorbell", "Doorbell",
+                 "A button and its chime, which microphones hear.", "doorbell", [
+                     spanned("plate", (0.0, -0.03, -0.05), (0.012, 0.03, 0.05), material=STEEL,
+                             collide=False),
+                     Part("button", (0.012, 0.006), (0.015, 0, 0), (0, pi / 2, 0), collide=False),
+                     spanned("chime", (0.0, -0.07, 0.75), (0.04, 0.07, 0.85), collide=False)],
+                 "libdoorbell.so", position="0.04 0 0.8")
+    write_static(models, "barometer", "Barometer",
+                 "The pressure of the air at its height, with the noise of a BMP280.", "box",
+                 [spanned("box", (0.0, -0.02, -0.02), (0.015, 0.02, 0.02), collide=False)],
+                 "libbarometer.so", sensor=("barometer", 1), noise_stddev=1.3)
+    write_static(models, "warm_surface", "Warm surface",
+                 "A panel of 0.6 x 0.6 m whose temperature is commanded.", "panel",
+                 [spanned("panel", (0.0, -0.3, -0.3), (0.02, 0.3, 0.3), same=True)],
+                 "libwarm_surface.so")
+    for kind in ("temperature", "humidity"):
+        write_static(models, f"{kind}_sensor", f"{kind.capitalize()} sensor",
+                     f"The {kind} of the air in its room, 1 Hz.", "sensor",
+                     [spanned("housing", (-0.02, -0.03, -0.03), (-0.002, 0.03, 0.03),
+                              collide=False)], f"lib{kind}_sensor.so", sensor=(kind, 1))
 
 
 def write_proximity(models: Path) -> None:
@@ -147,28 +181,6 @@ def write_wall_cabinet(models: Path) -> None:
                 "Served by libdoor_world_plugin.so.")
 
 
-def write_rfid_reader(models: Path) -> None:
-    """Writes models/rfid_reader: a flat antenna that looks along x."""
-    root, model = new_model("rfid_reader", static=True)
-    antenna = spanned("antenna", (-0.04, -0.12, -0.12), (-0.005, 0.12, 0.12), collide=False)
-    link = add_link(model, "reader", [antenna], moves=False)
-    sensor = add_sensor(link, "rfid", "custom", 10)
-    add_plugin(sensor, "rfid_reader", "librfid_reader.so", max_range=2.0)
-    write_model(root, models, "RFID reader",
-                "Reads tags that it sees within 2 m and 120 degrees. Served by librfid_reader.so.")
-
-
-def write_rfid_tag(models: Path) -> None:
-    """Writes models/rfid_tag: a card that lies flat."""
-    root, model = new_model("rfid_tag", static=True)
-    card = spanned("card", (-0.043, -0.027, 0.0), (0.043, 0.027, 0.001),
-                   material=(0.2, 0.55, 0.75), collide=False)
-    add_link(model, "card", [card], moves=False)
-    add_plugin(model, "tag", "librfid_tag.so")
-    write_model(root, models, "RFID tag",
-                "A card that an RFID reader reads by its model's name. Served by librfid_tag.so.")
-
-
 def smart_plug(name: str, load: str, **parameters: float) -> etree._Element:
     """Returns the model of a round plug on a wall, x into the room, that feeds `load`."""
     _, model = new_model(name, static=True)
@@ -189,59 +201,6 @@ def write_smart_plug(models: Path) -> None:
                 "Served by libsmart_plug.so.")
 
 
-def write_heater(models: Path) -> None:
-    """Writes models/heater: a convector of 1 kW, back to the wall, x into the room."""
-    root, model = new_model("heater", static=True)
-    parts = [
-        spanned("body", (0.02, -0.3, 0.1), (0.12, 0.3, 0.5)),
-        spanned("grille", (0.03, -0.28, 0.5), (0.11, 0.28, 0.505), material=GREY, collide=False),
-        spanned("foot_left", (0.0, 0.2, 0.0), (0.16, 0.24, 0.1), material=GREY),
-        spanned("foot_right", (0.0, -0.24, 0.0), (0.16, -0.2, 0.1), material=GREY),
-    ]
-    add_link(model, "heater", parts, moves=False)
-    add_plugin(model, "heater", "libheater.so", power=1000)
-    add_thing(model, "heater")
-    write_model(root, models, "Heater",
-                "An electric convector of 1 kW, off at the start. Served by libheater.so.")
-
-
-def write_doorbell(models: Path) -> None:
-    """Writes models/doorbell: a button on a wall and its chime 0.8 m above it, x into the room."""
-    root, model = new_model("doorbell", static=True)
-    parts = [
-        spanned("plate", (0.0, -0.03, -0.05), (0.012, 0.03, 0.05), material=STEEL, collide=False),
-        Part("button", (0.012, 0.006), (0.015, 0, 0), (0, pi / 2, 0), collide=False),
-        spanned("chime", (0.0, -0.07, 0.75), (0.04, 0.07, 0.85), collide=False),
-    ]
-    add_link(model, "doorbell", parts, moves=False)
-    add_plugin(model, "doorbell", "libdoorbell.so", position="0.04 0 0.8")
-    write_model(root, models, "Doorbell",
-                "A button and its chime, which microphones hear. Served by libdoorbell.so.")
-
-
-def write_barometer(models: Path) -> None:
-    """Writes models/barometer: a small box on a wall, x into the room."""
-    root, model = new_model("barometer", static=True)
-    box = spanned("box", (0.0, -0.02, -0.02), (0.015, 0.02, 0.02), collide=False)
-    link = add_link(model, "box", [box], moves=False)
-    sensor = add_sensor(link, "barometer", "custom", 1)
-    add_plugin(sensor, "barometer", "libbarometer.so", noise_stddev=1.3)
-    write_model(root, models, "Barometer",
-                "The pressure of the air at its height, with the noise of a BMP280. "
-                "Served by libbarometer.so.")
-
-
-def write_warm_surface(models: Path) -> None:
-    """Writes models/warm_surface: a panel of 0.6 x 0.6 m on a wall, its back to it, x inwards."""
-    root, model = new_model("warm_surface", static=True)
-    panel = spanned("panel", (0.0, -0.3, -0.3), (0.02, 0.3, 0.3), same=True)
-    add_link(model, "panel", [panel], moves=False)
-    add_plugin(model, "warm_surface", "libwarm_surface.so")
-    write_model(root, models, "Warm surface",
-                "A panel of 0.6 x 0.6 m whose temperature is commanded. Served by "
-                "libwarm_surface.so.")
-
-
 def write_daylight(models: Path) -> None:
     """Writes models/daylight_window: a pane of 1.4 x 1.0 m on a wall, its back to it, x inwards."""
     root, model = new_model("daylight_window", static=True)
@@ -256,13 +215,3 @@ def write_daylight(models: Path) -> None:
     write_model(root, models, "Window as a source of daylight",
                 "A pane of 1.4 x 1.0 m that scatters the light of an overcast sky into the room. "
                 "Served by libdaylight_plugin.so.")
-
-
-def _write_air_sensor(models: Path, kind: str, title: str) -> None:
-    root, model = new_model(f"{kind}_sensor", static=True)
-    housing = spanned("housing", (-0.02, -0.03, -0.03), (-0.002, 0.03, 0.03), collide=False)
-    link = add_link(model, "sensor", [housing], moves=False)
-    sensor = add_sensor(link, kind, "custom", 1)
-    add_plugin(sensor, f"{kind}_sensor", f"lib{kind}_sensor.so")
-    write_model(root, models, title,
-                f"The {kind} of the air in its room, 1 Hz. Served by lib{kind}_sensor.so.")

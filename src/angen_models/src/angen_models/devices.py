@@ -69,6 +69,20 @@ def add_sensor(link: etree._Element, name: str, kind: str, rate: float) -> etree
     return sensor
 
 
+def write_static(models: Path, name: str, title: str, text: str, link: str, parts: Sequence[Part],
+                 library: str, plugin: str = "", sensor: tuple[str, float] | None = None,
+                 thing: str = "", **values: object) -> None:
+    """Writes models/<name>: a static model of one link, with one plug-in; with a `sensor` (name,
+    rate in Hz) that has it."""
+    root, model = new_model(name, static=True)
+    body = add_link(model, link, parts, moves=False)
+    add_plugin(add_sensor(body, sensor[0], "custom", sensor[1]) if sensor else model,
+               plugin or name, library, **values)
+    if thing:
+        add_thing(model, thing)
+    write_model(root, models, title, f"{text} Served by {library}.")
+
+
 def _new_pir(name: str) -> tuple[etree._Element, etree._Element]:
     """The root of a PIR's model, and its sensor; x looks into the room."""
     root, model = new_model(name, static=True)
@@ -157,14 +171,7 @@ def write_luminosity(models: Path) -> None:
     ]
     link = add_link(model, "sensor", parts, moves=False)
     sensor = add_sensor(link, "luminosity", "camera", 1)
-    camera = add(sensor, "camera")
-    add(camera, "horizontal_fov", 0.8)
-    image = add(camera, "image")
-    for tag, value in (("width", 1), ("height", 1), ("format", "R8G8B8")):
-        add(image, tag, value)
-    clip = add(camera, "clip")
-    add(clip, "near", 0.01)
-    add(clip, "far", 20)
+    _add_lens(sensor, 0.8, (1, 1), (0.01, 20))
     add_plugin(sensor, "luminosity_controller", "libluminosity_sensor_controller.so",
                noise_stddev=0.01)
     write_model(root, models, "Luminosity sensor",

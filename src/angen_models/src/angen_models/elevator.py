@@ -6,6 +6,7 @@ from pathlib import Path
 from lxml import etree
 
 from angen_models import plan
+from angen_models.devices import add_sensor
 from angen_models.sdf import (Part, Vector, add, add_fixed, add_joint, add_link, add_plugin,
                               new_model, spanned, write_model)
 
@@ -69,9 +70,7 @@ def write_elevator(models: Path) -> None:
 
     looks = Part("cabin", mesh="model://elevator/meshes/cabin.dae", material=None)
     cabin = add_link(model, "cabin", cabin_collisions() + [looks])
-    sensor = add(cabin, "sensor", name="floor_contact", type="contact")
-    add(sensor, "always_on", "true")
-    add(sensor, "update_rate", 1)
+    sensor = add_sensor(cabin, "floor_contact", "contact", 1)
     add(add(sensor, "contact"), "collision", "floor_collision")
     add_plugin(sensor, "bumper", "libgazebo_ros_bumper.so", noise_stddev=0.5)
     add_joint(model, "lift", "prismatic", "base", "cabin", (0, 0, 1),

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from math import pi
 from pathlib import Path
 
-from angen_models.devices import add_soil
+from angen_models.devices import add_sensor, add_soil
 from angen_models.sdf import (Color, Part, Place, Vector, add, add_link, add_plugin, add_thing,
                               new_model, spanned, write_model)
 
@@ -292,9 +292,7 @@ def write_piece(models: Path, name: str, piece: Piece) -> None:
                           material=piece.color))
     link = add_link(model, "body", parts, moves=not piece.static)
     if piece.touch:
-        sensor = add(link, "sensor", name="contact", type="contact")
-        add(sensor, "always_on", "true")
-        add(sensor, "update_rate", 1)
+        sensor = add_sensor(link, "contact", "contact", 1)
         add(add(sensor, "contact"), "collision", f"{piece.touch}_collision")
         add_plugin(sensor, "bumper", "libgazebo_ros_bumper.so", noise_stddev=0.05)
     if name in PLUGINS:

@@ -6,7 +6,7 @@ from pathlib import Path
 from lxml import etree
 
 from angen_models.catalog import STEEL
-from angen_models.devices import add_sensor
+from angen_models.devices import add_sensor, write_static
 from angen_models.furniture import OAK, legs
 from angen_models.sdf import (Color, Part, add, add_link, add_plugin, add_pose, add_thing,
                               new_model, numbers, spanned, write_model)
@@ -22,7 +22,12 @@ def write_things(models: Path) -> None:
     """Writes every model of this module under models."""
     write_cup(models)
     write_weighing_table(models)
-    write_rfid_gate(models)
+    # a long-range antenna that looks along x
+    write_static(models, "rfid_gate", "RFID gate",
+                 "A long-range reader for a doorway: tags that it sees within 5 m and 120 degrees.",
+                 "reader",
+                 [spanned("antenna", (-0.04, -0.15, -0.15), (-0.005, 0.15, 0.15), collide=False)],
+                 "librfid_reader.so", sensor=("rfid", 10), max_range=5.0)
 
 
 def write_cup(models: Path) -> None:
@@ -61,18 +66,6 @@ def write_weighing_table(models: Path) -> None:
     write_model(root, models, "Weighing table",
                 "A side table of 6 kg on four load cells: the weight of the things on it, and "
                 "where. Served by libload_cells.so.")
-
-
-def write_rfid_gate(models: Path) -> None:
-    """Writes models/rfid_gate: a long-range antenna that looks along x."""
-    root, model = new_model("rfid_gate", static=True)
-    antenna = spanned("antenna", (-0.04, -0.15, -0.15), (-0.005, 0.15, 0.15), collide=False)
-    link = add_link(model, "reader", [antenna], moves=False)
-    sensor = add_sensor(link, "rfid", "custom", 10)
-    add_plugin(sensor, "rfid_gate", "librfid_reader.so", max_range=5.0)
-    write_model(root, models, "RFID gate",
-                "A long-range reader for a doorway: tags that it sees within 5 m and 120 degrees. "
-                "Served by librfid_reader.so.")
 
 
 def add_tag(block: etree._Element, place: tuple[float, float, float]) -> None:

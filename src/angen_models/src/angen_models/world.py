@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from math import atan2, cos, hypot, pi, sin
 from pathlib import Path
-from typing import Sequence
+from typing import Iterable, Sequence
 
 from lxml import etree
 
@@ -183,18 +183,26 @@ def walk() -> list[tuple[float, float, float, float]]:
     return points
 
 
-def add_person(world: etree._Element) -> etree._Element:
-    """Appends the person who walks round floor 0, and returns the block."""
+def add_actor(world: etree._Element, rows: Iterable[tuple[float, float, float, float]],
+              loops: bool, digits: int) -> etree._Element:
+    """Appends a person who is at x, y with a yaw at each t (s, of that many digits), and returns
+    the block."""
     actor = add(world, "actor", name="person")
     script = add(actor, "script")
-    add(script, "loop", "true")
+    add(script, "loop", str(loops).lower())
     add(script, "delay_start", 0)
     add(script, "auto_start", "true")
     trajectory = add(script, "trajectory", id="0", type="walk")
-    for t, x, y, yaw in walk():
+    for t, x, y, yaw in rows:
         waypoint = add(trajectory, "waypoint")
-        add(waypoint, "time", round(t, 3))
-        add(waypoint, "pose", numbers(x, y, 0, 0, 0, round(yaw, 5)))
+        add(waypoint, "time", round(t, digits))
+        add(waypoint, "pose", numbers(x, y, 0, 0, 0, round(yaw, digits + 2)))
+    return actor
+
+
+def add_person(world: etree._Element) -> etree._Element:
+    """Appends the person who walks round floor 0, and returns the block."""
+    actor = add_actor(world, walk(), True, 3)
     _add_transmitter(actor, "person")
     return actor
 
