@@ -1,6 +1,7 @@
 """Days are whole, alone and as their profile says."""
 import datetime
 import statistics
+from dataclasses import replace
 
 import pytest
 
@@ -49,22 +50,42 @@ def test_a_worker_is_out_on_workdays_and_sleeps_seven_to_nine_hours():
     assert 7 < statistics.mean(slept) < 9.2
 
 
-def test_residents_who_eat_together_begin_together_and_one_of_them_cooks():
-    home = [Planner(3, 'home', name, profiles.read('retired')) for name in ('anna', 'bert')]
-    for planner in home:
-        planner.table = home
-    together = meals = 0
-    for number in range(60):
-        plans = [planner.plan(later(number)) for planner in home]
-        noon = [[i for i in items if i.cause == 'scheduled' and 11.5 < i.start / 3600 < 14.5]
-                for items in plans]
-        eats = [[i.start for i in items if i.activity == 'eat'] for items in noon]
-        cooks = [i.start for items in noon for i in items if i.activity == 'cook']
-        if all(eats):
-            meals += 1
-            together += abs(eats[0][0] - eats[1][0]) < 60.0
-            assert len({round(start / 60) for start in cooks}) == len(cooks)
-    assert meals > 10 and together > 0.7 * meals
+@pytest.mark.parametrize('other, least', [('retired', 0.8), ('child', 0.8), ('worker', 0.5)])
+def test_residents_who_eat_together_wait_for_each_other_and_one_of_them_cooks(other, least):
+    """A worker has lunch elsewhere."""
+    whole = shared = 0.0
+    cooked = []
+    for seed in range(3):
+        home = [Planner(seed, 'home', name, profiles.read(profile))
+                for name, profile in (('anna', 'retired' if other != 'child' else 'worker'),
+                                      ('bert', other))]
+        for planner in home:
+            planner.table = home
+        for number in range(30):
+            plans = [planner.plan(later(number)) for planner in home]
+            eats = [[i for i in items if i.activity == 'eat'] for items in plans]
+            whole += sum(i.end - i.start for items in eats for i in items)
+            shared += 2 * sum(max(0.0, min(a.end, b.end) - max(a.start, b.start))
+                              for a in eats[0] for b in eats[1])
+            cooks = [i.start for items in plans for i in items
+                     if i.activity == 'cook' and i.cause == 'scheduled']
+            cooked.append(len({round(start / 60) for start in cooks}) == len(cooks))
+    assert shared > least * whole, shared / whole
+    assert all(cooked)
+
+
+def test_dishes_stand_for_days_and_are_washed_at_once():
+    days, washed = 60, {}
+    for stand in (0.0, 2.0):
+        profile = replace(profiles.read('retired'), dishes=(stand, stand), free={}, needs={})
+        items = [item for seed in range(4) for n in range(days)
+                 for item in Planner(seed, 'home', 'anna', profile).plan(later(n))
+                 if item.activity == 'wash_dishes' and item.cause == 'scheduled']
+        washed[stand] = (len(items) / days / 4,
+                         statistics.mean(item.end - item.start for item in items))
+    assert 2.6 < washed[0.0][0] <= 3.0
+    assert 0.35 < washed[2.0][0] < 0.8  # once in two days, more on good ones
+    assert 1.6 < washed[2.0][1] / washed[0.0][1] < 2.9
 
 
 def test_days_of_a_person_and_persons_differ():

@@ -11,7 +11,7 @@ class Clock(SimpleNamespace):
 
     home, now = Home(), 0.0
 
-    def devices(self):
+    def devices(self, kind=''):
         return []
 
     def run(self, seconds):

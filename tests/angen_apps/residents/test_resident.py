@@ -5,6 +5,7 @@ import datetime
 import math
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -12,7 +13,7 @@ from angen_apps.data.site import Site, apartment
 from angen_apps.residents.activities import Step
 from angen_apps.residents.household import Household
 from angen_apps.residents.profiles import read
-from angen_apps.residents.resident import make
+from angen_apps.residents.members import make
 from angen_tools.common.failure import Failure
 from tests.angen_apps.residents.test_mover import home_of
 
@@ -25,9 +26,9 @@ def test_whoever_opens_a_front_stands_out_of_its_swing(tmp_path):
     modes: dict[str, str] = {}
 
     def script():
+        anna.enter(household.places.anywhere())
         for step in steps:
             for spot in household.places.spots(step):
-                anna.enter(household.places.anywhere())
                 yield from anna.go(spot.stand, spot.storey)
                 (kind, name, shut), = anna._use(step, spot)
                 at = site.simulator.body('anna')
@@ -103,9 +104,9 @@ def test_residents_are_at_home_when_a_run_begins_in_the_day(tmp_path):
 def test_a_cook_goes_among_things_and_a_sitter_gets_up_and_sits_down_again(tmp_path):
     apartment(tmp_path / 'home.world')
     site, household, anna = home_of(tmp_path / 'home.world')
-    turns: list[float] = []
+    turns: list[Any] = []
     fidget = site.simulator.fidget
-    site.simulator.fidget = lambda name, turn: (turns.append(turn), fidget(name, turn))
+    site.simulator.fidget = lambda name, to: (turns.append(to), fidget(name, to))
     cook, relax = anna._known['cook'], anna._known['relax']
     relax = replace(relax, moves=(5.0, 20.0), visits=replace(relax.visits, every=(60.0, 90.0)))
 
@@ -126,4 +127,60 @@ def test_a_cook_goes_among_things_and_a_sitter_gets_up_and_sits_down_again(tmp_p
     assert max(i.end - i.start for i in does if i.activity == 'cook') < 60.0
     postures = [i.posture for i in does if i.activity == 'relax']
     assert postures[:3] == ['sit', 'stand', 'sit'] and anna.posture == 'sit'
-    assert len(turns) > 10 and all(abs(sum(turns[:i])) < 0.25 for i in range(len(turns)))
+    assert len(turns) > 10
+    for values, most in (([to.yaw for to in turns], 0.25), ([to.x for to in turns], 0.14),
+                         ([to.y for to in turns], 0.14)):
+        assert 0.0 < max(values) - min(values) < most
+
+
+def test_who_eats_sits_at_the_table_of_another_who_does(tmp_path):
+    apartment(tmp_path / 'home.world')
+    _, household, anna = home_of(tmp_path / 'home.world')
+    bert = make(household, [('bert', anna.profile)])[1]
+    seats = bert._tasks['eat'][0]
+    assert bert._in_company(seats, 'eat') == seats and seats[0].room == 'kitchen0'
+    for thing in ('livingroom_chair0_a', 'kitchen_chair0_c'):
+        seat = next(seat for seat in seats if seat.thing == thing)
+        household.held = {('spot', seat.key): 'anna'}
+        anna.item = replace(anna.item, activity='relax')
+        assert bert._in_company(seats, 'eat') == seats
+        anna.item = replace(anna.item, activity='eat')
+        others = [other for other in bert._in_company(seats, 'eat') if other != seat]
+        assert others[0].room == seat.room
+
+
+def test_a_cook_does_not_go_to_the_fridge_because_all_else_is_taken(tmp_path):
+    apartment(tmp_path / 'home.world')
+    _, household, anna = home_of(tmp_path / 'home.world')
+    stove = anna._tasks['cook'][-1][0]
+    anna._somebody_at = lambda spot: 'fridge' not in spot.thing
+    goes = [anna._other(anna._known['cook'].visits, stove) for _ in range(300)]
+    assert 0 < len([spot for spot in goes if spot]) < 40
+    kept = []
+    anna._step = lambda activity, step, index, end: kept.append(step.opens) or iter(())
+    for cause in ('free', 'continues'):
+        list(anna._do(replace(anna.item, activity='cook', end=600.0, cause=cause)))
+    assert kept == ['fridge', '', '', '', '']
+
+
+def test_two_who_get_up_from_seats_beside_each_other_are_not_in_each_others_way(tmp_path):
+    apartment(tmp_path / 'home.world')
+    _, household, anna = home_of(tmp_path / 'home.world')
+    bert, clara = make(household, [('bert', anna.profile), ('clara', anna.profile)])[1:3]
+    goals = anna._tasks['eat'][0]
+    beside = [next(seat for seat in anna._tasks['relax'][0] if seat.thing == thing
+                   and seat.place.pose[0] > 7.0)
+              for thing in ('livingroom_armchair0', 'livingroom_sofa0')]
+    found = []
+
+    def script(resident, seat, goal):
+        resident.enter(seat, True)
+        yield 20.0
+        yield from resident.go(goal.stand, 0)
+        found.append((resident.name, resident.arrived, household.now < 50.0))
+
+    household._queue.clear()
+    for resident, seat, goal in zip((bert, clara), beside, goals):
+        household.add(script(resident, seat, goal))
+    household.run(100.0)
+    assert sorted(found) == [('bert', True, True), ('clara', True, True)]

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from random import Random
+from statistics import mean
 from typing import Sequence
 
 from angen_apps.residents.activities import activities
@@ -16,6 +17,8 @@ from angen_apps.residents.moods import Day, Mood, Person
 from angen_apps.residents.profiles import DAY, Profile, Scheduled, Span
 
 SHORTEST = 90.0  # s: a gap that is shorter is not filled
+CONTINUES = 'continues'  # cause of the rest of an interrupted activity
+VISIT = 'visit'  # by a guest
 RESORT = 'relax'  # activity with nothing else to do
 AGAIN = 0.3  # how likely an activity follows itself, compared with others
 PAUSE = 5.0  # s after an interruption
@@ -24,6 +27,8 @@ NIGHT = 3 * 3600.0  # s of sleep, at least
 MUST = 0.8  # probability from which one leaves in any mood and weather
 SECOND = 0.08, (1200.0, 5400.0), 0.4  # how often one eats twice, how much later, how much
 BRIEF = 60.0, 360.0  # s of what comes between
+WASH, PILE, MORE = 'wash_dishes', 6, 0.3  # meals whose dishes stand, at most; what each takes more
+WEEK = {'all': 7, 'weekday': 5, 'weekend': 2}  # days of a week
 APART = 5400.0  # s: meals that are nearer to each other are one
 
 
@@ -114,40 +119,82 @@ class Planner:
         usual = part.chance
         if part.do[0] == 'leave' and (usual < MUST or self._mood(day).ill):
             usual = self._mood(day).leaves(usual)
+        if part.do[0] == VISIT:
+            usual = self._mood(day).leaves(min(self._visits(part), 1.0))
         return self._draw(day, 'happens', number).random() < usual
+
+    def _visits(self, part: Scheduled) -> float:
+        """How many visits a day there are by a scheduled item."""
+        planned = sum(WEEK[other.days] * other.chance for other in self.profile.scheduled
+                      if other.do[0] == VISIT)
+        return self.person.guests * part.chance / planned if planned else 0.0
 
     def _chain(self, day: Day, number: int, part: Scheduled
                ) -> tuple[float, list[tuple[str, float]]]:
         """When a scheduled item begins, and its activities without those that are left out."""
-        with_whom = self._meal(day, part)
-        span = min((other.at for _, other in with_whom), key=lambda s: (s.high - s.low, s.low))
+        begins, with_whom = self._meal(day, part)
         keys: tuple[object, ...] = self.seed, self.home, self.resident, day.number, number
         if len(with_whom) == 1:
-            begins = around(self._draw(day, 'scheduled', number), span.low, span.high)
+            begins = around(self._draw(day, 'scheduled', number), part.at.low, part.at.high)
             parts = self._lengths(day, f'scheduled {number}', part.do, part)
         else:  # who eats together begins and gets up together, and one of them cooks
-            keys = self.seed, self.home, 'meals', day.number, span.low
-            begins = around(chance(*keys), span.low, span.high)
+            keys = self.seed, self.home, 'meals', day.number, min(o.at.low for _, o in with_whom)
             parts = [(name, spread(chance(*keys, name), *activities()[name].lasts))
                      for name in part.do]
-            for name in ('cook', 'wash_dishes'):
-                able = [who for who, other in with_whom if name in other.do] or [self]
-                if chance(*keys, 'does', name).choice(able) is not self:
-                    begins += sum(length for other, length in parts if other == name == 'cook')
-                    parts = [entry for entry in parts if entry[0] != name]
-        kept = [(name, length) for name, length in parts if name not in self.leaves_out
-                and chance(*keys, 'skips', name).random()
-                >= self._mood(day).skips(self.person.skips.get(name, 0.0))]
-        return begins, kept
+        skipped = {name for _, other in with_whom for name in other.do
+                   if chance(*keys, 'skips', name).random() < mean(
+                       who._mood(day).skips(who._usually_skips(name))
+                       for who, other in with_whom if name in other.do)} | self.leaves_out
+        for name in ('cook', WASH) if len(with_whom) > 1 else ():
+            able = [who for who, other in with_whom if name in other.do]
+            if able and name not in skipped \
+                    and chance(*keys, 'does', name).choice(able) is not self:
+                skipped.add(name)
+                if name == 'cook':
+                    begins += spread(chance(*keys, name), *activities()[name].lasts)
+        return begins, [(name, self._washing(keys, length) if name == WASH else length)
+                        for name, length in parts if name not in skipped]
 
-    def _meal(self, day: Day, part: Scheduled) -> list[tuple[Planner, Scheduled]]:
-        """Who has a meal together at that time, with what each has then."""
+    def _usually_skips(self, name: str) -> float:
+        """How probably an activity is left out on a usual day."""
+        left = 0.0 if name != WASH else 1.0 - 1.0 / self._stand()
+        return self.person.skips.get(name, left)
+
+    def _stand(self) -> float:
+        """The number of meals after which dishes are washed, on average."""
+        meals = sum(WEEK[part.days] * part.chance for part in self.profile.scheduled
+                    if WASH in part.do) / WEEK['all']
+        return max(meals * self.person.dishes, 1.0)
+
+    def _washing(self, keys: tuple[object, ...], length: float) -> float:
+        """How long it takes with the dishes that stand from the meals before."""
+        draw, count = chance(*keys, WASH, 'stands'), 0
+        while count < PILE and draw.random() < 1.0 - 1.0 / self._stand():
+            count += 1
+        return length * (1.0 + MORE * count)
+
+    def _meal(self, day: Day, part: Scheduled) -> tuple[float, list[tuple[Planner, Scheduled]]]:
+        """When a meal together begins, and who has it, with what each has then: who is up in time,
+        for whom the others wait."""
+        alone = [(self, part)]
         if not part.together:
-            return [(self, part)]
-        return [(who, other) for who in self.table for i, other in enumerate(who.profile.scheduled)
+            return 0.0, alone
+        whom = [(who, other) for who in self.table for i, other in enumerate(who.profile.scheduled)
                 if other.together and other.days in ('all', day.kind)
                 and abs(other.at.low + other.at.high - part.at.low - part.at.high) < 2 * APART
                 and (other is part or who._happens(day, i, other))]
+        span = min((other.at for _, other in whom), key=lambda s: (s.high - s.low, s.low))
+        begins = around(chance(self.seed, self.home, 'meals', day.number, span.low),
+                        span.low, span.high)
+        whom = [(who, other) for who, other in whom if who._ready(day) < begins + APART]
+        if self not in [who for who, _ in whom]:
+            return begins, alone
+        return max(begins, *(who._ready(day) for who, _ in whom)), whom
+
+    def _ready(self, day: Day) -> float:
+        """When the resident is up and dressed."""
+        return self.wakes(day) + sum(
+            length for _, length in self._lengths(day, 'morning', self._morning(day)))
 
     def _second(self, day: Day, number: int, begins: float, parts: list[tuple[str, float]]
                 ) -> list[tuple[float, list[tuple[str, float]]]]:
@@ -220,7 +267,7 @@ class Planner:
                 continue
             result.append(replace(item, end=when))
             result.append(Item(when, when + length, name, 'interrupts'))
-            waiting.insert(0, Item(when + length + PAUSE, item.end, item.activity, 'continues'))
+            waiting.insert(0, Item(when + length + PAUSE, item.end, item.activity, CONTINUES))
         return result
 
     def _moments(self, day: Day, items: list[Item]) -> list[tuple[float, str, float]]:

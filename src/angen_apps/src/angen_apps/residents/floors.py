@@ -26,6 +26,7 @@ DEEP = 0.35  # m to both sides of a door's middle that belong to its opening
 JOINT = 0.03  # m beside a leaf, to the other one of a double door
 REACH = 1.1  # m from a person to the thing that the person uses
 OPENS_IN = 20.0  # s, at most
+NARROWER = (0.28, 0.26, 0.24, 0.22, 0.2, 0.18, 0.16, 0.14, 0.12, 0.1, 0.08)  # m, instead of it
 PASSES = 0.35  # m from a leaf to the middle of who gets past it
 
 
@@ -37,13 +38,14 @@ class Floors:
         self.fronts = Fronts(world)
         entrance = self.entrance()
         lives = home.storey_at(entrance.pose[2]) if entrance else min(r.storey for r in home.rooms)
-        leaves = _opened(world, home)
+        self.leaves = _opened(world, home)
+        self.barred: dict[str, float] = {}  # doors that nobody passes, and m that they leave
         self.free: dict[int, np.ndarray] = {}  # cells (rows, columns) where a person can stay
         self.grids = {storey: make_map(world, storey, 'away', TALL, margin=PORCH)
                       for storey in self._storeys(lives)}
         self.reached: set[str] = set()  # rooms that people get to
         for storey in self.grids:
-            self._measure(storey, leaves)
+            self._measure(storey)
         self._floors: dict[str, np.ndarray] = {}  # floors of rooms
         self._places: dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}  # _by_doors()
 
@@ -57,7 +59,7 @@ class Floors:
         return sorted(storey for storey in found
                       if any(room.storey == storey for room in self.home.rooms))
 
-    def _measure(self, storey: int, leaves: dict[str, Leaf]) -> None:
+    def _measure(self, storey: int) -> None:
         """Finds where people can stay on a floor, and its rooms that they get to: past each open
         leaf, as they shut one that is in their way."""
         grid = self.grids[storey]
@@ -70,12 +72,19 @@ class Floors:
             within |= inside(room.polygon, x, y)
         for door in doors:
             within |= _opening(x, y, door, PORCH if door.name == self.home.entrance else DEEP)
-        passable = within & (distances(grid, BODY) >= BODY) & (grid.cells == FREE)
+        within &= grid.cells == FREE
+        clear = distances(grid, BODY)
+        passable = within & (clear >= BODY)
         beside = np.ones(passable.shape, bool)
         for door in (door for door in doors if door.kind == 'door'):
-            leaf = leaves.get(door.name)
-            past = beside if leaf is None else _away(leaf, x, y) >= BODY
+            leaf = self.leaves.get(door.name)
+            away = np.full(x.shape, BODY) if leaf is None else _away(leaf, x, y)
+            past = beside if leaf is None else away >= BODY
             if not _passes(door, passable & past, x, y):
+                wide = np.minimum(clear, away)
+                self.barred[door.name] = 2 * next(
+                    (half for half in NARROWER if _passes(door, within & (wide >= half), x, y)),
+                    0.0)
                 passable &= ~_opening(x, y, door, DEEP)
             elif leaf is not None and not self._closes_off(leaf, passable, grid):
                 beside = beside & past
@@ -99,6 +108,12 @@ class Floors:
         rows, columns = self.free[storey].shape
         return (0 <= row < rows and 0 <= column < columns
                 and bool(self.free[storey][row, column]))
+
+    def around(self, point: Point, storey: int, *away: float) -> list[Point]:
+        """Places that far (m) from one where people can stay."""
+        places = [(point[0] + far * math.cos(k * math.pi / 8),
+                   point[1] + far * math.sin(k * math.pi / 8)) for far in away for k in range(16)]
+        return [place for place in places if self.is_free(place, storey)]
 
     def support(self, place: Place) -> float:
         """z of the surface under a sitting or lying person, m."""
@@ -178,15 +193,17 @@ class Floors:
         return x, y, away
 
     def porch(self) -> tuple[Point, int] | None:
-        """The free place outside the main entrance, and its storey; None if there is none."""
+        """The free place outside the main entrance, before a landing, and its storey; None if
+        there is none."""
         door = self.entrance()
         if door is None:
             return None
         storey = self.home.storey_at(door.pose[2])
         x, y, _, yaw = door.pose
-        for sign in (1, -1):
-            at = (x - sign * SWING * math.sin(yaw), y + sign * SWING * math.cos(yaw))
-            room = self.home.room_at(*at, door.pose[2] + 0.1)
+        sides = [(x - sign * SWING * math.sin(yaw), y + sign * SWING * math.cos(yaw))
+                 for sign in (1, -1)]
+        rooms = [self.home.room_at(*at, door.pose[2] + 0.1) for at in sides]
+        for at, room in sorted(zip(sides, rooms), key=lambda side: side[1] is not None):
             if room is None or room.use in ('landing', 'outdoor'):
                 point = self._nearest(self.free[storey], storey, at, 0.7)
                 if point:

@@ -4,19 +4,20 @@ from __future__ import annotations
 import datetime
 import heapq
 import itertools
+import math
 from typing import Any, Callable, Iterator
 
 from angen_apps.residents.floors import Floors
-from angen_apps.residents.interface import Rejected, Simulator
 from angen_apps.residents.light import daylight
 from angen_apps.residents.moods import Day
 from angen_apps.residents.places import Places
+from angen_apps.residents.simulator import Simulator
+from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home
 
 Process = Iterator[float]  # yields when it continues, s
 LIT = 100.0  # lx of a lamp, in rooms without a sensor
 LATITUDE = 48.0  # degrees, of homes without a latitude of their own
-CLEAR = 1.2  # m: a door with a person nearer is not shut
 
 
 class Household:
@@ -95,12 +96,20 @@ class Household:
         """A resident commands a device; whether it obeyed."""
         try:
             self.simulator.command(kind, name, text)
-        except Rejected:
+        except Failure:
             return False
         if kind != 'person':
             self.acts[kind, name] = (self.now, who)
             self.count += 1
         return True
+
+    def ring(self, who: str = '') -> None:
+        """Somebody rings the doorbell next to the entrance, a guest or one without a body."""
+        door = self.floors.entrance()
+        bells = [(math.dist(pose[:2], door.pose[:2]) if door else 0.0, name)
+                 for kind, name, _, pose in self.devices if kind == 'doorbell']
+        if bells:
+            self.do(who, 'doorbell', min(bells)[1], 'Ring')
 
     def of_model(self, model: str, *kinds: str) -> tuple[str, str] | None:
         """Kind and name of a device of a model."""
@@ -111,18 +120,10 @@ class Household:
         """Whether another person is awake in a room."""
         return any(r.room == room and r.name != who and not r.away for r in self.residents)
 
-    def doorway_free(self, x: float, y: float, storey: int, who: str) -> bool:
-        """Whether no other person and no robot is in the swing of a leaf."""
-        return all((r.at[0] - x) ** 2 + (r.at[1] - y) ** 2 > CLEAR ** 2
-                   for r in self.residents if r.name != who and not r.away and r.storey == storey
-                   ) and not self.robot_near(x, y, CLEAR, storey)
-
-    def robot_near(self, x: float, y: float, reach: float, storey: int | None = None) -> bool:
-        """Whether a robot is within `reach` (m) of a place, on this storey or on any."""
-        robots = [self.simulator.body(model) for kind, _, model, _ in self.simulator.devices()
-                  if kind == 'drive']
-        return any((r.x - x) ** 2 + (r.y - y) ** 2 < reach ** 2
-                   and (storey is None or self.home.storey_at(r.z) == storey) for r in robots)
+    def robot_near(self, x: float, y: float, reach: float) -> bool:
+        """Whether a robot is within `reach` (m) of a place, on any storey."""
+        return any((pose[0] - x) ** 2 + (pose[1] - y) ** 2 < reach ** 2
+                   for *_, pose in self.simulator.devices('drive'))
 
     def lux(self, room: str) -> float:
         """The illuminance in a room: by its sensor, or else by its lamps and the sun."""

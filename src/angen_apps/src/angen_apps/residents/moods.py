@@ -79,8 +79,12 @@ class Person:
         self._later = draw.gauss(0.0, 0.5)  # times that
         self._ills = draw.uniform(*profile.ills)  # a year
         self._moody = draw.uniform(*profile.moody)
+        self.guests = draw.uniform(*profile.guests)  # a week
         self._pace = math.exp(PACES[0] * draw.gauss(0.0, 1.0))
         self.skips = {name: draw.uniform(*profile.skips[name]) for name in sorted(profile.skips)}
+        self.queues, self.joins, self.talks, self.dishes = (
+            draw.uniform(*span) for span in (profile.queues, profile.joins, profile.talks,
+                                             profile.dishes))
         self.mood = lru_cache(4)(self._mood)
 
     def likes(self, activity: str) -> float:

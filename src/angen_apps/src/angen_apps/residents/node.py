@@ -2,20 +2,23 @@
 from __future__ import annotations
 
 import datetime
+import json
 import sys
 from pathlib import Path
 
 from angen_apps.maps.gridmap import load_world
 from angen_apps.residents.floors import Floors
 from angen_apps.residents.household import Household
-from angen_apps.residents.live import Live
 from angen_apps.residents.profiles import Profile, is_file, read
-from angen_apps.residents.resident import make
+from angen_apps.residents.members import make
+from angen_apps.residents.simulator import Simulator
 from angen_apps.residents.truth import HEAD, Interval
 from angen_tools.common.failure import Failure
 from angen_tools.common.yaml_file import YamlFile
+from angen_tools.session.live import Live
 
 AHEAD = 60.0  # s of simulated time
+START = 120.0  # s of wall time until the simulator has started, which is started beside this
 
 
 def read_household(path: Path) -> tuple[list[tuple[str, Profile]], int, float]:
@@ -35,17 +38,25 @@ def read_household(path: Path) -> tuple[list[tuple[str, Profile]], int, float]:
     return who, seed, 3600.0 * starts
 
 
-def run(path: Path, world: str, strict: bool = False) -> None:
-    """Lives in the running simulator until it ends; `world`: the file that it was started with;
+def run(path: Path, file: str, strict: bool = False) -> None:
+    """Lives in the running simulator until it ends; `file`: the world that it was started with;
     `strict`: Failure if residents cannot do all that they do."""
+    from rospy import Publisher
+    from std_msgs.msg import String
     who, seed, since = read_household(path)
-    simulator = Live()
-    floors = Floors(load_world(world), simulator.home)
+    world = Live(START)
+    world.join()
+    truth = Publisher('angen/residents', String, queue_size=50, latch=True)
+    simulator = Simulator(world)
+    floors = Floors(load_world(file), simulator.home)
     date = datetime.date.fromisoformat((simulator.home.start or '2026-03-23')[:10])
     household = Household(simulator, floors, seed, 'home', date, since - simulator.now)
 
     def tell(now: Interval) -> None:
-        simulator.publish({key: getattr(now, key) for key in HEAD if key != 'end'})
+        """JSON has no NaN, so an unknown place is null."""
+        row = {key: getattr(now, key) for key in HEAD if key != 'end'}
+        truth.publish(json.dumps({key: None if value != value else value
+                                  for key, value in row.items()}))
 
     for resident in make(household, who, strict):
         resident.diary.changed = tell
@@ -53,6 +64,7 @@ def run(path: Path, world: str, strict: bool = False) -> None:
         household.run(household.now + AHEAD)
         for resident in household.residents:
             resident.diary.closed.clear()
+            resident.talks.clear()
 
 
 def main() -> None:

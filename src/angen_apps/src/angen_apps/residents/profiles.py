@@ -18,7 +18,8 @@ HOURS = re.compile(r'(\d{1,2}):(\d\d)-(\d{1,2}):(\d\d)')
 DAYS = ('all', 'weekday', 'weekend')
 BODIES = ('person', 'cat')
 KEYS = ('about', 'body', 'speed', 'lives', 'closes_doors', 'lamps_on', 'lamps_off', 'wakes',
-        'sleeps', 'scheduled', 'free', 'needs', 'varies', 'skips', 'ills', 'moody')
+        'sleeps', 'scheduled', 'free', 'needs', 'varies', 'skips', 'ills', 'moody', 'guests',
+        'queues', 'joins', 'talks', 'dishes')
 RANGE = re.compile(r'(\d+(?:\.\d+)?)(?:-(\d+(?:\.\d+)?))?')
 # s by which somebody gets up earlier or later from day to day (standard deviation)
 VARIES = 0.25 * 3600.0, 0.75 * 3600.0
@@ -71,7 +72,12 @@ class Profile:
     """The habits of a kind of resident. `lives`: False for one who only comes to visit. Ranges, in
     which each resident has one number: `varies`, s by which its hours differ from day to day;
     `skips`, how probably a scheduled activity is left out; `ills`, illnesses a year (adults have
-    two or three colds, CDC); `moody`, how much its spirits change."""
+    two or three colds, CDC); `moody`, how much its spirits change; `guests`, visits a week, if
+    some are scheduled (61 % of people from 70 on meet others weekly: Freedman, J Gerontol B 77,
+    2022); `dishes`, days for which dirty dishes stand on average (1.5, OnePoll for LG, 2023); and
+    probabilities: `queues`, that it waits before the door of a bathroom in use; `joins`,
+    that it watches TV with another one; `talks`, that it begins a talk as it moves beside another.
+    """
 
     name: str
     speed: float  # m/s
@@ -90,6 +96,11 @@ class Profile:
     skips: dict[str, tuple[float, float]] = field(default_factory=dict)
     ills: tuple[float, float] = (1.0, 4.0)
     moody: tuple[float, float] = (0.6, 1.4)
+    guests: tuple[float, float] = (0.3, 2.5)
+    queues: tuple[float, float] = (0.2, 0.8)
+    joins: tuple[float, float] = (0.2, 0.7)
+    talks: tuple[float, float] = (0.1, 0.6)
+    dishes: tuple[float, float] = (0.5, 2.5)
     does: frozenset[str] = field(default_factory=frozenset)
 
 
@@ -199,8 +210,9 @@ class _Reader:
         found: dict[str, Any] = {key: self.file.number(entry[key], key, 0.0, 1.0)
                                  for key in ('closes_doors', 'lamps_on', 'lamps_off')
                                  if key in entry}
-        found.update({key: self.range(entry[key], key, most)
-                      for key, most in (('ills', 12.0), ('moody', 3.0)) if key in entry})
+        most = {'ills': 12.0, 'moody': 3.0, 'guests': 7.0, 'queues': 1.0, 'joins': 1.0,
+                'talks': 1.0, 'dishes': 14.0}
+        found.update({key: self.range(entry[key], key, most[key]) for key in most if key in entry})
         if 'varies' in entry:
             node = entry['varies']
             parts = dict.fromkeys(DAYS[1:], node) if is_text(node) \

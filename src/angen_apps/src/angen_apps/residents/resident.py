@@ -2,56 +2,43 @@
 from __future__ import annotations
 
 import math
-import sys
 from dataclasses import replace
 from random import Random
-from typing import Any, Generator, Iterator
+from typing import Generator
 
 from angen_apps.residents.activities import FRIDGE, Activity, Step, Visits, activities
-from angen_apps.residents.agenda import RESORT, Item, Planner
+from angen_apps.residents.agenda import CONTINUES, RESORT, Item, Planner
 from angen_apps.residents.chance import chance, choose, spread
-from angen_apps.residents.floors import BODY
+from angen_apps.residents.company import MOVES, PATIENCE, QUEUE, Company, Process
+from angen_apps.residents.floors import CLEAR, SWING
 from angen_apps.residents.household import Household
-from angen_apps.residents.interface import Rejected
 from angen_apps.residents.mover import ASIDE
 from angen_apps.residents.places import OUTSIDE, Spot
 from angen_apps.residents.profiles import DAY, Profile
-from angen_apps.residents.truth import Diary, Interval
-from angen_apps.residents.user import User
 from angen_apps.robot.planner import Point
 from angen_tools.common.failure import Failure
 
+COOK, ANSWER = 'cook', 'answer_door'
 LATE = 20.0  # s: an activity that would be shorter is left out
 SHORT = 10.0  # s: so is a later step, as a stove that is on for a moment
-# s between two bouts of movements; who sleeps turns 2.1 to 2.7 times an hour (De Koninck, Lorrain
-# and Gagnon, Sleep 15, 1992); the others are ours
-MOVES = {'sit': (40.0, 300.0), 'lie': (500.0, 3000.0), 'stand': (15.0, 90.0)}
 CAT = (100.0, 600.0)
-TURNS = (-0.12, 0.0, 0.12)  # rad from the way a seat faces: who turned on would hit what is beside
-MORE, APART = 0.6, (3.0, 9.0)  # probability of a further movement in a bout, and s until then
 SLOWLY = 3.0  # times that the straight way to a thing may last
 ROAMS = (15.0, 45.0)  # s at a place
-OPEN_FOR = 20.0  # s that a fridge is open, at most
+OPEN_FOR, OPEN_AT_LEAST = 20.0, 5.0  # s that a fridge or the entrance is open
 REACHES = (4.0, 15.0)  # s between two bouts of movements before it, ours
-QUEUE, PATIENCE = 10.0, 900.0  # s between two looks at a room or way, and until it is given up
 MAKES_WAY = 30.0  # s in which another one passes
 ANYWHERE = 4  # places for things that a home lacks
 PAUSE = 60.0  # s until a way that was given up is tried again, then twice as long
 OUT_BETWEEN = 900.0  # s: a visitor with less to wait stays
 
-Process = Iterator[float]
 
-
-class Resident(User):
+class Resident(Company):
     """A member of a household; live() is its process."""
 
     def __init__(self, household: Household, name: str, number: int, profile: Profile) -> None:
         super().__init__(household, name, number, profile)
-        self.diary = Diary()
-        self._turned = 0.0  # rad, of a sitting or lying body
         self._known = dict(activities())
         self.leaves_out: dict[str, str] = {}  # by activity: what the home lacks
-        self._stands_in: dict[tuple[str, int], str] = {}  # by step: the missing thing
         self._tasks = {task: self._resolve(self._known[task])
                        for task in sorted(profile.does | {'sleep', 'leave'}
                                           | ({'relax', 'toilet', 'wash', 'shower', 'dress'}
@@ -116,8 +103,8 @@ class Resident(User):
         household = self.household
         midnight = -household.since
         items = [Item(item.start - DAY, item.end - DAY, item.activity, item.cause)
-                 for item in self.planner.plan(household.day(-1)) if item.end > DAY]
-        self._begin([*items, *self.planner.plan(household.day(0))])
+                 for item in self._items(-1) if item.end > DAY]
+        self._begin([*items, *self._items(0)])
         while True:
             for item in items:
                 due = Item(midnight + item.start, midnight + item.end, item.activity, item.cause)
@@ -126,8 +113,12 @@ class Resident(User):
                 if due.end > self.now + LATE:
                     yield from self._do(due)
             midnight = number * DAY - household.since
-            items = self.planner.plan(household.day(number))
+            items = self._items(number)
             number += 1
+
+    def _items(self, number: int) -> list[Item]:
+        """What it does on a day."""
+        return self.planner.plan(self.household.day(number))
 
     def _begin(self, items: list[Item]) -> None:
         """Starts at the place of the first item, or out of the home."""
@@ -140,32 +131,36 @@ class Resident(User):
         spot = self._choose(spots[0]) or (first.activity == 'sleep' and self._choose(
             self.household.places.on_floor)) or self.household.places.anywhere()
         self.storey = spot.storey
-        self.enter(spot)
-        if first.activity == 'sleep':
-            self._sits(spot)
+        self.enter(spot, first.activity == 'sleep')
         self._note('does', first.activity)
 
     def _do(self, item: Item) -> Process:
-        activity = self._known[item.activity]
         if item.start > self.now + OUT_BETWEEN and not self.profile.lives and not self.away:
             yield from self._leave(item.start)
         if item.start > self.now:
             yield from self._stay(item.start)
-        self.item = item
+        item = self._joins(item)
+        activity = self._known[item.activity]
+        before, self.item = self.item, item
+        if activity.name == ANSWER and item.cause != CONTINUES:
+            self.household.ring()
         if activity.name == 'leave' or (not self.profile.lives and activity.name == 'sleep'):
             yield from self._leave(item.end)
             return
         yield from self._come()
         if self.away:
             return
-        if activity.alone and not (yield from self._queue(activity, item)):
+        if activity.alone and not (yield from self._queue(activity, self._rooms(activity), before)):
             return
         try:
-            times = activity.times(max(item.end - self.now, LATE))
+            steps = [(i, step) for i, step in enumerate(activity.steps) if not (
+                item.cause == CONTINUES and step.opens and step.minutes)]  # it was opened before
+            times = replace(activity, steps=tuple(step for _, step in steps)).times(
+                max(item.end - self.now, LATE))
             end = self.now
-            for i, (step, seconds) in enumerate(zip(activity.steps, times)):
+            for number, ((i, step), seconds) in enumerate(zip(steps, times)):
                 end += seconds
-                if i == 0 or end > self.now + SHORT:
+                if number == 0 or end > self.now + SHORT:
                     yield from self._step(activity, step, i, end)
         finally:
             if activity.alone:
@@ -174,7 +169,8 @@ class Resident(User):
     def _step(self, activity: Activity, step: Step, index: int, end: float) -> Process:
         """A part of an activity at one place."""
         self._release()
-        spot = self._choose(self._tasks[activity.name][index])
+        spots = self._of_own(activity, self._tasks[activity.name][index])
+        spot = self._choose(self._in_company(spots, activity.name))
         if step.posture == 'roam':
             yield from self._roam(activity, step, index, end)
             return
@@ -214,14 +210,14 @@ class Resident(User):
         if spot.place is not None and self.profile.body == 'person':
             try:
                 self.settle(spot)
-                self._turned = 0.0
-            except Rejected as error:
+            except Failure as error:
                 return str(error)
         return ''
 
     def _opened(self, used: list[tuple[str, str, str]], end: float) -> Process:
-        """Has a front open for a while."""
-        yield from self._stay(min(end, self.now + OPEN_FOR), REACHES)
+        """Has a front or the entrance open for a while, also if the way there took all the time."""
+        until = max(min(end, self.now + OPEN_FOR), self.now + OPEN_AT_LEAST)
+        yield from self._stay(until, REACHES)
         self._unuse(used)
 
     def _busy(self, activity: Activity, index: int, spot: Spot, end: float) -> Process:
@@ -231,12 +227,12 @@ class Resident(User):
         while visits is not None:
             leaves = self.now + spread(self._habits, *visits.every)
             lasts = spread(self._habits, *visits.lasts)
-            other = self._other(visits, spot)
-            if other is None or leaves + lasts > end:
+            if leaves + lasts > end:
                 break
             yield from self._stay(leaves, moves)
-            back = SLOWLY * math.dist(spot.stand, other.stand) / self.profile.speed
-            if self.now + lasts + 2 * back > end \
+            other = self._other(visits, spot)
+            if other is None or self.now + lasts + 2 * SLOWLY * math.dist(
+                    spot.stand, other.stand) / self.profile.speed > end \
                     or not self.household.take(('spot', other.key), self.name):
                 continue
             yield from self._visit(activity, index, other, lasts)
@@ -248,13 +244,14 @@ class Resident(User):
         yield from self._stay(end, CAT if self.profile.body != 'person' else moves)
 
     def _other(self, visits: Visits, spot: Spot) -> Spot | None:
-        """The nearest thing of a kind drawn by weight, on this storey and free."""
+        """The nearest thing of a kind drawn by weight, on this storey, if one is free."""
         places = self.household.places
-        near = [(min(spots, key=lambda s: math.dist(s.stand, spot.stand)), weight)
-                for what, weight in visits.to
-                if (spots := [s for s in places.spots(Step((what,))) if s.storey == spot.storey
-                              and s.thing != spot.thing and not self._somebody_at(s)])]
-        return choose(self._habits, near)
+        near = choose(self._habits, [
+            (spots, weight) for what, weight in visits.to
+            if (spots := [s for s in places.spots(Step((what,)))
+                          if s.storey == spot.storey and s.thing != spot.thing])]) or []
+        free = [other for other in near if not self._somebody_at(other)]
+        return min(free, key=lambda s: math.dist(s.stand, spot.stand)) if free else None
 
     def _visit(self, activity: Activity, index: int, other: Spot, lasts: float) -> Process:
         """Goes to a thing and stays there for some seconds; opens it if that is a fridge."""
@@ -299,47 +296,22 @@ class Resident(User):
             self._lamp_off(left)
         self.spot = spot if self.arrived else None
 
+    def _leave_swings(self) -> Process:
+        """Steps out of the swing of a door, which others may need."""
+        for door in self.household.home.doors:
+            x, y, z, _ = door.pose
+            if door.kind == 'door' and math.dist((x, y), self.at) < CLEAR \
+                    and self.household.home.storey_at(z) == self.storey:
+                nearest = min(self.floors.around((x, y), self.storey, SWING), default=self.at,
+                              key=lambda point: math.dist(point, self.at))
+                if self._send(nearest, self.storey):
+                    yield from self._walk(nearest)
+
     def _elsewhere(self) -> tuple[Point, int]:
         """A place in the open, out of the way of others."""
         points = self.floors.spots(self.room, 1, self._habits) if self.room else []
         anywhere = self.household.places.anywhere(self._habits)
         return (points[0], self.storey) if points else (anywhere.stand, anywhere.storey)
-
-    def _stay(self, until: float, moves: tuple[float, float] | None = None) -> Process:
-        """Stays, and moves a little in bouts, which follow each other after such a time."""
-        moves = moves or (None if self.posture == 'stand' else MOVES[self.posture])
-        while moves and self.now < until and not self.away:
-            pause = spread(self._habits, *moves)
-            while self.now + pause < until:
-                yield self.now + pause
-                self.moved = self.now
-                if self.posture != 'stand':
-                    turn = self._habits.choice([turn for turn in TURNS if turn != self._turned])
-                    self.simulator.fidget(self.name, turn - self._turned)
-                    self._turned = turn
-                elif self.spot is not None:
-                    yield from self._shuffle(self.spot)
-                if self.posture == 'lie' or self._habits.random() > MORE:
-                    break
-                pause = self._habits.uniform(*APART)
-            else:
-                break
-        if until > self.now:
-            yield until
-
-    def _shuffle(self, spot: Spot) -> Process:
-        """Steps aside, along the front of the thing in use, out of the swing of its leaf."""
-        thing = self._thing(spot)
-        leaf = self.floors.fronts.leaf(thing) if thing else None
-        for _ in range(4):
-            point = (spot.stand[0] + self._habits.uniform(-0.3, 0.3),
-                     spot.stand[1] + self._habits.uniform(-0.3, 0.3))
-            if (leaf is None or leaf.room_for(point) >= BODY) and self._step_to(point):
-                break
-        yield self.now + 1.2
-        if self.simulator.state('person', self.name).get('going'):  # round who stands in its way
-            yield from self._walk(point, self.storey)
-        self.look()
 
     def _roam(self, activity: Activity, step: Step, index: int, end: float) -> Process:
         """Walks around in a room."""
@@ -357,20 +329,19 @@ class Resident(User):
             self._lamps(activity.dark)
             yield from self._stay(min(self.now + self._habits.uniform(*ROAMS), end))
 
-    def _queue(self, activity: Activity, item: Item) -> Generator[float, None, bool]:
-        """Waits for rooms that one resident uses at a time; returns whether they are free."""
-        rooms = [room.name for room in self.household.places.rooms_of(activity.alone)]
-        since = self.now
-        while rooms:
-            if any(self.household.take(('room', room), self.name) for room in rooms):
-                return True
-            if self.now == since:
-                self._note('waits', activity.name)
-            if self.now - since > PATIENCE or self.now > item.end:
-                self.diary.note('gave up waiting')
-                return False
-            yield self.now + QUEUE
-        return True
+    def _rooms(self, activity: Activity) -> list[str]:
+        """The rooms of which an activity takes one, those of this storey first."""
+        away = {room.name: room.storey != self.storey
+                for room in self.household.places.rooms_of(activity.alone)}
+        used = [spot.room for spot in self._tasks[activity.name][0] if spot.room in away]
+        return sorted(dict.fromkeys(used), key=lambda room: away[room])
+
+    def _of_own(self, activity: Activity, spots: list[Spot]) -> list[Spot]:
+        """The spots of an activity outside of rooms that it takes, but for those that it has
+        taken."""
+        others = {room.name for room in self.household.places.rooms_of(activity.alone)
+                  if self.household.held.get(('room', room.name)) != self.name}
+        return [spot for spot in spots if spot.room not in others]
 
     def _leave_rooms(self, activity: Activity) -> None:
         for room in self.household.places.rooms_of(activity.alone):
@@ -420,40 +391,3 @@ class Resident(User):
                     and self.household.take(('spot', spot.key), self.name):
                 return spot
         return None
-
-    def _somebody_at(self, spot: Spot) -> bool:
-        return any(r is not self and r.is_at(spot) for r in self.household.residents)
-
-    def _release(self) -> None:
-        held = self.household.held
-        for key in [key for key, who in held.items() if who == self.name and key[0] == 'spot']:
-            del held[key]
-
-    def _note(self, phase: str, activity: str, step: int = 0) -> None:
-        """A phase begins, for the truth."""
-        thing = self.spot.thing if self.spot and phase == 'does' else ''
-        posture = '' if self.away else 'stand' if phase == 'goes' else self.posture
-        cause = self.item.cause
-        x, y = self.at if not self.away else (float('nan'), float('nan'))
-        self.diary.turn(Interval(self.now, self.now, self.name, activity or 'leave', cause, phase,
-                                 self.room, thing, posture, x, y))
-        if phase == 'does':
-            self.diary.note(self._stands_in.get((activity, step), ''))
-
-
-def make(household: Household, who: list[tuple[str, Profile]], strict: bool = False) -> list[Any]:
-    """The residents of a household, whose days begin. Says what they cannot do in their home;
-    Failure for that if `strict`."""
-    for number, (name, profile) in enumerate(who):
-        household.residents.append(Resident(household, name, number, profile))
-    remarks = [remark for resident in household.residents for remark in resident.remarks()]
-    for remark in remarks:
-        print(f'angen: {remark}', file=sys.stderr, flush=True)
-    if strict and remarks:
-        raise Failure(f'residents cannot live in {household.name} as they do elsewhere: '
-                      f'{len(remarks)} remarks')
-    planners = [resident.planner for resident in household.residents if resident.profile.lives]
-    for resident in household.residents:
-        resident.planner.table = planners
-        household.add(resident.live())
-    return household.residents

@@ -11,6 +11,7 @@ from angen_apps.residents.places import Spot
 from angen_apps.residents.profiles import Profile
 from angen_tools.common.home import Thing
 
+TV = 'watch_tv'
 DARK = 50.0  # lx: with less, lamps are switched on
 
 Process = Iterator[float]
@@ -64,7 +65,7 @@ class User(Mover):
             self.household.do(self.name, kind, name, text)
 
     def _somebody_watches(self) -> bool:
-        return any(r is not self and r.item.activity == 'watch_tv' and not r.away
+        return any(r is not self and r.item.activity == TV and not r.away
                    for r in self.household.residents)
 
     def _lamps(self, dark: bool = False) -> None:
