@@ -4,7 +4,7 @@ from __future__ import annotations
 import pytest
 
 from angen_tools.common.clock import duration, show_duration, show_time, time_of_day
-from angen_apps.care.membership import Trapezoid, around, rises
+from angen_apps.care.membership import Trapezoid, around
 
 H = 3600.0
 
@@ -17,7 +17,7 @@ def test_a_trapezoid_rises_and_falls(value: float, degree: float) -> None:
 
 
 def test_upright_edges_belong_to_it() -> None:
-    assert [rises(600.0, 600.0).degree(t) for t in (599.9, 600.0, 1e9)] == [0.0, 1.0, 1.0]
+    assert [Trapezoid(600.0, 600.0).degree(t) for t in (599.9, 600.0, 1e9)] == [0.0, 1.0, 1.0]
     window = around((0.0, 0.0, 6 * H, 6 * H), 24 * H)
     assert [window.degree(h * H) for h in (0.0, 3.0, 6.0, 6.01, 23.99)] == [1.0, 1.0, 1.0, 0, 0]
 

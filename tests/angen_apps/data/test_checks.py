@@ -8,14 +8,16 @@ import io
 import json
 import shutil
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, Callable
 
 import pytest
 
+from angen_apps.data.checks import sensors as sensor_checks
 from angen_apps.data.formats import FORMATS
 from angen_apps.data.generate import HOME, MANIFEST, Job, make, sha256
 from angen_apps.data.validate import validate
-from angen_apps.data.written import Written
+from angen_apps.data.written import Findings, Written
 from angen_tools.common.failure import Failure
 
 DAY = 86400
@@ -294,6 +296,8 @@ BASE: dict[str, Callable[[Tables], Any]] = {
     'sensors moved': lambda t: [one.update(y=one['y'] + 3.0) for one in t.layout['sensors']],
     'doors moved': lambda t: [one['pose'].__setitem__(0, one['pose'][0] + 2.0)
                               for one in t.layout['doors']],
+    'a resident is a guest': lambda t: t.layout.update(
+        guests=[{'name': t.layout['residents'].pop()['name'], 'host': 'anna'}]),
     'a day more': lambda t: t.layout.update(days=2),
     'faults as an excuse': lambda t: t.faults.extend(
         {'time': '1.0', 'sensor': s['id'], 'fault': 'dropout', 'detail': ''}
@@ -387,3 +391,19 @@ def test_what_a_listed_fault_has_lost_is_no_finding(good: Path, tmp_path: Path) 
     tables.entry['settings']['faults'] = 64 * '0'
     tables.write()
     assert validate(tables.folder).count == 0
+
+
+@pytest.mark.parametrize('room, checked', [('bedroom0', 1), ('bedroom1', 0)])
+def test_the_front_of_a_thing_is_in_its_room(room: str, checked: int) -> None:
+    """The sensor of a door, or of a front on the floor above, is that of another thing."""
+    sensors = [{'id': 'D001', 'kind': 'door', 'name': 'front', 'room': room, 'x': 1.0, 'y': 0.5},
+               {'id': 'D002', 'kind': 'door', 'name': 'hall_contact', 'room': 'bedroom0',
+                'x': 1.0, 'y': 0.2}]
+    home: Any = SimpleNamespace(
+        layout={'doors': [{'name': 'hall'}], 'sensors': sensors}, faulty=set(), people={'ann'},
+        things={'it': {'type': 'wardrobe', 'room': 'bedroom0', 'x': 1.0, 'y': 0.0}},
+        truth=[{'resident': 'ann', 'activity': 'dress', 'phase': 'does', 'thing': 'it', 'note': '',
+                'start': '10.0', 'end': '90.0'}], states=lambda name: [])
+    findings = Findings()
+    sensor_checks._fronts(findings, home)
+    assert findings.checked['who uses a thing opens it'] == checked

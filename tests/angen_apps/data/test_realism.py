@@ -30,6 +30,17 @@ def test_files_of_casas_are_read_with_tabs_or_blanks(tmp_path, fraction, separat
         realism.read(file)
 
 
+@pytest.mark.parametrize('when, what', [
+    ('2010-13-45 00:00:00', 'is not a date and time'), ('2010-11-04 25:61:00', 'is not a date'),
+    ('9999-12-31 00:00:00', 'must be in the 36525 days from 2010-11-04 on'),
+    ('2010-11-03 23:59:59', 'must be in the 36525 days from 2010-11-04 on')])
+def test_a_time_of_casas_that_cannot_be(when, what, tmp_path):
+    file = tmp_path / 'aruba.txt'
+    file.write_text(f'2010-11-04 00:03:50 M003 ON\n{when} M003 OFF\n')
+    with pytest.raises(Failure, match=rf'aruba\.txt:2: {when} {what}'):
+        realism.read(file)
+
+
 def test_what_is_outside_comes_first():
     time = np.arange(0, 86400, 1000.0)
     values = ['ON' if i % 2 == 0 else 'OFF' for i in range(len(time))]

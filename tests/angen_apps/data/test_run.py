@@ -18,8 +18,8 @@ from angen_apps.data.run import Data, residents_of
 from angen_apps.data.site import Site, apartment
 from angen_apps.data.validate import validate
 from angen_apps.residents.household import Household
+from angen_apps.residents.members import make
 from angen_apps.residents.profiles import read
-from angen_apps.residents.resident import make
 from angen_tools.common.failure import Failure
 
 MORNING = 30180.0  # s after midnight, a minute before the carer comes (seed 5)
@@ -157,7 +157,7 @@ def test_residents_sleep_on_the_floor_of_a_home_without_a_bed(home, tmp_path, ca
     path.write_text(text)
     site = Site(path, 7, placed=False)
     household = Household(site.simulator, site.floors, 3, 'home', datetime.date(2026, 3, 23))
-    anna, bert = make(household, [(name, read('retired')) for name in ('anna', 'bert')])
+    anna, bert, *_ = make(household, [(name, read('retired')) for name in ('anna', 'bert')])
     household.run(60.0)  # at midnight
     for sleeper in (anna, bert):
         assert (sleeper.posture, sleeper.room) == ('lie', 'bedroom0')
@@ -165,6 +165,20 @@ def test_residents_sleep_on_the_floor_of_a_home_without_a_bed(home, tmp_path, ca
     assert math.dist(anna.at, bert.at) > 1.0
     assert 'anna (retired) does sleep on the floor of bedroom0: the home has no bed and no sofa ' \
         in capfd.readouterr().err
+
+
+def test_the_power_of_what_was_switched_just_now_is_recorded_after_the_next_tick(home):
+    """Processes continue less than a tick after each other, too, before a command is executed."""
+    site = Site(home, 7, placed=False)
+    household = Household(site.simulator, site.floors, 3, 'home', datetime.date(2026, 3, 23))
+    recorder = Recorder(site, household)
+    recorder.start()
+    household.run(1.0)
+    assert household.do('anna', 'appliance', 'livingroom_tv0', 'On')
+    recorder.heard()
+    household.run(2.0)
+    times, watts = zip(*recorder.recording.power['appliance/livingroom_tv0'])
+    assert times[-1] == pytest.approx(1.0, abs=0.01) and watts[-1] > 5.0
 
 
 def job(folder: Path, **more) -> Job:
@@ -209,9 +223,8 @@ def test_a_wall_is_between_a_sensor_and_who_is_in_another_room(home):
     household = Household(site.simulator, site.floors, 5, 'home', datetime.date(2026, 3, 23))
     recorder = Recorder(site, household)
     area = next(sensor for sensor in site.sensors if sensor.name == 'area_kitchen0')
-    sees = {room: recorder._sees(area, SimpleNamespace(
-        at=site.floors.spots(room, 1, Random(1))[0], storey=0))
-        for room in ('kitchen0', 'bathroom0', 'bedroom0')}
+    sees = {room: recorder._clear(area, 0, site.floors.spots(room, 1, Random(1))[0])
+            for room in ('kitchen0', 'bathroom0', 'bedroom0')}
     assert sees == {'kitchen0': True, 'bathroom0': False, 'bedroom0': False}
     door = next(door for door in site.home.doors if door.name == 'kitchen0')
     at = door.pose[0], door.pose[1] + 0.5

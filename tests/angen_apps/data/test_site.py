@@ -1,10 +1,14 @@
 """Sensors and heating of a home that data comes from."""
 from collections import Counter
 from pathlib import Path
+from random import Random
 
+import numpy as np
 import pytest
 
 from angen_apps.data.site import HEATING, Site, apartment
+from angen_apps.plan.apartment import apartment as plan
+from angen_apps.plan.writer import write_world
 
 CONTACT = ('<include><uri>model://{0}</uri><name>{0}_own</name><pose>2 2 1 0 0 0</pose>'
            '</include>')
@@ -37,6 +41,25 @@ def test_sensors_by_rule_replace_those_of_the_world(home):
     openers = [(kind, model) for kind, _, model, _ in site.world.entities()
                if kind in ('door', 'window', 'cabinet')]
     assert {model for kind, model in openers if kind != 'door'} <= set(reeds)
+
+
+def test_no_wardrobe_hides_a_room_from_its_motion_sensor(tmp_path):
+    write_world(plan(3, 2, 21), tmp_path / 'home.world')
+    site = Site(tmp_path / 'home.world', 7)
+    seen = {}
+    for room in site.home.rooms:
+        place = next((s for s in site.sensors if s.name == f'area_{room.name}'), None)
+        if place is None:
+            continue
+        points = site.floors.spots(room.name, 100, Random(1))
+        ways = np.array([(x - place.x, y - place.y, room.floor + 1.2 - place.z)
+                         for x, y in points])
+        far = np.linalg.norm(ways, axis=1)
+        clear = site.world.cast(np.tile((place.x, place.y, place.z), (len(ways), 1)),
+                                ways / far[:, None], 20.0)
+        seen[room.name] = float((clear > far - 0.2).mean())
+    assert len(seen) == 8
+    assert min(seen.values()) > 0.8, seen
 
 
 def test_a_door_that_has_a_contact_gets_no_other(home):

@@ -88,3 +88,9 @@ def test_a_file_without_labels_is_said(tmp_path, text, message):
     with pytest.raises(Failure, match=r'rooms\.csv:2: must be a sensor and one of kitchen'):
         (tmp_path / 'rooms.csv').write_text('M001 kitchen\nM002 garage\n')
         transfer._uses(real, tmp_path / 'rooms.csv')
+
+
+def test_minutes_of_sensors_that_report_no_movement() -> None:
+    stream = realism.Stream(np.array([1.0, 70.0]), ['M001', 'D001'], ['OFF', 'CLOSE'], [])
+    made = transfer.minutes(stream, {}, ['M', 'D'])
+    assert made.features.shape[0] == transfer.MINUTES and np.isfinite(made.features).all()

@@ -83,6 +83,21 @@ def test_any_name_gives_a_world_that_loads(tmp_path: Path, worker: Worker, name:
     assert Desk(desk.path, worker).opened()['drawing'] is not None
 
 
+def test_a_drawn_home_has_a_clock_and_what_its_sensors_measure(tmp_path: Path, worker: Worker
+                                                               ) -> None:
+    desk, data = Desk(tmp_path / 'home.world', worker), drawn()
+    data['plan']['start'] = '2026-03-23T07:00:00'
+    data['plan']['storeys'][0]['sensors'].append(
+        {'name': 'air', 'model': 'temperature_sensor', 'x': 2, 'y': 2.9, 'z': 1.5, 'yaw': -1.57})
+    desk.save(data, desk.version, False)
+    assert desk.opened()['drawing'] == data
+    world = angen.World(str(desk.path))
+    world.run(2.0)
+    assert world.home['start'] == data['plan']['start']
+    warm = world.sensor('temperature', 'air0')['temperature']
+    assert warm == pytest.approx(20.0, abs=1.0)
+
+
 def test_rooms_and_findings_of_a_drawing(tmp_path: Path, worker: Worker) -> None:
     desk = Desk(tmp_path / 'home.world', worker)
     found = desk.survey(drawn('bathroom'))

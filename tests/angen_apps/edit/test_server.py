@@ -22,7 +22,12 @@ class Simulation:
 
     def __init__(self) -> None:
         self.worlds: list[Path] = []
+        self.prepared = 0
         self.closed = False
+
+    def prepare(self) -> None:
+        self.prepared += 1
+        raise Failure('there is no port')
 
     def run(self, world: Path, household: dict[str, str]) -> str:
         self.worlds.append(world)
@@ -61,14 +66,16 @@ class Running:
         return self._session.ws_connect(f'{self.url}/windows', headers={'Origin': self.url})
 
 
-def run(path: Path, test: Callable[[Running], Awaitable[None]]) -> None:
+def run(path: Path, test: Callable[[Running], Awaitable[None]], behind: Path | None = None
+        ) -> None:
     worker = Worker()
 
     async def go() -> None:
         port = free_port()
         simulation: Any = Simulation()
         desk = Desk(path, worker)
-        editor = Editor(desk, simulation, {'symbols': {}}, Guard('127.0.0.1', port, set()), PAGE)
+        editor = Editor(desk, simulation, {'symbols': {}}, Guard('127.0.0.1', port, set()), PAGE,
+                        behind)
         runner = web.AppRunner(editor.app)
         await runner.setup()
         await web.TCPSite(runner, '127.0.0.1', port, shutdown_timeout=0.5).start()
@@ -108,8 +115,21 @@ def test_orders(tmp_path: Path) -> None:
         assert said['address'] == 'http://127.0.0.1:2/home.world/worker' and said['version'] == 5
         status, picture = await page.get('/plan.svg')
         assert status == 200 and '<svg' in picture
+        assert page.simulation.prepared == 1  # when somebody drew, and its failure was no end
 
     run(path, test)
+
+
+def test_a_picture_is_behind_the_drawing(tmp_path: Path) -> None:
+    async def test(page: Running) -> None:
+        assert await page.get('/behind') == (200, 'a picture')
+
+    async def without(page: Running) -> None:
+        assert (await page.get('/behind'))[0] == 404
+
+    (tmp_path / 'plan.png').write_text('a picture')
+    run(tmp_path / 'home.world', test, tmp_path / 'plan.png')
+    run(tmp_path / 'home.world', without)
 
 
 @pytest.mark.parametrize('what, data, status, why', [

@@ -7,10 +7,14 @@ from pathlib import Path
 import angen
 import pytest
 
+from angen_apps.plan import polygons
+from angen_apps.plan.apartment import apartment
 from angen_apps.plan.finish import finish
-from angen_apps.plan.lifts import shaft, with_shafts
+from angen_apps.plan.lifts import around_pits, shaft, with_shafts
 from angen_apps.plan.model import Lift, Plan, Room, Storey, Wall
+from angen_apps.plan.tower import building
 from angen_apps.plan.writer import write_world
+from angen_apps.residents.floors import Floors
 from angen_tools.common.home import Home
 
 
@@ -59,3 +63,36 @@ def test_a_lift_with_a_shaft_of_its_own_stays_as_it_is() -> None:
     plan.storeys[0].cutouts.append(shaft(lift))
     with_shafts(plan)
     assert plan.lifts == [lift] and not plan.storeys[0].openings
+
+
+@pytest.mark.parametrize('plan', [apartment(1, 2, 7), building(1, 2, 2, 4)])
+def test_the_ground_before_a_home_with_a_lift_is_level_with_its_floor(plan: Plan, tmp_path: Path
+                                                                      ) -> None:
+    """People come and go by its main entrance, and its cabin comes down to that floor."""
+    write_world(plan, tmp_path / 'home.world', 'none')
+    world = angen.World(str(tmp_path / 'home.world'))
+    home = Home.of_world(world)
+    floors = Floors(angen.World(str(tmp_path / 'home.world')), home)
+    assert floors.barred == {}
+    (x, y), storey = floors.porch()
+    assert storey == 0 and home.room_at(x, y, 0.5) is None
+    for floor in (1, 0):
+        world.command('elevator', 'elevator', f'Floor{floor}')
+        world.run(20.0)
+        assert world.device('elevator', 'elevator')['position'] == pytest.approx(3.0 * floor,
+                                                                                 abs=0.005)
+
+
+def test_ground_is_left_out_below_each_lift_only() -> None:
+    plan = drawn([Lift('a', 2.0, 2.0, 0.0, 1.5, 1.5, (0, 1)),
+                  Lift('b', 2.5, 5.0, pi / 2, 1.5, 1.5, (0, 1))])
+    areas = around_pits(plan, 3.0)
+
+    def covered(x: float, y: float) -> int:
+        return sum(w < x < e and s < y < n for w, s, e, n in areas)
+
+    pits = [polygons.bounds(shaft(lift)) for lift in plan.lifts]
+    whole = sum((e - w) * (n - s) for w, s, e, n in areas + pits)
+    assert whole == pytest.approx(14.0 * 12.0)
+    assert [covered(lift.x, lift.y) for lift in plan.lifts] == [0, 0]
+    assert [covered(*at) for at in ((2.3, 3.4), (-2.9, -2.9), (10.9, 8.9), (2.3, -1.0))] == 4 * [1]

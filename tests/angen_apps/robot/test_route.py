@@ -7,18 +7,9 @@ import pytest
 
 from angen_apps.robot.planner import Planner
 from angen_apps.robot.route import Drive, Ride, Router, Turn
-from angen_apps.robot.route_file import read_route
 from angen_tools.common.failure import Failure
 from tests.angen_apps.robot.rooms import DOOR, two_rooms
-
-POINTS = ('waypoints:\n- {name: a, floor: 0, at: [0.5, 0.5]}\n'
-          '- {name: b, floor: 0, at: [3.5, 0.5]}\n')
-
-
-def route_of(folder: Path, text: str):
-    file = folder / 'my.yaml'
-    file.write_text(text)
-    return read_route(file)
+from tests.angen_apps.robot.test_route_file import POINTS, route_of
 
 
 def test_a_route_through_a_door_opens_and_shuts_it(tmp_path: Path) -> None:

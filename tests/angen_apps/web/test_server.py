@@ -58,6 +58,10 @@ class Running:
                                     allow_redirects=False) as answer:
             return answer.status, await answer.text(errors='replace')
 
+    def cookie(self, role: str) -> dict[str, str]:
+        """The header of a browser that was given the role's link."""
+        return {'Cookie': f'angen_token_{self.host.partition(":")[2]}={self.guard.tokens[role]}'}
+
     def socket(self, **headers: str) -> Any:
         return self.session.ws_connect(f'http://{self.host}/socket', max_msg_size=0,
                                        headers={'Origin': f'http://{self.host}', **headers})
@@ -75,7 +79,7 @@ def run(test: Callable[[Running], Awaitable[None]], host: str = '127.0.0.1', pag
     async def go() -> None:
         port = free_port()
         source, guard = Source(), Guard(host, port, set(), (BUILD, SWITCH, LOOK))
-        runner = web.AppRunner(Server(source, guard, page, dict(kinds)).app)
+        runner = web.AppRunner(Server(source, guard, page, dict(kinds)).app, access_log=None)
         await runner.setup()
         await web.TCPSite(runner, '127.0.0.1', port, shutdown_timeout=0.5).start()
         try:
@@ -155,6 +159,21 @@ def test_a_socket_without_an_origin_is_rejected() -> None:
     run(test)
 
 
+def test_bytes_that_are_no_request_are_refused_and_not_logged(caplog: pytest.LogCaptureFixture
+                                                              ) -> None:
+    async def test(server: Running) -> None:
+        host, _, port = server.host.partition(':')
+        for sent, status in ((b'GET /?token=\xff HTTP/1.1\r\nHost: %s', b'401'),
+                             (b'\xff / HTTP/1.1\r\nHost: %s', b'400'),
+                             (b'GET / HTTP/1.1\r\nHost: %s\r\nHost: other', b'400')):
+            reader, writer = await asyncio.open_connection(host, int(port))
+            writer.write(sent.replace(b'%s', server.host.encode()) + b'\r\n\r\n')
+            assert (await reader.readline()).split()[1] == status, sent
+            writer.close()
+    run(test, host='192.0.2.7')
+    assert [record for record in caplog.records if record.name.startswith('aiohttp')] == []
+
+
 def test_another_address_needs_its_token() -> None:
     async def test(server: Running) -> None:
         token = server.guard.tokens[BUILD]
@@ -189,9 +208,7 @@ OF_ROLES = {LOOK: [], SWITCH: ['command', 'drive', 'goal', 'halt'],
 def test_each_order_of_each_role_is_executed_or_refused(role: str) -> None:
     """By whoever has the token, also without the page."""
     async def test(server: Running) -> None:
-        token = {'Cookie': f'angen_token_{server.host.partition(":")[2]}='
-                           f'{server.guard.tokens[role]}'}
-        async with server.socket(**token) as socket:
+        async with server.socket(**server.cookie(role)) as socket:
             access = await parts(socket, 'access')
             assert access['role'] == role
             assert access['tokens'] == (server.guard.tokens if role == BUILD
@@ -220,11 +237,10 @@ def test_orders_of_roles_exist() -> None:
 @pytest.mark.parametrize('method', ['POST', 'PUT', 'DELETE', 'PATCH'])
 def test_no_request_changes_anything(method: str) -> None:
     async def test(server: Running) -> None:
-        cookies = {'Cookie': f'angen_token_{server.host.partition(":")[2]}='
-                             f'{server.guard.tokens[LOOK]}'}
         for path in ('/', '/socket', '/scene.json', '/kinds.json', '/page/js/main.js'):
             async with server.session.request(method, f'http://{server.host}{path}',
-                                              headers=cookies, data=b'{"do": "reset"}') as answer:
+                                              headers=server.cookie(LOOK),
+                                              data=b'{"do": "reset"}') as answer:
                 assert answer.status == 405, path
         assert server.source.orders == []
     run(test, host='192.0.2.7')
@@ -235,10 +251,7 @@ def test_a_place_is_left_for_who_may_do_all(monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setattr(server_module, 'RESERVED', 1)
 
     async def test(server: Running) -> None:
-        def cookie(role: str) -> dict[str, str]:
-            return {'Cookie': f'angen_token_{server.host.partition(":")[2]}='
-                              f'{server.guard.tokens[role]}'}
-
+        cookie = server.cookie
         async with server.socket(**cookie(LOOK)), server.socket(**cookie(SWITCH)):
             with pytest.raises(WSServerHandshakeError) as rejected:
                 await server.socket(**cookie(LOOK))

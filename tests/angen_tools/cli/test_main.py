@@ -176,3 +176,11 @@ def test_without_ros_a_line_says_so(words: str, tmp_path: Path) -> None:
     result = angen(*words.split(), env=dict(os.environ, PYTHONPATH=path))
     assert result.returncode == 1
     assert re.fullmatch(rf'angen: {words.split()[0]} needs ROS .*\n', result.stderr)
+
+
+@pytest.mark.parametrize('stream', [0, 1, 2])
+def test_a_closed_stream_is_as_dev_null(stream: int) -> None:
+    done = subprocess.run([sys.executable, SCRIPT, 'plugins'], capture_output=True, text=True,
+                          preexec_fn=lambda: os.close(stream))
+    assert (done.returncode, done.stderr) == (0, '')
+    assert bool(done.stdout) == (stream != 1)

@@ -73,6 +73,19 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
     return (folder / 'events.csv').read_text().splitlines()
 
 
+def test_what_a_file_lacks_is_told(tmp_path: Path) -> None:
+    path = tmp_path / 'w.world'
+    mesh = '<geometry><mesh><uri>model://x/%s</uri></mesh></geometry>'
+    path.write_text('<sdf version="1.4"><world name="w">' + ''.join(
+        f'<model name="{name}"><link name="l"><collision name="c">{mesh % name}</collision>'
+        f'<visual name="v">{mesh % name}</visual></link></model>'
+        for name in ('a.dae', 'b.stl')) + '</world></sdf>')
+    done = run(path, '--for', '1', '--out', tmp_path / 'out')
+    assert done.returncode == 0
+    assert done.stderr.startswith(f'warning: {path}:1: mesh ')
+    assert 'model://x/a.dae' in done.stderr and 'model://x/b.stl' in done.stderr
+
+
 @pytest.mark.parametrize('seed', range(4))
 def test_a_kill_leaves_the_events_until_then(world: Path, tmp_path: Path, seed: int,
                                              whole: list[str]) -> None:

@@ -120,7 +120,7 @@ def test_wrong_spawns_and_deletions_fail_and_change_nothing(world: World) -> Non
     before = [e.name for e in world.entities()]
     with pytest.raises(Failure, match='model://nothing'):
         world.spawn('x', 'model://nothing')
-    with pytest.raises(Failure, match='eye'):
+    with pytest.raises(Failure, match="'eye' exists already"):
         world.spawn('eye', 'model://pir')
     with pytest.raises(Failure, match='nobody'):
         world.delete('nobody')

@@ -54,18 +54,13 @@ def test_the_same_options_give_the_same_bytes(tmp_path: Path) -> None:
 
 
 def test_every_pir_is_in_a_room_and_sees_its_walls(path: Path) -> None:
-    models = geometry.load(path)
-    building = [s for m in models.values() if m.source == 'apartment' for s in geometry.shapes(m)]
-    eyes = [m for m in models.values() if m.source == 'pir']
-    assert len(eyes) == COUNTS['pir']
-    for eye in eyes:
-        sensor, pose = geometry.sensor_pose(eye)
-        x0, y0, x1, y1 = plan.ROOMS[eye.name.split('_')[0]]
-        assert x0 + 0.05 < pose[0, 3] < x1 - 0.05 and y0 + 0.05 < pose[1, 3] < y1 - 0.05
-        origins, directions, reach = geometry.ray_fan(sensor, pose)
-        ranges, _ = geometry.cast(origins, directions, geometry.nearby(building, pose[:3, 3], 7.0),
-                                  reach)
-        assert (ranges < reach).any() and ranges.max() > 1.0, eye.name
+    world = geometry.shut_world(path)
+    assert len(world.sensors('pir')) == COUNTS['pir']
+    for _, name, _, pose in world.entities('pir'):
+        x0, y0, x1, y1 = plan.ROOMS[name.split('_')[0]]
+        assert x0 + 0.05 < pose[0] < x1 - 0.05 and y0 + 0.05 < pose[1] < y1 - 0.05
+        ranges, _, reach = geometry.cast(world, 'pir', name)
+        assert (ranges < reach).any() and ranges.max() > 1.0, name
 
 
 def test_every_pir_of_the_running_world_measures_ranges(world: angen.World) -> None:
@@ -108,17 +103,18 @@ def test_the_robot_drives_the_round_by_one_order(tmp_path: Path) -> None:
 
 
 def test_added_chairs_stand_free(path: Path) -> None:
-    models = geometry.load(path)
-    chairs = [m for m in models.values() if '_seat' in m.name]
+    world = geometry.shut_world(path)
+    solids = geometry.shapes(world)
+    for name in world.joints:
+        model, _, joint = name.partition('::')
+        if joint == 'hinge':
+            world.set_joints(model, {joint: -1.57})
+    solids += geometry.shapes(world)
+    chairs = [shape for shape in solids if '_seat' in shape.model]
     assert chairs
-    opened = {'hinge': -1.57}
-    solids = [s for m in models.values()
-              for joints in ({}, opened) for s in geometry.shapes(m, joints)]
     for chair in chairs:
-        near = [s for s in geometry.nearby(solids, chair.pose[:3, 3], 2.0)
-                if s.model != chair.name]
-        for shape in geometry.shapes(chair):
-            assert geometry.gaps(shape, near).min() > 1e-4, chair.name
+        others = [shape for shape in solids if shape.model != chair.model]
+        assert geometry.nearest(chair, others)[0] > 1e-4, chair.model
 
 
 def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

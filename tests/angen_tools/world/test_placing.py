@@ -3,13 +3,14 @@ from __future__ import annotations
 
 from collections import Counter
 
+import angen
 import numpy as np
 import pytest
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import quaternion
 from angen_tools.world import apartment as world_maker
-from angen_tools.world import placing
-from tests.angen_models import world_geometry as geometry
+from angen_tools.world import models, placing
 
 COUNTS = {'pir': 30, 'switch': 15, 'luminosity': 14, 'contact': 25}
 
@@ -28,11 +29,11 @@ def test_sensors_go_round_the_rooms() -> None:
 
 
 def test_the_first_sensors_stand_where_the_building_has_them() -> None:
-    built = geometry.load(geometry.WORLDS / 'angen.world')
+    built = angen.World(str(models.building()))
     for kind, count in (('pir', 24), ('switch', 12), ('luminosity', 12), ('contact', 19)):
         for sensor in placing.placements(kind, count, 2, 1, elevator=True):
-            pose = geometry.matrix(list(sensor.pose))
-            assert np.allclose(built[sensor.name].pose, pose, atol=1e-5), sensor.name
+            pose = [*sensor.pose[:3], *quaternion(*sensor.pose[3:])]
+            assert np.allclose(built.motion(sensor.name)[0], pose, atol=1e-5), sensor.name
 
 
 @pytest.mark.parametrize('kind', placing.KINDS)

@@ -16,7 +16,7 @@ from angen_apps.automation.services import NOTES, SERVICES, data_of, is_known, o
 from angen_tools.common.clock import DAY
 from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import did_you_mean
-from angen_tools.common.yaml_file import YamlFile, is_list, is_text, line_of
+from angen_tools.common.yaml_file import Entries, YamlFile, is_list, is_text, line_of
 
 WEEKDAYS = ('mon', 'tue', 'wed', 'thu', 'fri', 'sat', 'sun')
 SUN = ('sunrise', 'sunset')
@@ -42,8 +42,8 @@ class _Reader(YamlFile):
         self._entities = entities
 
     def automations(self) -> list[Automation]:
-        nodes = self.list(self.root, 'the file') if is_list(self.root) else [self.root]
-        return [self._automation(node, number) for number, node in enumerate(nodes, 1)]
+        return [self._automation(node, number)
+                for number, node in enumerate(self.nodes(self.root, 'the file'), 1)]
 
     def _automation(self, node: Any, number: int) -> Automation:
         top = self.entries(node, 'an automation', TOP)
@@ -70,7 +70,7 @@ class _Reader(YamlFile):
         return tuple(read(each) for each in (node.value if is_list(node) else [node]))
 
     def _parts(self, node: Any, what: str, keys: Iterable[str], required: Iterable[str] = ()
-               ) -> dict[str, Any]:
+               ) -> Entries:
         parts = self.entries(node, what, (*keys, *NOTED), required)
         if 'enabled' in parts and self.text(parts['enabled'], 'enabled').lower() != 'true':
             raise self.fail(parts['enabled'], f'leave {what} out instead of disabling it')
@@ -112,14 +112,10 @@ class _Reader(YamlFile):
             raise self.fail(node, f'{what} must be a time of day, from 00:00:00 to 23:59:59')
         return found
 
-    def _texts(self, node: Any, what: str) -> tuple[str, ...]:
-        nodes = self.list(node, what) if is_list(node) else [node]
-        return tuple(self.text(each, what) for each in nodes)
-
     def _ids(self, node: Any) -> tuple[str, ...]:
         """Ids of entities that exist."""
         found: list[str] = []
-        for each in self.list(node, 'entity_id') if is_list(node) else [node]:
+        for each in self.nodes(node, 'entity_id'):
             for name in self.text(each, 'entity_id').split(','):
                 try:
                     found.append(self._entities.find(name.strip()).id)
@@ -129,7 +125,7 @@ class _Reader(YamlFile):
 
     def _states(self, node: Any, entities: tuple[str, ...], attribute: str = '') -> tuple[str, ...]:
         """States that the entities can have."""
-        states = self._texts(node, 'state')
+        states = self.texts(node, 'state')
         domains = {name.partition('.')[0] for name in entities}
         for state in states:
             if '{' in state:
@@ -139,16 +135,16 @@ class _Reader(YamlFile):
                 raise self.fail(node, f"{entities[0]} is never '{state}'; it is on or off")
         return states
 
-    def _limits(self, parts: dict[str, Any], node: Any) -> tuple[float, float]:
-        above = self.number(parts['above'], 'above') if 'above' in parts else -math.inf
-        below = self.number(parts['below'], 'below') if 'below' in parts else math.inf
+    def _limits(self, parts: Entries, node: Any) -> tuple[float, float]:
+        above = parts.of('above', self.number, -math.inf)
+        below = parts.of('below', self.number, math.inf)
         if 'above' not in parts and 'below' not in parts:
             raise self.fail(node, 'numeric_state needs above or below')
         if above >= below:
             raise self.fail(node, f'no number is above {above:g} and below {below:g}')
         return above, below
 
-    def _attribute(self, parts: dict[str, Any], entities: tuple[str, ...]) -> str:
+    def _attribute(self, parts: Entries, entities: tuple[str, ...]) -> str:
         if 'attribute' not in parts:
             return ''
         name = self.text(parts['attribute'], 'attribute')
@@ -168,41 +164,34 @@ class _Reader(YamlFile):
                 'time': self._time_trigger, 'sun': self._sun_trigger}[kind]
         return read(node, word)
 
-    def _id(self, parts: dict[str, Any]) -> str:
-        return self.text(parts['id'], 'id') if 'id' in parts else ''
-
-    def _held(self, parts: dict[str, Any]) -> float:
-        return self._seconds(parts['for'], 'for') if 'for' in parts else 0.0
-
     def _state_trigger(self, node: Any, word: str) -> Trigger:
         parts = self._parts(node, 'a state trigger', (word, 'entity_id', 'from', 'to', 'for', 'id'),
                             ('entity_id',))
         entities = self._ids(parts['entity_id'])
         to, origin = (self._states(parts[key], entities) if key in parts else ()
                       for key in ('to', 'from'))
-        return StateTrigger(entities, to, origin, self._held(parts), self._id(parts))
+        return StateTrigger(entities, to, origin, parts.of('for', self._seconds, 0.0),
+                            parts.of('id', self.text, ''))
 
     def _numeric_trigger(self, node: Any, word: str) -> Trigger:
         parts = self._parts(node, 'a numeric_state trigger', (
             word, 'entity_id', 'above', 'below', 'attribute', 'for', 'id'), ('entity_id',))
         entities = self._ids(parts['entity_id'])
         return NumericTrigger(entities, *self._limits(parts, node),
-                              self._attribute(parts, entities), self._held(parts), self._id(parts))
+                              self._attribute(parts, entities),
+                              parts.of('for', self._seconds, 0.0), parts.of('id', self.text, ''))
 
     def _time_trigger(self, node: Any, word: str) -> Trigger:
         parts = self._parts(node, 'a time trigger', (word, 'at', 'id'), ('at',))
-        return TimeTrigger(self._time(parts['at'], 'at'), self._id(parts))
+        return TimeTrigger(self._time(parts['at'], 'at'), parts.of('id', self.text, ''))
 
     def _sun_trigger(self, node: Any, word: str) -> Trigger:
         parts = self._parts(node, 'a sun trigger', (word, 'event', 'offset', 'id'), ('event',))
-        return SunTrigger(self.choice(parts['event'], 'event', SUN), self._offset(parts, 'offset'),
-                          self._id(parts))
+        return SunTrigger(self.choice(parts['event'], 'event', SUN),
+                          parts.of('offset', self._offset, 0.0), parts.of('id', self.text, ''))
 
-    def _offset(self, parts: dict[str, Any], key: str) -> float:
-        if key not in parts:
-            return 0.0
-        text = self.text(parts[key], key)
-        return self._clock(parts[key], key) if ':' in text else self.number(parts[key], key)
+    def _offset(self, node: Any, what: str) -> float:
+        return self._clock(node, what) if ':' in self.text(node, what) else self.number(node, what)
 
     # --- conditions
 
@@ -229,7 +218,7 @@ class _Reader(YamlFile):
         entities = self._ids(parts['entity_id'])
         attribute = self._attribute(parts, entities)
         found = StateCondition(entities, self._states(parts['state'], entities, attribute),
-                               attribute, self._held(parts))
+                               attribute, parts.of('for', self._seconds, 0.0))
         if 'match' in parts and self.choice(parts['match'], 'match', ('all', 'any')) == 'any':
             return Logic('or', tuple(StateCondition((entity,), found.states, attribute, found.held)
                                      for entity in entities))
@@ -244,26 +233,21 @@ class _Reader(YamlFile):
 
     def _time_condition(self, node: Any) -> Condition:
         parts = self._parts(node, 'a time condition', ('condition', 'after', 'before', 'weekday'))
-        days: tuple[int, ...] = ()
-        if 'weekday' in parts:
-            nodes = self.list(parts['weekday'], 'weekday') if is_list(parts['weekday']) \
-                else [parts['weekday']]
-            days = tuple(WEEKDAYS.index(self.choice(each, 'weekday', WEEKDAYS)) for each in nodes)
-        after, before = (self._time(parts[key], key) if key in parts else None
-                         for key in ('after', 'before'))
-        return TimeCondition(after, before, days)
+        days = tuple(WEEKDAYS.index(self.choice(each, 'weekday', WEEKDAYS))
+                     for each in parts.of('weekday', self.nodes, ()))
+        return TimeCondition(parts.of('after', self._time), parts.of('before', self._time), days)
 
     def _sun_condition(self, node: Any) -> Condition:
         parts = self._parts(node, 'a sun condition', ('condition', 'after', 'before',
                                                       'after_offset', 'before_offset'))
         after, before = (self.choice(parts[key], key, SUN) if key in parts else ''
                          for key in ('after', 'before'))
-        return SunCondition(after, before, self._offset(parts, 'after_offset'),
-                            self._offset(parts, 'before_offset'))
+        return SunCondition(after, before, parts.of('after_offset', self._offset, 0.0),
+                            parts.of('before_offset', self._offset, 0.0))
 
     def _trigger_condition(self, node: Any) -> Condition:
         parts = self._parts(node, 'a trigger condition', ('condition', 'id'), ('id',))
-        return TriggerCondition(self._texts(parts['id'], 'id'))
+        return TriggerCondition(self.texts(parts['id'], 'id'))
 
     # --- actions
 
@@ -286,7 +270,7 @@ class _Reader(YamlFile):
         if not is_known(name):
             raise self.fail(parts[word], f"the bench has no service '{name}'; "
                             + did_you_mean(name, SERVICES))
-        data = self.entries(parts['data'], 'data') if 'data' in parts else {}
+        data = parts.of('data', self.entries, Entries())
         ids = parts.get('entity_id', data.pop('entity_id', None))
         if 'target' in parts:
             ids = self.entries(parts['target'], 'target', ('entity_id',), ('entity_id',))[
@@ -332,8 +316,8 @@ class _Reader(YamlFile):
         parts = self._parts(node, word, (word, 'timeout', 'continue_on_timeout'))
         goes_on = 'continue_on_timeout' not in parts or self.choice(
             parts['continue_on_timeout'], 'continue_on_timeout', ('true', 'false')) == 'true'
-        timeout = self._seconds(parts['timeout'], 'timeout') if 'timeout' in parts else None
-        return Wait(self._each(parts[word], self._trigger), timeout, goes_on)
+        return Wait(self._each(parts[word], self._trigger), parts.of('timeout', self._seconds),
+                    goes_on)
 
     def _if(self, node: Any, word: str) -> Action:
         parts = self._parts(node, 'if', ('if', 'then', 'else'), ('then',))

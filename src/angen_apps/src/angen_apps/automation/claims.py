@@ -101,16 +101,15 @@ def contradiction(claim: Claim) -> str:
 
 # --- over time
 
+def pieces(line: Line, end: float) -> list[tuple[float, float, str]]:
+    """From, until, value."""
+    return [(time, after, value) for (time, value), (after, _) in zip(line, [*line[1:], (end, '')])
+            if after > time]
+
+
 def spans_of(line: Line, holds: Callable[[str], bool], end: float) -> Spans:
     """When the values of a line hold."""
-    found: Spans = []
-    for (time, value), (after, _) in zip(line, [*line[1:], (end, '')]):
-        if holds(value) and after > time:
-            if found and found[-1][1] >= time:
-                found[-1] = found[-1][0], after
-            else:
-                found.append((time, after))
-    return found
+    return union([[(time, after) for time, after, value in pieces(line, end) if holds(value)]])
 
 
 def both(one: Spans, other: Spans) -> Spans:
@@ -187,4 +186,4 @@ def day_spans(low: float, high: float, since: float, end: float) -> Spans:
 def power_used(lines: Mapping[str, Line], end: float) -> float:
     """kWh of lines of W."""
     return sum(float(value) * (after - time) for line in lines.values()
-               for (time, value), (after, _) in zip(line, [*line[1:], (end, '')])) / 3.6e6
+               for time, after, value in pieces(line, end)) / 3.6e6

@@ -1,13 +1,14 @@
 """Two automations over the same days of the same people: comfort, energy, false alarms."""
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Sequence
 
 from angen_apps.automation.bench import Record
 from angen_apps.automation.claims import (ANYONE, Claim, Part, Spans, both, inverse, power_used,
-                                          total)
+                                          total, union)
 from angen_apps.automation.judge import FAILED, Verdict
 from angen_apps.residents.household import LATITUDE
 from angen_apps.residents.light import daylight
@@ -106,18 +107,9 @@ def _dark(record: Record, room: str) -> Spans:
     if windows and not any(room in door.rooms for door in windows):
         return [(0.0, end)]
     latitude = LATITUDE if home.latitude is None else home.latitude
-    since = record.house.since
-    found: Spans = []
-    time = 0.0
-    while time < end:
-        if daylight(start.date(), since + time, latitude) < DARK:
-            after = min(time + STEP, end)
-            if found and found[-1][1] == time:
-                found[-1] = found[-1][0], after
-            else:
-                found.append((time, after))
-        time += STEP
-    return found
+    since, steps = record.house.since, [STEP * i for i in range(math.ceil(end / STEP))]
+    return union([[(time, min(time + STEP, end)) for time in steps
+                   if daylight(start.date(), since + time, latitude) < DARK]])
 
 
 def as_dict(scores: Sequence[Score], days: float) -> list[dict[str, Any]]:

@@ -11,11 +11,10 @@ import numpy as np
 
 from angen_apps.automation.bench import Record
 from angen_apps.automation.card import storey_of
-from angen_apps.automation.claims import Line
+from angen_apps.automation.claims import Line, pieces
 from angen_apps.automation.judge import FAILED, OPEN, Verdict
-from angen_apps.care.figure import STEPS
+from angen_apps.care.figure import name_hours
 from angen_apps.plan.draw import DPI, INK, Scene, draw_storey, extent, read_scene
-from angen_tools.common.clock import show_time
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import pyplot, save_figure
 
@@ -203,7 +202,10 @@ def _draw_lanes(axis: Any, record: Record, lanes: Sequence[Any], tall: float) ->
         axis.spines[side].set_visible(False)
     axis.spines['bottom'].set_color(FAINT)
     axis.set_yticks([])
-    _name_hours(axis, record)
+    name_hours(axis, 0.0, record.lines.end, record.house.since)
+    axis.tick_params(colors=INK, length=3)
+    axis.grid(axis='x', color=GRID, lw=0.6, zorder=0)
+    axis.set_axisbelow(True)
     top = tall
     for lane in lanes:
         low, high = top - lane.height + 0.04, top - 0.04
@@ -215,32 +217,10 @@ def _draw_lanes(axis: Any, record: Record, lanes: Sequence[Any], tall: float) ->
         top -= lane.height
 
 
-def _name_hours(axis: Any, record: Record) -> None:
-    since = record.house.since
-    end = record.lines.end
-    step = next((step for step in (1.0, 5.0, 10.0, 30.0, *STEPS) if end / step <= 14),
-                86400.0 * max(1, round(end / 86400.0 / 12)))
-    first, last = math.ceil(since / step), math.floor((since + end) / step)
-    ticks = [k * step - since for k in range(first, last + 1)]
-    axis.set_xticks(ticks, [show_time(since + tick)[-8:-3 if step >= 60.0 else None]
-                            if step < 86400.0 else f'day {round((since + tick) / 86400.0) + 1}'
-                            for tick in ticks], fontsize=8)
-    axis.tick_params(colors=INK, length=3)
-    axis.grid(axis='x', color=GRID, lw=0.6, zorder=0)
-    axis.set_axisbelow(True)
-
-
-def _pieces(record: Record, line: Line) -> list[tuple[float, float, str]]:
-    """From, until, value."""
-    end = record.lines.end
-    return [(time, after, value) for (time, value), (after, _) in zip(line, [*line[1:], (end, '')])
-            if after > time]
-
-
 def _draw_person(axis: Any, record: Record, line: Line, rooms: list[str], low: float, high: float
                  ) -> None:
     end, run = record.lines.end, list[tuple[float, float, str]]()
-    for time, after, value in _pieces(record, line):
+    for time, after, value in pieces(line, record.lines.end):
         room, activity, posture = value.split('|')
         word = f'{room}|{posture}'
         if run and run[-1][2] == word:
@@ -264,7 +244,7 @@ def _draw_state(axis: Any, record: Record, line: Line, color: str, low: float, h
                 ) -> None:
     end = record.lines.end
     axis.plot([0, end], [low, low], color=color, lw=0.5, alpha=0.5)
-    for time, after, value in _pieces(record, line):
+    for time, after, value in pieces(line, record.lines.end):
         if value in OFF:
             continue
         width = max(after - time, end / 900.0)

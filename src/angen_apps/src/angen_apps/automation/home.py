@@ -15,18 +15,21 @@ from angen_apps.automation.scenario import GENERATED, Added, Order, Scenario
 from angen_apps.data import faults
 from angen_apps.data.run import first_day, residents_of
 from angen_apps.data.site import HIGH, Site, apartment, facing
+from angen_apps.residents.company import TURNED
+from angen_apps.residents.figures import walker
 from angen_apps.residents.household import Household
-from angen_apps.residents.interface import Rejected
-from angen_apps.residents.resident import make
-from angen_apps.residents.simulated import Simulated
+from angen_apps.residents.members import make
+from angen_apps.residents.mover import ABOVE
+from angen_apps.residents.simulator import Simulator
 from angen_models.sdf import ANGEN
 from angen_tools.common.catalog import kinds, simulator
 from angen_tools.common.failure import Failure, WrongWords
 from angen_tools.common.files import write_text
-from angen_tools.common.home import Place
+from angen_tools.common.home import Home, Place
 from angen_tools.common.nearest import did_you_mean
 from angen_tools.offline import day
 from angen_tools.session.in_process import InProcess
+from angen_tools.session.world import World
 from angen_tools.world import sdf
 
 SPEED = 1.0  # m/s of people of a script
@@ -34,10 +37,10 @@ CORNER = 1  # the number of the one where added sensors are
 FEEDS = ('plug',)  # sensors that devices need
 
 
-class Clocked(Simulated):
+class Clocked(Simulator):
     """The simulator of a household, whose time passes as the bench lets it."""
 
-    def __init__(self, world: Any, home: Any, run: Callable[[float], None]) -> None:
+    def __init__(self, world: World, home: Home, run: Callable[[float], None]) -> None:
         super().__init__(world, home)
         self._run = run
 
@@ -50,7 +53,6 @@ class Actor:
 
     def __init__(self, home: House, name: str) -> None:
         self._home, self.name, self.posture, self.away = home, name, 'stand', True
-        self._before: tuple[float, float] | None = None
 
     @property
     def line(self) -> str:
@@ -61,33 +63,35 @@ class Actor:
         room = self._home.site.home.room_at(body.x, body.y, body.z + 0.5)
         return f'{room.name if room else ""}||{self.posture}'
 
-    def appear(self, at: tuple[float, float]) -> None:
-        self._home.simulator.appear(self.name, *at, 0.0, 0.0, SPEED, 'person')
-        self.posture, self.away = 'stand', False
+    def appear(self, x: float, y: float, z: float = 0.0, yaw: float = 0.0, posture: str = 'stand'
+               ) -> None:
+        body = walker(self.name, SPEED, 'person', posture)
+        if not self.away:
+            self._home.simulator.vanish(self.name)
+        self._home.simulator.appear(self.name, body, x, y, z + ABOVE, yaw)
+        self.posture, self.away = posture, False
 
     def act(self, text: str) -> None:
         """Executes a line of the script; ValueError with what would be right."""
         words = text.split()
         if words == ['leaves']:
-            self._home.simulator.vanish(self.name)
+            if not self.away:
+                self._home.simulator.vanish(self.name)
             self.posture, self.away = 'stand', True
         elif words[:2] == ['goes', 'to'] and len(words) in (3, 4):
             at = self._home.place(words[2:])
             if self.away:
                 raise ValueError(f'{self.name} is away; write appears at')
-            if self.posture != 'stand':
-                self.appear(self._before or self._home.beside(self.name))
             self._home.simulator.command('person', self.name, f'GoTo {at[0]:.3f} {at[1]:.3f}')
+            self.posture = 'stand'
         elif words[:2] == ['appears', 'at'] and len(words) in (3, 4):
-            self.appear(self._home.place(words[2:]))
+            self.appear(*self._home.place(words[2:]))
         elif words[:2] in (['sits', 'on'], ['lies', 'on']) and len(words) == 3:
             place = self._home.seat(words[2], words[0][:-1])
-            if self.posture == 'stand':
-                self._before = None if self.away else self._home.at(self.name)
-            self._home.simulator.settle(self.name, place)
-            self.posture, self.away = place.posture, False
+            self.appear(*place.pose, place.posture)
         elif words == ['fidgets'] and self.posture != 'stand' and not self.away:
-            self._home.simulator.fidget(self.name, 0.12)
+            body = self._home.simulator.body(self.name)
+            self._home.simulator.fidget(self.name, body._replace(yaw=body.yaw + TURNED))
         else:
             raise ValueError(f"'{text}' is not what a person does; write goes to ROOM or X Y, "
                              'appears at, sits on THING, lies on, fidgets or leaves')
@@ -103,7 +107,7 @@ class House:
         self.site = Site(self.path, scenario.seed, scenario.home == GENERATED)
         self.site.world.step()  # all devices have a state
         self.world = InProcess(self.site.world, long_steps=True)
-        self.simulator = Clocked(self.site.world, self.site.home, run)
+        self.simulator = Clocked(self.world, self.site.home, run)
         self.start = self._start()
         for added in scenario.added:
             self._add(added)
@@ -212,21 +216,8 @@ class House:
                 actor.execute(self.site.world)
             else:
                 actor.act(order.text.partition(' ')[2])
-        except (ValueError, Rejected) as error:
+        except (ValueError, Failure) as error:
             raise WrongWords(self.scenario.fail(order.line, str(error))) from None
-
-    def at(self, name: str) -> tuple[float, float]:
-        """Where a person is."""
-        body = self.simulator.body(name)
-        return body.x, body.y
-
-    def beside(self, name: str) -> tuple[float, float]:
-        """A free place in the room of a person."""
-        body = self.simulator.body(name)
-        room = self.site.home.room_at(body.x, body.y, body.z + 0.5)
-        if room is None:
-            raise ValueError(f'{name} is in no room, and cannot get up')
-        return self.place([room.name])
 
     def place(self, words: list[str]) -> tuple[float, float]:
         """X Y, or a free place of a room; ValueError."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from angen_apps.automation.bench import Record
-from angen_apps.automation.claims import Spans, both, inverse, power_used, total
+from angen_apps.automation.claims import Spans, both, inverse, pieces, power_used, total
 from angen_apps.automation.scenario import Expectation
 from angen_tools.common.clock import show_duration
 
@@ -30,7 +30,7 @@ def judge(record: Record) -> list[Verdict]:
 
 
 def _judged(record: Record, each: Expectation) -> Verdict:
-    found = {'expect': _expect, 'never': _never, 'always': _always, 'at_most': _limit,
+    found = {'expect': _expect, 'never': _lasting, 'always': _lasting, 'at_most': _limit,
              'at_least': _limit}[each.kind](record, each)
     if record.cut and found.outcome == PASSED:
         return Verdict(each, OPEN, f'the run ended at {show_duration(record.lines.end)}: '
@@ -41,7 +41,7 @@ def _judged(record: Record, each: Expectation) -> Verdict:
 def _expect(record: Record, each: Expectation) -> Verdict:
     lines, end = record.lines, record.lines.end
     wanted = lines.spans(each.claims['expect'])
-    during = lines.spans(each.claims['while']) if 'while' in each.claims else [(0.0, end)]
+    during = _during(record, each)
     began = [low for low, _ in lines.spans(each.claims['of']) if low > FEW
              and any(a - FEW <= low < b for a, b in during)]
     judged = [time for time in began if time + each.within <= end]
@@ -64,25 +64,16 @@ def _during(record: Record, each: Expectation) -> Spans:
         else [(0.0, record.lines.end)]
 
 
-def _never(record: Record, each: Expectation) -> Verdict:
+def _lasting(record: Record, each: Expectation) -> Verdict:
+    """Judges never and always."""
     during = _during(record, each)
     if not during:
         return Verdict(each, OPEN, f'never judged: {each.claims["while"].text} never held')
-    spans = both(record.lines.spans(each.claims['never']), during)
-    return _lasting(each, [span for span in spans
-                           if span[1] - span[0] > max(each.held, SHORTEST) + FEW], during)
-
-
-def _always(record: Record, each: Expectation) -> Verdict:
-    during = _during(record, each)
-    if not during:
-        return Verdict(each, OPEN, f'never judged: {each.claims["while"].text} never held')
-    gaps = both(inverse(record.lines.spans(each.claims['always']), record.lines.end), during)
-    return _lasting(each, [span for span in gaps
-                           if span[1] - span[0] > max(each.held, SHORTEST) + FEW], during)
-
-
-def _lasting(each: Expectation, wrong: Spans, during: Spans) -> Verdict:
+    spans = record.lines.spans(each.claims[each.kind])
+    if each.kind == 'always':
+        spans = inverse(spans, record.lines.end)
+    wrong = [span for span in both(spans, during)
+             if span[1] - span[0] > max(each.held, SHORTEST) + FEW]
     if wrong:
         return Verdict(each, FAILED, f'{len(wrong)} times, {show_duration(total(wrong))}', wrong)
     return Verdict(each, PASSED, f'in {show_duration(total(during))}')
@@ -135,9 +126,9 @@ def _watts(record: Record, each: Expectation) -> dict[str, list[tuple[float, str
 def _amount(record: Record, each: Expectation, low: float, high: float) -> float:
     end = min(high, record.lines.end)
     if each.counted == 'energy_of':
-        cut = {name: [(max(time, low), value) for (time, value), (after, _) in zip(
-            line, [*line[1:], (end, '')]) if after > low and time < end]
-            for name, line in _watts(record, each).items()}
+        cut = {name: [(max(time, low), value) for time, after, value in pieces(line, end)
+                      if after > low and time < end]
+               for name, line in _watts(record, each).items()}
         return power_used(cut, end)
     if each.counted == 'time_of':
         return total(both(record.lines.spans(each.claims['time_of']), [(low, end)]))

@@ -12,9 +12,9 @@ import subprocess
 import tempfile
 import threading
 import time
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Callable, Sequence
+from typing import IO, TYPE_CHECKING, Callable, Sequence
 
 from angen_apps.automation.automations import Where
 from angen_apps.automation.scenario import Program
@@ -25,6 +25,8 @@ from angen_apps.mqtt.things import Thing
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure, WrongWords
 from angen_tools.common.files import write_text
+from angen_tools.common.port import free_port
+from angen_tools.common.wait import wait
 
 if TYPE_CHECKING:
     from angen_apps.automation.bench import Bench, Change
@@ -57,8 +59,7 @@ class MqttProgram:
         self._sent: dict[str, str] = {}  # states by topic
         self._barriers = 0
         self._next = 0.0  # when simulated time is published again
-        self._processes: list[subprocess.Popen[bytes]] = []
-        self._broker: Broker | None = None
+        self._ends = ExitStack()
 
     @property
     def due(self) -> float:
@@ -66,61 +67,59 @@ class MqttProgram:
 
     def begin(self, bench: Bench) -> None:
         self._bench = bench
-        self._folder = tempfile.TemporaryDirectory(prefix='angen_')
-        port = self._start_broker()
+        folder = Path(self._ends.enter_context(tempfile.TemporaryDirectory(prefix='angen_')))
+        port = self._start_broker(folder)
         self._broker = Broker(Access('127.0.0.1', port), Silent(), self._wakes.set)
         self._broker.start((f'{BASE}/bridge/state', self._style.offline))
-        self._until(lambda: bool(self._broker and self._broker.connected), START,
-                    'there is no connection to the broker')
+        self._ends.callback(self._broker.stop)
+        self._until(lambda: self._broker.connected, 'there is no connection to the broker')
         self._broker.subscribe([*self._style.filters, self._topic('barrier'),
                                 self._topic('barrier/done'), NOTIFY])
         self._publish_all()
-        self._log = Path(self._folder.name) / 'program.log'
+        self._log = folder / 'program.log'
+        text = self._program.command
+        for word, value in (('host', '127.0.0.1'), ('port', str(port)),
+                            ('folder', str(self._where.path.parent)),
+                            ('start', bench.house.start.isoformat())):
+            text = text.replace(f'{{{word}}}', value)
         with self._log.open('wb') as log:
-            text = self._program.command
-            for word, value in (('host', '127.0.0.1'), ('port', str(port)),
-                                ('folder', str(self._where.path.parent)),
-                                ('start', bench.house.start.isoformat())):
-                text = text.replace(f'{{{word}}}', value)
             try:
-                self._processes.append(subprocess.Popen(
-                    shlex.split(text), stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                    start_new_session=True))
+                self._process = self._start(shlex.split(text), log)
             except OSError as error:
                 raise WrongWords(f'{self._where}: {text}: {error.strerror}') from None
         self._next = bench.now
         self._barrier(START)
         self._began = time.monotonic() - bench.now / self._program.rate
 
-    def _start_broker(self) -> int:
+    def _start(self, words: Sequence[str], out: IO[bytes] | int) -> subprocess.Popen[bytes]:
+        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=out, stderr=out,
+                                   start_new_session=True)
+        self._ends.callback(_stop, process)
+        return process
+
+    def _start_broker(self, folder: Path) -> int:
         found = shutil.which('mosquitto', path=os.environ.get('PATH', '') + ':/usr/sbin')
         if found is None:
             raise WrongWords(f'{self._where}: a program needs the broker mosquitto; '
                              'sudo apt-get install mosquitto')
-        with socket.socket() as probe:
-            probe.bind(('127.0.0.1', 0))
-            port = int(probe.getsockname()[1])
-        config = Path(self._folder.name) / 'mosquitto.conf'
+        port, config = free_port(), folder / 'mosquitto.conf'
         write_text(config, f'listener {port} 127.0.0.1\nallow_anonymous true\n'
                    'set_tcp_nodelay true\n')
-        self._processes.append(subprocess.Popen([found, '-c', str(config)],
-                                                stdin=subprocess.DEVNULL,
-                                                stdout=subprocess.DEVNULL,
-                                                stderr=subprocess.DEVNULL,
-                                                start_new_session=True))
-        end = time.monotonic() + START
-        while time.monotonic() < end:
+        self._start([found, '-c', str(config)], subprocess.DEVNULL)
+
+        def answers() -> bool:
             with suppress(OSError):
                 socket.create_connection(('127.0.0.1', port), 1.0).close()
-                break
-            time.sleep(0.02)
+                return True
+            return False
+
+        self._until(answers, 'the broker does not answer')
         return port
 
     def _topic(self, name: str) -> str:
         return f'{BASE}/bridge/{name}'
 
     def _publish_all(self) -> None:
-        assert self._broker is not None
         discovery = Discovery(self._style, False, angen_module().__version__)
         for thing in self._bench.entities.things.values():
             for topic, payload in discovery.messages(thing).items():
@@ -130,14 +129,12 @@ class MqttProgram:
 
     def _send_states(self, thing: Thing) -> None:
         """Those that have changed."""
-        assert self._broker is not None
         for topic, payload in self._style.states(thing, thing.shown).items():
             if self._sent.get(topic) != payload:
                 self._sent[topic] = payload
                 self._broker.publish(topic, payload)
 
     def observe(self, changes: Sequence[Change], now: float) -> None:
-        assert self._broker is not None
         self._send_time(now)
         for key in dict.fromkeys(entity.thing.key for entity, _, _ in changes):
             self._send_states(self._bench.entities.things[key])
@@ -152,13 +149,11 @@ class MqttProgram:
         return True
 
     def _send_time(self, now: float) -> None:
-        assert self._broker is not None
         time.sleep(max(0.0, self._began + now / self._program.rate - time.monotonic()))
         self._broker.publish(f'{BASE}/simulation/simulation/time', f'{now:.3f}')
 
     def _barrier(self, limit: float) -> None:
         """Returns when the program has read all, and its commands are executed."""
-        assert self._broker is not None
         self._barriers += 1
         number = str(self._barriers)
         asked = -math.inf
@@ -222,33 +217,33 @@ class MqttProgram:
 
     def _check(self) -> None:
         """Whether all run."""
-        assert self._broker is not None
         if not self._broker.connected:
             self._fail('the broker has closed the connection')
-        if self._processes[-1].poll() is not None:
+        if self._process.poll() is not None:
             said = self._log.read_text(errors='replace').strip().splitlines()
-            self._fail(f'the program has ended with {self._processes[-1].returncode}'
+            self._fail(f'the program has ended with {self._process.returncode}'
                        + (f': {said[-1]}' if said else ''))
 
     def _fail(self, why: str) -> None:
         from angen_apps.automation.bench import Cut
         raise Cut(f'{self._where}: {why}')
 
-    def _until(self, holds: Callable[[], bool], limit: float, why: str) -> None:
-        end = time.monotonic() + limit
-        while not holds():
-            if time.monotonic() > end:
-                self._fail(why)
-            time.sleep(0.005)
+    def _until(self, holds: Callable[[], bool], why: str) -> None:
+        try:
+            wait(holds, why, START)
+        except Failure as late:
+            self._fail(str(late))
 
     def end(self) -> None:
-        if self._broker is not None:
-            self._broker.stop()
-        for process in reversed(self._processes):
-            with suppress(ProcessLookupError):
-                os.killpg(process.pid, signal.SIGTERM)
-            try:
-                process.wait(5.0)
-            except subprocess.TimeoutExpired:
-                os.killpg(process.pid, signal.SIGKILL)
-                process.wait()
+        self._ends.close()
+
+
+def _stop(process: subprocess.Popen[bytes]) -> None:
+    """Ends a process with its children."""
+    with suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGTERM)
+    try:
+        process.wait(5.0)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()

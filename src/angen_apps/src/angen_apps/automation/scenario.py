@@ -4,7 +4,8 @@ from __future__ import annotations
 import datetime
 import math
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, Callable
 
@@ -12,7 +13,7 @@ from angen_apps.automation.claims import (ANYONE, NOBODY, Claim, contradiction, 
                                           parsed)
 from angen_apps.residents.profiles import is_file
 from angen_tools.common.clock import DAY, duration, time_of_day
-from angen_tools.common.yaml_file import YamlFile, is_list, is_text, line_of
+from angen_tools.common.yaml_file import Entries, YamlFile, is_text, line_of
 
 KEYS = ('home', 'start', 'lasts', 'seed', 'residents', 'lamps', 'people', 'add', 'delete',
         'script', 'weather', 'faults', 'automation', 'program', 'expect')
@@ -100,7 +101,6 @@ class Scenario:
     automations: tuple[Path, ...]
     program: Program | None
     expectations: tuple[Expectation, ...]
-    names: tuple[str, ...] = field(default=())
 
     def fail(self, line: int, what: str) -> str:
         return f'{self.path}:{line}: {what}'
@@ -117,53 +117,44 @@ class _Reader(YamlFile):
         top = self.entries(self.root, 'a scenario', KEYS, ('lasts', 'expect'))
         if ('automation' in top) == ('program' in top):
             raise self.fail(self.root, 'a scenario has an automation or a program')
-        lasts = self._said(top['lasts'], 'lasts', duration)
+        lasts = self._duration(top['lasts'], 'lasts')
         if not 1.0 <= lasts <= LONGEST:
             raise self.fail(top['lasts'], 'lasts must be 1 s to 366 d')
-        start = self._start(top['start']) if 'start' in top else None
-        home = self.text(top['home'], 'home') if 'home' in top else GENERATED
+        start = top.of('start', self._start)
+        home = top.of('home', self.text, GENERATED)
         self._since = 0.0 if start is None else (
             start - datetime.datetime.combine(start.date(), datetime.time())).total_seconds()
         self._lasts, self._has_start = lasts, start is not None
-        who = self._texts(top, 'residents')
         return Scenario(
             self.path, home if home == GENERATED else str(self._beside(home)), start, lasts,
             int(self.number(top['seed'], 'seed', 0, 2**53)) if 'seed' in top else 1,
-            tuple(str(self._beside(one)) if is_file(one) else one for one in who),
+            tuple(str(self._beside(one)) if is_file(one) else one
+                  for one in top.of('residents', self.texts, ())),
             'lamps' in top and self.choice(top['lamps'], 'lamps', ('residents', 'automation')
                                            ) == 'automation',
             self._all(top, 'people', self._person), self._all(top, 'add', self._added),
-            tuple((self.text(node, 'delete'), line_of(node)) for node in (
-                self.list(top['delete'], 'delete') if 'delete' in top else ())),
+            tuple((self.text(node, 'delete'), line_of(node))
+                  for node in top.of('delete', self.list, ())),
             tuple(sorted((*self._all(top, 'script', self._order),
                           *sum(self._all(top, 'weather', self._weather), ())),
                          key=lambda each: each.time)),
             self._beside(self.text(top['faults'], 'faults')) if 'faults' in top else None,
-            tuple(self._beside(one) for one in self._texts(top, 'automation')),
-            self._program(top['program']) if 'program' in top else None,
+            tuple(self._beside(one) for one in top.of('automation', self.texts, ())),
+            top.of('program', self._program),
             self._all(top, 'expect', self._expectation))
 
     def _beside(self, name: str) -> Path:
         return self.path.parent / name
 
-    def _said(self, node: Any, what: str, read: Callable[[str], Any]) -> Any:
+    def _duration(self, node: Any, what: str) -> float:
+        return float(self.said(node, what, duration))
+
+    def _all(self, top: Entries, key: str, read: Callable[[Any], Any]) -> tuple[Any, ...]:
+        return tuple(read(node) for node in top.of(key, self.list, ()))
+
+    def _start(self, node: Any, what: str) -> datetime.datetime:
         try:
-            return read(self.text(node, what))
-        except ValueError as error:
-            raise self.fail(node, f'{what}: {error}') from None
-
-    def _texts(self, top: dict[str, Any], key: str) -> tuple[str, ...]:
-        if key not in top:
-            return ()
-        nodes = self.list(top[key], key) if is_list(top[key]) else [top[key]]
-        return tuple(self.text(node, key) for node in nodes)
-
-    def _all(self, top: dict[str, Any], key: str, read: Callable[[Any], Any]) -> tuple[Any, ...]:
-        return tuple(read(node) for node in self.list(top[key], key)) if key in top else ()
-
-    def _start(self, node: Any) -> datetime.datetime:
-        try:
-            return datetime.datetime.fromisoformat(self.text(node, 'start')).replace(tzinfo=None)
+            return datetime.datetime.fromisoformat(self.text(node, what)).replace(tzinfo=None)
         except ValueError:
             raise self.fail(node, f"start is '{node.value}', must be as 2026-03-23 18:00") from None
 
@@ -194,8 +185,7 @@ class _Reader(YamlFile):
         pose = tuple(self.number(each, 'pose', -1e4, 1e4) for each in (
             self._count(parts['pose'], 'pose', 6) if 'pose' in parts else ()))
         return Added(self.text(parts['model'], 'model'), self.text(parts['name'], 'name'),
-                     self.text(parts['room'], 'room') if 'room' in parts else '', pose,
-                     line_of(node))
+                     parts.of('room', self.text, ''), pose, line_of(node))
 
     def _order(self, node: Any) -> Order:
         parts = self.entries(node, 'a line of the script', ('at', 'do'), ('at', 'do'))
@@ -217,31 +207,28 @@ class _Reader(YamlFile):
                 raise self.fail(node, "a time of day needs the scenario's start; or write "
                                 'it from there on, as 10 min')
             days, _, clock = text.rpartition('d ')
-            time = self._said(node, 'at', lambda _: time_of_day(clock.strip()))
+            time = self.said(node, 'at', lambda _: time_of_day(clock.strip()))
             time += DAY * int(days if days.isdigit() else 0) - self._since
         else:
-            time = self._said(node, 'at', duration)
+            time = self._duration(node, 'at')
         if not 0.0 <= time < self._lasts:
             raise self.fail(node, f'{text} is not within the scenario, which lasts '
                             f'{self._lasts:g} s')
         return time
 
-    def _program(self, node: Any) -> Program:
-        parts = self.entries(node, 'a program', ('run', 'answers', 'quiet', 'rate'), ('run',))
-        given: dict[str, Any] = {}
-        if 'answers' in parts:
-            given['answers'] = self.choice(parts['answers'], 'answers', ANSWERS)
-        if 'quiet' in parts:
-            given['quiet'] = self._said(parts['quiet'], 'quiet', duration)
-        if 'rate' in parts:
-            given['rate'] = self.number(parts['rate'], 'rate', 0.01, 1e6)
-        return Program(self.text(parts['run'], 'run'), line_of(node), **given)
+    def _program(self, node: Any, what: str) -> Program:
+        parts = self.entries(node, f'a {what}', ('run', 'answers', 'quiet', 'rate'), ('run',))
+        return Program(
+            self.text(parts['run'], 'run'), line_of(node),
+            parts.of('answers', partial(self.choice, choices=ANSWERS), Program.answers),
+            parts.of('quiet', self._duration, Program.quiet),
+            parts.of('rate', partial(self.number, low=0.01, high=1e6), Program.rate))
 
     # --- expectations
 
     def _claim(self, node: Any, what: str) -> Claim:
         """One that can hold within the scenario."""
-        found: Claim = self._said(node, what, parsed)
+        found: Claim = self.said(node, what, parsed)
         if contradiction(found):
             raise self.fail(node, f'{what}: {contradiction(found)}: it can never be judged')
         if self._has_start and any(part.window and not day_spans(*part.window, self._since,
@@ -265,7 +252,7 @@ class _Reader(YamlFile):
                              ('within', 'of'))
         claims = {key: self._claim(parts[key], key) for key in ('expect', 'of', 'while')
                   if key in parts}
-        within = self._said(parts['within'], 'within', duration)
+        within = self._duration(parts['within'], 'within')
         if within >= self._lasts:
             raise self.fail(parts['within'], 'within is longer than the scenario: it can never be '
                             'judged')
@@ -276,7 +263,7 @@ class _Reader(YamlFile):
     def _lasting(self, node: Any, kind: str) -> Expectation:
         parts = self.entries(node, 'an expectation', (kind, 'for', 'while', 'name'), (kind,))
         claims = {key: self._claim(parts[key], key) for key in (kind, 'while') if key in parts}
-        held = self._said(parts['for'], 'for', duration) if 'for' in parts else 0.0
+        held = parts.of('for', self._duration, 0.0)
         if held >= self._lasts:
             raise self.fail(parts['for'], 'for is longer than the scenario: it can never be judged')
         text = (f'{kind} {claims[kind].text}'
@@ -296,10 +283,10 @@ class _Reader(YamlFile):
         if key in ('times', 'time_of'):
             claims[key] = self._claim(parts[key], key)
         elif key in ('changes_of', 'energy_of'):
-            things = self._texts(parts, key)
+            things = self.texts(parts[key], key)
         else:
             things = (self.text(parts[key], key),)
-        per = self._said(parts['per'], 'per', duration) if 'per' in parts else 0.0
+        per = parts.of('per', self._duration, 0.0)
         if per > self._lasts:
             raise self.fail(parts['per'], 'per is longer than the scenario: it can never be judged')
         what = ' '.join((claims[key].text,) if claims else things)
@@ -316,9 +303,9 @@ class _Reader(YamlFile):
                 raise self.fail(node, f"{what} is '{text}', must be an energy as 0.5 kWh")
             return float(number) * (1.0 if unit == 'kWh' else 0.001), 'kWh'
         if key == 'time_of':
-            return self._said(node, what, duration), 's'
+            return self._duration(node, what), 's'
         return self.number(node, what, 0, 1e9), ''
 
-    def _name(self, parts: dict[str, Any], text: str) -> str:
+    def _name(self, parts: Entries, text: str) -> str:
         return self.text(parts['name'], 'name') if 'name' in parts and is_text(parts['name']) \
             else text

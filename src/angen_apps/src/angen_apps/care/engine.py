@@ -1,6 +1,7 @@
 """The rule engine: events and time in, warnings out. It knows neither ROS nor a world."""
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from heapq import heappop, heappush
 from typing import Collection, Iterable, Mapping
@@ -143,13 +144,8 @@ class Engine:
 
     def degree(self, rule: Rule, time: float) -> float:
         """To what degree all conditions of a rule hold at a time."""
-        whole = 1.0
-        for condition in rule.when:
-            degree = self._degree_of(condition, rule.product, time)
-            whole = _and(rule.product, (whole, degree))
-            if whole == 0.0:
-                break
-        return whole
+        return _and(rule.product, (self._degree_of(condition, rule.product, time)
+                                   for condition in rule.when))
 
     def _degree_of(self, condition: Condition, product: bool, time: float) -> float:
         if condition.time is not None:
@@ -183,7 +179,4 @@ class Engine:
 
 
 def _and(product: bool, degrees: Iterable[float]) -> float:
-    whole = 1.0
-    for degree in degrees:
-        whole = whole * degree if product else min(whole, degree)
-    return whole
+    return math.prod(degrees) if product else min(degrees, default=1.0)

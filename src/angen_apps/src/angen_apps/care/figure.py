@@ -20,8 +20,8 @@ LANE, NAMES, EDGE = 0.52, 3.5, 0.35  # inches: height of a rule, width of its re
 ALONE = 12.0  # inches: width of a picture without a plan
 RADIUS, ASIDE = 0.26, 0.6  # m of a mark, and between two at one place
 LEAST = 1 / 800  # share of the whole time: the shortest length that a warning is drawn with
-STEPS = (MINUTE, 5 * MINUTE, 10 * MINUTE, 30 * MINUTE, HOUR, 2 * HOUR, 3 * HOUR, 6 * HOUR,
-         12 * HOUR, DAY)
+STEPS = (1.0, 5.0, 10.0, 30.0, MINUTE, 5 * MINUTE, 10 * MINUTE, 30 * MINUTE, HOUR, 2 * HOUR,
+         3 * HOUR, 6 * HOUR, 12 * HOUR, DAY)
 
 
 def draw(engine: Engine, scene: Scene | None, path: Path) -> None:
@@ -84,7 +84,7 @@ def _draw_day(axis: Any, engine: Engine, warnings: list[CareWarning]) -> None:
                   color=WARNED if own else INK)
         axis.text(left, low + 0.1, rule.reason, ha='right', va='center', fontsize=6.5, color=FAINT,
                   style='italic')
-    _name_hours(axis, engine)
+    name_hours(axis, begin, engine.now, engine.starts)
 
 
 def _draw_warning(axis: Any, engine: Engine, warning: CareWarning, low: float) -> None:
@@ -102,9 +102,12 @@ def _draw_warning(axis: Any, engine: Engine, warning: CareWarning, low: float) -
               color=WARNED)
 
 
-def _name_hours(axis: Any, engine: Engine) -> None:
-    step = next((step for step in STEPS if (engine.now - engine.began) / step <= 13), STEPS[-1])
-    first = math.ceil((engine.starts + engine.began) / step)
-    last = math.floor((engine.starts + engine.now) / step)
-    ticks = [k * step - engine.starts for k in range(first, last + 1)]
-    axis.set_xticks(ticks, [show_time(engine.starts + tick)[-8:-3] for tick in ticks], fontsize=8)
+def name_hours(axis: Any, begin: float, end: float, since: float) -> None:
+    """Ticks at times of day, of several days at their starts; `since`: s of the day at time 0."""
+    step = next((step for step in STEPS if (end - begin) / step <= 14),
+                DAY * max(1, round((end - begin) / DAY / 12)))
+    ticks = [k * step - since for k in range(math.ceil((since + begin) / step),
+                                             math.floor((since + end) / step) + 1)]
+    axis.set_xticks(ticks, [show_time(since + tick)[-8:-3 if step >= MINUTE else None]
+                            if step < DAY else f'day {round((since + tick) / DAY) + 1}'
+                            for tick in ticks], fontsize=8)

@@ -32,16 +32,6 @@ class Trapezoid:
         return (self.d - value) / (self.d - self.c)
 
 
-def rises(a: float, b: float) -> Trapezoid:
-    """0 up to `a`, 1 from `b`."""
-    return Trapezoid(a, b)
-
-
-def falls(c: float, d: float) -> Trapezoid:
-    """1 up to `c`, 0 from `d`."""
-    return Trapezoid(-math.inf, -math.inf, c, d)
-
-
 def around(corners: Sequence[float], cycle: float) -> Trapezoid:
     """Four corners of a periodic quantity: each is the next after the one before.
 

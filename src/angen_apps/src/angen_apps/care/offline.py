@@ -11,7 +11,7 @@ from angen_apps.care.rules import Rules
 from angen_apps.data.run import first_day, residents_of
 from angen_apps.data.site import Site
 from angen_apps.residents.household import Household
-from angen_apps.residents.resident import make
+from angen_apps.residents.members import make
 from angen_tools.common.progress import Progress
 from angen_tools.session import Event
 from angen_tools.session.in_process import InProcess

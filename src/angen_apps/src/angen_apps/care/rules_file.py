@@ -1,15 +1,16 @@
 """Reads care rules from their YAML file; Failure has file, line, the error and its fix."""
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Any, Callable, Sequence
 
 from angen_tools.common.clock import DAY, duration, time_of_day
-from angen_apps.care.membership import Trapezoid, around, rises
+from angen_apps.care.membership import Trapezoid, around
 from angen_apps.care.rules import Condition, Rule, Rules, Signal
 from angen_apps.care.states import STATES
 from angen_tools.common.nearest import did_you_mean
-from angen_tools.common.yaml_file import YamlFile, is_list, is_text, line_of
+from angen_tools.common.yaml_file import Entries, YamlFile, is_list, is_text, line_of
 
 THRESHOLD = 0.5
 CONDITION = ('is', 'not', 'for', 'began', 'time')
@@ -25,11 +26,9 @@ class _Reader(YamlFile):
 
     def rules(self) -> Rules:
         top = self.entries(self.root, 'a rules file', ('starts', 'signals', 'rules'), ('rules',))
-        starts = self._said(top['starts'], 'starts', time_of_day) if 'starts' in top else None
-        signals = {}
-        if 'signals' in top:
-            for name, node in self.entries(top['signals'], 'signals').items():
-                signals[name] = self._signal(name, node)
+        starts = self.said(top['starts'], 'starts', time_of_day) if 'starts' in top else None
+        signals = {name: self._signal(name, node)
+                   for name, node in top.of('signals', self.entries, Entries()).items()}
         rules: dict[str, Rule] = {}
         for node in self.list(top['rules'], 'rules'):
             rule = self._rule(node, signals)
@@ -39,20 +38,12 @@ class _Reader(YamlFile):
             rules[rule.name] = rule
         return Rules(self.path, starts, signals, tuple(rules.values()))
 
-    def _said(self, node: Any, what: str, read: Callable[[str], float]) -> float:
-        try:
-            return read(self.text(node, what))
-        except ValueError as error:
-            raise self.fail(node, f'{what}: {error}') from None
-
     def _signal(self, name: str, node: Any) -> Signal:
         parts = self.entries(node, f"signal '{name}'", ('of', 'is', 'tag', 'until_elsewhere', 'in'),
                              ('of', 'is'))
         of = self._sources(parts['of'], 'of')
         state = self.text(parts['is'], 'is')
-        elsewhere: tuple[str, ...] = ()
-        if 'until_elsewhere' in parts:
-            elsewhere = self._sources(parts['until_elsewhere'], 'until_elsewhere')
+        elsewhere = parts.of('until_elsewhere', self._sources, ())
         for source in (*of, *elsewhere):
             kind = source.split('/')[0]
             if kind not in STATES:
@@ -63,17 +54,12 @@ class _Reader(YamlFile):
                                 f'{did_you_mean(state, STATES[kind])}')
         if 'tag' in parts and any(not source.startswith('rfid/') for source in of):
             raise self.fail(parts['tag'], 'only rfid/NAME reads a tag')
-        tag = self.text(parts['tag'], 'tag') if 'tag' in parts else ''
-        rooms: tuple[str, ...] = ()
-        if 'in' in parts:
-            nodes = self.list(parts['in'], 'in') if is_list(parts['in']) else [parts['in']]
-            rooms = tuple(self.text(each, 'in') for each in nodes)
-        return Signal(name, of, state, tag, elsewhere, line_of(node), rooms)
+        return Signal(name, of, state, parts.of('tag', self.text, ''), elsewhere, line_of(node),
+                      parts.of('in', self.texts, ()))
 
     def _sources(self, node: Any, what: str) -> tuple[str, ...]:
-        nodes = self.list(node, what) if is_list(node) else [node]
         found = []
-        for each in nodes:
+        for each in self.nodes(node, what):
             source = self.text(each, what)
             kind, slash, name = source.partition('/')
             if not (kind and slash and name):
@@ -90,12 +76,9 @@ class _Reader(YamlFile):
         when = tuple(self._condition(each, signals) for each in self.list(parts['when'], 'when'))
         product = 'and' in parts and self.choice(parts['and'], 'and', ('min', 'product')
                                                  ) == 'product'
-        threshold = THRESHOLD
-        if 'threshold' in parts:
-            threshold = self.number(parts['threshold'], 'threshold', 0.01, 1.0)
-        at = self.text(parts['at'], 'at') if 'at' in parts else ''
-        return Rule(name, when, product, threshold, self.text(parts['reason'], 'reason'), at,
-                    line_of(node))
+        threshold = parts.of('threshold', partial(self.number, low=0.01, high=1.0), THRESHOLD)
+        return Rule(name, when, product, threshold, self.text(parts['reason'], 'reason'),
+                    parts.of('at', self.text, ''), line_of(node))
 
     def _condition(self, node: Any, signals: dict[str, Signal]) -> Condition:
         if is_text(node):
@@ -109,9 +92,8 @@ class _Reader(YamlFile):
         key = 'is' if 'is' in parts else 'not'
         return Condition(
             self._known(parts[key], signals) if key in parts else '', 'not' in parts,
-            self._lasting(parts['for']) if 'for' in parts else None,
-            self._window(parts['began'], 'began') if 'began' in parts else None,
-            self._window(parts['time'], 'time') if 'time' in parts else None)
+            parts.of('for', self._lasting), parts.of('began', self._window),
+            parts.of('time', self._window))
 
     def _known(self, node: Any, signals: dict[str, Signal]) -> str:
         name = self.text(node, 'a signal')
@@ -119,11 +101,11 @@ class _Reader(YamlFile):
             raise self.fail(node, f"there is no signal '{name}'; {did_you_mean(name, signals)}")
         return name
 
-    def _lasting(self, node: Any) -> Trapezoid:
+    def _lasting(self, node: Any, what: str) -> Trapezoid:
         if not is_list(node):
-            least = self._said(node, 'for', duration)
-            return rises(least, least)
-        corners = self._corners(node, 'for', duration, (2, 4))
+            least = self.said(node, what, duration)
+            return Trapezoid(least, least)
+        corners = self._corners(node, what, duration, (2, 4))
         if list(corners) != sorted(corners):
             raise self.fail(node, 'the durations of for must rise')
         return Trapezoid(*corners)
@@ -154,4 +136,4 @@ class _Reader(YamlFile):
         if len(nodes) not in counts:
             expected = ' or '.join(str(count) for count in counts)
             raise self.fail(node, f'{what} has {len(nodes)} corners, must have {expected}')
-        return tuple(self._said(each, what, read) for each in nodes)
+        return tuple(self.said(each, what, read) for each in nodes)

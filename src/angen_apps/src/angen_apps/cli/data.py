@@ -6,12 +6,12 @@ import os
 from pathlib import Path
 from typing import Any
 
+from angen_apps.data.shapes import DAYS, YEARS
 from angen_tools.cli.arguments import at_least, checked
 from angen_tools.cli.parser import add_json, add_out, add_seed, add_world_file, command
 from angen_tools.common.failure import Failure
 
 NAMES = ('casas', 'casas-columns', 'aras', 'kasteren', 'openshs', 'csv', 'parquet', 'xes', 'power')
-YEARS = 1900, 2900  # range of the first day's year
 
 
 def formats(text: str) -> tuple[str, ...]:
@@ -156,7 +156,7 @@ def add_generate(commands: Any) -> None:
                    'has residents live in homes and writes labeled data of their sensors; needs '
                    'no simulator', 'generate --days 2 --residents 2 --seed 7 --format casas',
                    'generate --homes 20 --days 30 --residents 3 --format casas,csv --out homes')
-    made.add_argument('--days', metavar='N', type=checked(at_least(1, 36525)), default=1,
+    made.add_argument('--days', metavar='N', type=checked(at_least(1, DAYS)), default=1,
                       help='days of each home (1)')
     made.add_argument('--residents', metavar='WHO', type=checked(residents), default=('2',),
                       help='a number, or profiles between commas: retired, worker, student, … or '

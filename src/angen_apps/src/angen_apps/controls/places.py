@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any, Iterator
 
 from angen_tools.common.home import FloorPose, Home, Room
-from angen_tools.common.geometry import yaw_of
+from angen_tools.common.geometry import local, turned, yaw_of
 
 INSIDE = 0.8  # m from the middle of a door into its room
 SEAT = 0.5  # m around the place of a person who sits or lies, where a seat may be in the way
@@ -27,10 +27,8 @@ class Box:
     half: tuple[float, float]
 
     def distance(self, x: float, y: float) -> float:
-        c, s = math.cos(self.yaw), math.sin(self.yaw)
-        dx, dy = x - self.x, y - self.y
-        return math.hypot(max(0.0, abs(c * dx + s * dy) - self.half[0]),
-                          max(0.0, abs(c * dy - s * dx) - self.half[1]))
+        return math.hypot(*(max(0.0, abs(way) - half) for way, half in zip(
+            local((self.x, self.y), self.yaw, (x, y)), self.half)))
 
 
 @dataclass(frozen=True)
@@ -58,9 +56,8 @@ def things(scene: Any, floor: float, movers: set[str]) -> list[Box]:
         if shape.type not in (BOX, CYLINDER) or link.model in movers or not (
                 z + half > low and z - half < floor + HIGH):
             continue
-        yaw = yaw_of(link.pose.orientation)
-        c, s, own = math.cos(yaw), math.sin(yaw), shape.pose.position
-        found.append(Box(at.x + c * own.x - s * own.y, at.y + s * own.x + c * own.y,
+        yaw, own = yaw_of(link.pose.orientation), shape.pose.position
+        found.append(Box(*turned((at.x, at.y), yaw, own.x, own.y),
                          yaw + yaw_of(shape.pose.orientation),
                          (shape.size.x / 2, shape.size.y / 2)))
     return found
@@ -95,7 +92,7 @@ def _others(home: Home, room: Room) -> Iterator[FloorPose]:
         if door.kind != 'window' and room.name in door.rooms:
             x, y, z, yaw = door.pose
             heading = yaw + math.pi / 2 * (1 if door.rooms[0] == room.name else -1)
-            yield (x + INSIDE * math.cos(heading), y + INSIDE * math.sin(heading), z, heading)
+            yield (*turned((x, y), heading, INSIDE, 0.0), z, heading)
     xs, ys = ([corner[axis] for corner in room.polygon] for axis in (0, 1))
     grid = [(min(xs) + STEP * i, min(ys) + STEP * j)
             for i in range(1, math.ceil((max(xs) - min(xs)) / STEP))

@@ -69,7 +69,8 @@ def _fault(file: YamlFile, node: Any) -> Fault:
 def give(site: Site, faults: list[Fault]) -> None:
     """Gives faults to a home's sensors; false alarms to those that raise alarms."""
     for fault in faults:
-        found = [s for s in site.sensors if fnmatchcase(s.id, fault.sensors) and s.source
+        found = [s for s in site.sensors if fnmatchcase(s.id, fault.sensors)
+                 and s.source and s.kind != 'bell'  # a device
                  and (not fault.text.startswith('false_alarm')
                       or s.kind in ('motion', 'area', 'door', 'item'))]
         if not found:

@@ -22,6 +22,7 @@ from angen_apps.data.formats import FORMATS
 from angen_apps.data.formats.periods import zipped
 from angen_apps.data.formats.table import pyarrow
 from angen_apps.data.part_folder import MARKER, part_folder
+from angen_apps.data.tables import ENTRY, parsed
 from angen_apps.residents import truth
 from angen_apps.residents.chance import chance
 from angen_apps.residents.profiles import is_file, names
@@ -34,6 +35,7 @@ MANIFEST, HOME = 'manifest.json', 'home.json'
 LOADS = 'loads.csv.gz'  # W of each lamp and appliance from a time on
 MOVES = 'moves.csv.gz'  # when those who stay at a place moved
 CABINS = 'cabins.csv.gz'  # places of the links of elevators from a time on
+TALKS = 'talks.csv.gz'  # who speaks to whom
 TRUTH = ('truth.csv.gz', 'missed.csv', 'faults.csv', 'layout.json', 'track.csv.gz', LOADS, MOVES)
 AGAIN = 5  # times that the pool is made again after its processes died
 MIXED = ('worker', 'retired', 'student', 'night_shift_worker', 'elder_with_dementia')
@@ -165,10 +167,10 @@ def finished(job: Job) -> dict[str, Any] | None:
     if not path.is_file():
         return None
     try:
-        entry: dict[str, Any] = json.loads(path.read_text(encoding='utf-8'))
-        settings, files = entry['settings'], dict(entry['files'])
-    except (ValueError, KeyError, TypeError, OSError):
+        entry: dict[str, Any] = parsed(path, ENTRY)
+    except Failure:
         return None
+    settings, files = entry['settings'], entry['files']
     if settings != job.settings:
         raise Failure(f'{path}: was made with other settings; give another folder with -o')
     if why := _difference(Path(job.folder), entry.get('version'), files):
@@ -191,7 +193,7 @@ def _difference(folder: Path, version: Any, files: dict[str, str]) -> str:
 
 
 def write_truth(folder: Path, data: run.Data) -> list[Path]:
-    """The files of TRUTH, and cabins.csv.gz where there are elevators."""
+    """The files of TRUTH, and those of elevators and talks if there are any."""
     paths = [folder / name for name in TRUTH]
     with zipped(paths[0]) as file:
         writer = csv.writer(file, lineterminator='\n')
@@ -205,6 +207,7 @@ def write_truth(folder: Path, data: run.Data) -> list[Path]:
         'start': data.start.isoformat(), 'days': data.days,
         'residents': [{'name': name, 'profile': profile.name, 'body': profile.body,
                        'speed': profile.speed} for name, profile in data.residents],
+        'guests': [{'name': name, 'host': host} for name, host in data.guests],
         'rooms': [{'name': r.name, 'use': r.use, 'storey': r.storey,
                    'polygon': r.polygon, 'holes': r.holes, 'area': r.area}
                   for r in home.rooms],
@@ -236,6 +239,12 @@ def write_truth(folder: Path, data: run.Data) -> list[Path]:
             file.write('time,model,link,x,y,z\n')
             file.writelines(f'{t:.3f},{model},{link},{x:.4f},{y:.4f},{z:.4f}\n'
                             for t, model, link, x, y, z in data.slides)
+    if data.talks:
+        paths.append(folder / TALKS)
+        with zipped(paths[-1]) as file:
+            file.write('start,end,resident,to\n')
+            file.writelines(f'{talk.start:.3f},{talk.end:.3f},{talk.resident},{talk.to}\n'
+                            for talk in data.talks)
     write_text(paths[3], json.dumps(_rounded(layout), indent=1) + '\n')
     return paths
 

@@ -13,7 +13,8 @@ from scipy.spatial.distance import jensenshannon
 from scipy.stats import ks_2samp
 
 from angen_apps.data.site import MAINS
-from angen_apps.data.tables import EVENTS, TRUTH, rows
+from angen_apps.data.shapes import DAYS
+from angen_apps.data.tables import EVENTS, TRUTH, Tables, layout_of, lines
 from angen_apps.residents.activities import activities
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import pyplot, save_figure
@@ -76,6 +77,25 @@ class Stream:
         return max(int(np.ceil(self.time[-1] / DAY)), 1) if len(self.time) else 1
 
 
+class Clock:
+    """Times of events, since the midnight before the first of them."""
+
+    _first: datetime.datetime | None = None
+
+    def seconds(self, where: str, text: str) -> float:
+        """Of a date and time; Failure if it is none, or not in the DAYS from the first day on."""
+        try:
+            at = datetime.datetime.fromisoformat(text)
+        except ValueError:
+            raise Failure(f'{where}: {text} is not a date and time') from None
+        self._first = self._first or datetime.datetime.combine(at.date(), datetime.time())
+        found = (at - self._first).total_seconds()
+        if not 0.0 <= found <= DAYS * DAY:
+            raise Failure(f'{where}: {text} must be in the {DAYS} days from {self._first:%Y-%m-%d} '
+                          'on, the day of the first event')
+        return found
+
+
 def read(path: Path) -> Stream:
     """A home's folder, or a file as CASAS publishes them. Labels of casas.txt, which are at events,
     are compared with those of other homes; a folder without it has those of its truth."""
@@ -86,12 +106,8 @@ def read(path: Path) -> Stream:
     times, sensors, values = [], [], []
     did: list[Did] = []
     since: dict[tuple[str, str], float] = {}
-    first = None
-    try:
-        lines = path.read_text(encoding='utf-8-sig', errors='replace').splitlines()
-    except OSError as error:
-        raise Failure(f'{path}: cannot be read: {error.strerror}') from None
-    for number, line in enumerate(lines, 1):
+    clock = Clock()
+    for number, line in enumerate(lines(path, encoding='utf-8-sig', errors='replace'), 1):
         found = LINE.match(line.strip())
         if not found:
             if line.strip():
@@ -100,9 +116,7 @@ def read(path: Path) -> Stream:
             continue
         if found[3] == MAINS:  # in few homes
             continue
-        at = datetime.datetime.fromisoformat(f'{found[1]} {found[2][:15]}')
-        first = first or datetime.datetime.combine(at.date(), datetime.time())
-        times.append((at - first).total_seconds())
+        times.append(clock.seconds(f'{path}:{number}', f'{found[1]} {found[2][:15]}'))
         sensors.append(found[3])
         values.append(found[4])
         label = LABEL.fullmatch((found[5] or '').strip())
@@ -120,26 +134,25 @@ def read(path: Path) -> Stream:
 
 def _own(folder: Path) -> Stream:
     times, sensors, values = [], [], []
-    first = None
-    for row in rows(folder / 'events.csv.gz',
-                    {key: EVENTS[key] for key in ('time', 'sensor', 'value')}):
+    described = (folder / 'layout.json').exists()
+    clock, tables = Clock(), Tables(folder, layout_of(folder) if described else None)
+    for row in tables.rows('events.csv.gz',
+                           {key: EVENTS[key] for key in ('time', 'sensor', 'value')}):
         if row['sensor'] == MAINS:
             continue
-        at = datetime.datetime.fromisoformat(row['time'])
-        first = first or datetime.datetime.combine(at.date(), datetime.time())
-        times.append((at - first).total_seconds())
+        times.append(clock.seconds(f'{folder}/events.csv.gz', row['time']))
         sensors.append(row['sensor'])
         values.append(row['value'])
-    return Stream(np.array(times), sensors, values, _did(folder / 'truth.csv.gz'))
+    return Stream(np.array(times), sensors, values, _did(tables))
 
 
-def _did(path: Path) -> list[Did]:
+def _did(tables: Tables) -> list[Did]:
     """Each activity with the ways between its places: from where it is first done to where it is
     last done."""
     found: list[Did] = []
     doing: dict[str, Did] = {}  # by resident
     columns = ('resident', 'activity', 'phase', 'start', 'end')
-    for row in rows(path, {key: TRUTH[key] for key in columns}):
+    for row in tables.rows('truth.csv.gz', {key: TRUTH[key] for key in columns}):
         who, name = row['resident'], row['activity']
         if who in doing and doing[who].activity != name:
             found.append(doing.pop(who))

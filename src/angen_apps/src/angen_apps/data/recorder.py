@@ -28,6 +28,8 @@ HEIGHTS = (0.4, 1.0, 1.6)  # m above the floor, of parts of a person
 WIDE = 0.3  # m: half the width of a person
 HOUSING, FARTHEST = 0.1, 30.0  # m from a sensor to the begin and the end of its sight
 CELL = 0.4  # m around the middle of a cell: a sensor must detect motion there
+RINGS, TAP = 'rang', 'TAP'  # event of a doorbell, and value of its button
+VISITOR = ('', '', 'visitor')  # whose a ring is of one who only comes to the door
 LEAST = 1.0  # s: the resident must move there this long
 STRIDE = 0.3  # s between two places of a track
 FALSE = 'false alarm'  # detail of its events
@@ -42,7 +44,8 @@ HOLD = 2.5  # s before and after, within which an event counts
 
 
 class Event(NamedTuple):
-    """One of a sensor. `cause`: motion, seat, hand, air, light, power, start, or noise."""
+    """One of a sensor. `cause`: motion, seat, hand, visitor, air, light, power, start, or
+    noise."""
 
     time: float
     sensor: str
@@ -127,6 +130,8 @@ class Recorder:
         self.heard()
 
     def heard(self) -> None:
+        if 0.0 < self.household.now == self._looked:
+            return  # less than a tick has passed: commands are executed in the next one
         for resident in self.household.residents:
             if resident.walks:
                 self._follow(resident)
@@ -186,6 +191,9 @@ class Recorder:
         elif sensor.kind == 'light' and event == 'changed':
             lux = self.site.world.sensor('luminosity', sensor.name)['illuminance']
             self._add(time, sensor, f'{min(100, round(lux))}', self._lit(sensor))
+        elif sensor.kind == 'bell' and event == RINGS:
+            whose = self._cause(time, sensor)
+            self._add(time, sensor, TAP, whose if whose[0] else VISITOR)
         elif event in ON:
             self._last_on[sensor.id] = time
             self._on[sensor.id] = time
@@ -206,7 +214,7 @@ class Recorder:
             return START
         residents = [r for r in self.household.residents if not r.away
                      and r.storey == self._storeys[sensor.id]]
-        if sensor.kind in ('door', 'power'):
+        if sensor.kind in ('door', 'power', 'bell'):
             who = self._hand(time, sensor)
             resident = next((r for r in self.household.residents if r.name == who), None)
             return (who, resident.item.activity, 'hand') if resident else ('', '', 'noise')
@@ -221,15 +229,22 @@ class Recorder:
             moving = [r for r in inside if r in moving] or inside or moving
         if sensor.kind == 'area' and len(moving) > 1:  # it sees through doorways
             moving = [r for r in moving if r.room == sensor.room] or sorted(
-                moving, key=lambda r: (not r.walks, not self._sees(sensor, r),
+                moving, key=lambda r: (not self._sees(sensor, r),
+                                       time - r.moved >= RECENT, not r.walks,
                                        self._to_room(r, sensor.room)))
         return (moving[0].name, moving[0].item.activity, 'motion') if moving \
             else ('', '', 'noise')
 
     def _sees(self, sensor: Sensor, resident: Any) -> bool:
-        """Whether no wall is between a sensor and a resident."""
-        floor = self.site.home.elevation(resident.storey)
-        x, y = resident.at[0] - sensor.x, resident.at[1] - sensor.y
+        """Whether a resident is in sight of a sensor, or has come there since the last look."""
+        body = self.site.simulator.body(resident.name)
+        return any(self._clear(sensor, resident.storey, at)
+                   for at in dict.fromkeys((resident.at, (body.x, body.y))))
+
+    def _clear(self, sensor: Sensor, storey: int, at: tuple[float, float]) -> bool:
+        """Whether no wall is between a sensor and who is at a place."""
+        floor = self.site.home.elevation(storey)
+        x, y = at[0] - sensor.x, at[1] - sensor.y
         across = WIDE / max(math.hypot(x, y), WIDE)
         ways = np.array([(x - side * across * y, y + side * across * x, floor + height - sensor.z)
                          for height in HEIGHTS for side in (-1.0, 0.0, 1.0)])

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import datetime
+import sys
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -11,10 +12,12 @@ from angen_apps.data import faults
 from angen_apps.data.cabins import Slide
 from angen_apps.data.recorder import Event, Missed, Moved, Recorder, Step
 from angen_apps.data.site import Sensor, Site
+from angen_apps.residents.company import Talk
 from angen_apps.residents.household import Household
+from angen_apps.residents.members import Guest, make
 from angen_apps.residents.profiles import DAY, MOST, Profile, read
-from angen_apps.residents.resident import make
 from angen_apps.residents.truth import Interval
+from angen_apps.residents.ways import ways
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home
 
@@ -41,6 +44,8 @@ class Data:
     faults: list[faults.Happened]
     slides: list[Slide]
     moves: list[Moved] = field(default_factory=list)
+    guests: list[tuple[str, str]] = field(default_factory=list)  # and the host of each
+    talks: list[Talk] = field(default_factory=list)
 
     def intervals(self, resident: str) -> list[Interval]:
         return [interval for interval in self.truth if interval.resident == resident]
@@ -71,8 +76,11 @@ def first_day(home: Home) -> datetime.date:
 
 
 def try_household(world: Path, who: list[str], strict: bool = False) -> None:
-    """Says what residents cannot do in the home of a world's file; Failure for that if `strict`."""
+    """Says where residents find no way in the home of a world's file, and what they cannot do
+    there; Failure for that if `strict`."""
     site = Site(world, 0, placed=False)
+    for line in ways(site.floors, site.world):
+        print(f'angen: {line}', file=sys.stderr)
     make(Household(site.simulator, site.floors, 0, world.stem, first_day(site.home)),
          residents_of(who), strict)
 
@@ -87,7 +95,7 @@ def live(world: Path, name: str, days: int, who: list[tuple[str, Profile]], seed
     faults.give(site, list(faulty))
     first = start or first_day(site.home)
     household = Household(site.simulator, site.floors, seed, name, first)
-    make(household, who, strict)
+    guests = [one for one in make(household, who, strict) if isinstance(one, Guest)]
     recorder = Recorder(site, household)
     recorder.start()
     end = days * DAY
@@ -102,4 +110,6 @@ def live(world: Path, name: str, days: int, who: list[tuple[str, Profile]], seed
     left = recorder.recording
     return Data(datetime.datetime.combine(first, datetime.time()), days, seed,
                 who, site.home, site.sensors, events, truth, left.missed, left.power,
-                sorted(left.track), sorted(left.faults), recorder.cabins.slides, left.moves)
+                sorted(left.track), sorted(left.faults), recorder.cabins.slides, left.moves,
+                [(guest.name, guest.host.name) for guest in guests],
+                sorted(talk for resident in household.residents for talk in resident.talks))

@@ -5,10 +5,11 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 from lxml import etree
 
 from angen_apps.residents.floors import Floors
-from angen_apps.residents.simulated import Simulated
+from angen_apps.residents.simulator import Simulator
 from angen_apps.robot.entities import Entity, entities_of
 from angen_models import plan, world as blocks
 from angen_models.catalog import smart_plug
@@ -16,6 +17,7 @@ from angen_models.sdf import ANGEN
 from angen_tools.common.catalog import kinds, simulator
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
+from angen_tools.common.geometry import turned
 from angen_tools.common.home import Home, Room
 from angen_tools.session.in_process import InProcess
 from angen_tools.world import sdf
@@ -25,6 +27,8 @@ CEILING = 0.05  # m below the ceiling where motion sensors are
 APART = 1.1  # m: motion sensors of a cell are not nearer to each other
 WALL = 0.12  # m from the walls where those of a room are
 HIGH = 2.2  # m above the floor
+WIDE = math.radians(52.5)  # half of the angle that the sensor of a room sees
+CHEST, SPARSE = 1.2, 7  # m above the floor of what it sees of people, at each so many-th free cell
 SAMPLES = 25.0  # Hz of motion sensors, a fourth of the default, which costs less
 AREAS = ('living', 'kitchen', 'bedroom')  # rooms that have a sensor for all of them
 LEFT_OUT = ('plant', 'cup', 'weighing_table', 'pressure_mat')
@@ -33,7 +37,8 @@ LEFT_OUT = ('plant', 'cup', 'weighing_table', 'pressure_mat')
 @dataclass(frozen=True)
 class Sensor:
     """One in the data: `id` as datasets call it, `kind` motion, area, door, item, power,
-    temperature, light or mains; `source` and `name` of the simulator's sensor, which mains has not.
+    bell, temperature, light or mains; `source` and `name` of the simulator's sensor, which mains
+    has not.
     """
 
     id: str
@@ -46,14 +51,16 @@ class Sensor:
     z: float
 
 
-LETTERS = {'motion': 'M', 'area': 'M', 'door': 'D', 'item': 'I', 'power': 'S', 'temperature': 'T',
-           'light': 'LS'}
+LETTERS = {'motion': 'M', 'area': 'M', 'door': 'D', 'item': 'I', 'power': 'S', 'bell': 'B',
+           'temperature': 'T', 'light': 'LS'}
 MAINS = 'P001'  # the home's power in W, as in the data of CASAS' Kyoto apartments
+DOORBELL = (-0.06, 4.3, 1.1, 0.0, 0.0, math.pi)  # beside the entrance, on the landing
+BELL = 0.2, 1.1, 0.6  # m beside the frame of an entrance, over its floor, and to its wall at most
 STANDBY = 5.0  # W, up to which an appliance is off
 HEATING = 21.0  # degrees Celsius; EN 16798-1: 20 at least in living rooms, category II
 OWN = ('contact', 'pressure', 'reed')  # on seats, mats, cabinets: a home keeps its own
 BY_SOURCE = {'pir': 'motion', 'reed': 'door', 'contact': 'item', 'pressure': 'item',
-             'plug': 'power',
+             'plug': 'power', 'doorbell': 'bell',
              'temperature': 'temperature', 'luminosity': 'light'}
 
 
@@ -71,6 +78,7 @@ def apartment(path: Path) -> None:
     blocks.add_openers(world, 0)
     for room, (model, x, y, height, yaw) in plan.APPLIANCES.items():
         blocks.include(world, model, f'{room}_{model}0', (x, y, height, 0, 0, yaw))
+    blocks.include(world, 'doorbell', 'entrance_doorbell0', DOORBELL)
     blocks.add_state(world, 'home')
     etree.cleanup_namespaces(root, top_nsmap={'angen': ANGEN})
     write_text(path, f'<?xml version="1.0"?>\n{sdf.text(root)}')
@@ -90,7 +98,7 @@ class Site:
         if not self.home.rooms:
             raise Failure(f'{path}: describes no rooms; see docs/home.md')
         self.floors = Floors(bare, self.home)
-        self.simulator = Simulated(self.world, self.home)
+        self.simulator = Simulator(InProcess(self.world, long_steps=True), self.home)
         if placed:
             self._clear()
             _Placer(self, light).place()
@@ -190,6 +198,7 @@ class _Placer:
                     z = self.site.floors.support(place)
                     self._spawn('model://pressure_mat', f'{thing.name}_mat_{i}', (x, y, z, yaw))
             self._plug(thing.name)
+        self._bell()
 
     def _spawn(self, what: str, name: str, pose: tuple[float, float, float, float],
                pitch: float = 0.0) -> None:
@@ -206,8 +215,7 @@ class _Placer:
         for door in self.home.doors:
             if door.kind != 'window' and room.name in door.rooms:
                 x, y, _, yaw = door.pose
-                inside = [(x + s * 0.7 * math.sin(yaw), y - s * 0.7 * math.cos(yaw))
-                          for s in (1, -1)]
+                inside = [turned((x, y), yaw, 0.0, away) for away in (-0.7, 0.7)]
                 places += [at for at in inside if room.contains(*at)]
         places.append(room.center)
         kept: list[tuple[float, float]] = []
@@ -219,9 +227,31 @@ class _Placer:
                         (x, y, room.ceiling - CEILING, 0.0), math.pi / 2)
 
     def _area(self, room: Room) -> None:
-        x, y, yaw = facing(room, 2)
+        """A motion sensor for a whole room, in the corner from which furniture hides least."""
+        corners = len(room.polygon)
+        best = max(((k + 2) % corners for k in range(corners)),
+                   key=lambda number: round(self._seen(room, number), 1))
+        x, y, yaw = facing(room, best)
         self._spawn(_sampled('pir_pyroelectric'), f'area_{room.name}',
                     (x, y, room.floor + HIGH, yaw))
+
+    def _seen(self, room: Room, number: int) -> float:
+        """The share of a room's free floor where a sensor in a corner has a person in sight."""
+        floors = self.site.floors
+        grid, free = floors.grids[room.storey], floors.floor_of(room)
+        rows, columns = (part[::SPARSE] for part in np.nonzero(free))
+        if not len(rows):
+            return 0.0
+        x, y, yaw = facing(room, number)
+        begin = np.array([x, y, room.floor + HIGH])
+        ways = np.column_stack([grid.x[columns], grid.y[rows],
+                                np.full(len(rows), room.floor + CHEST)]) - begin
+        lengths = np.linalg.norm(ways, axis=1)
+        clear = self.world.cast(np.broadcast_to(begin, ways.shape), ways / lengths[:, None],
+                                float(lengths.max()))
+        aside = np.remainder(np.arctan2(ways[:, 1], ways[:, 0]) - yaw + math.pi,
+                             2 * math.pi) - math.pi
+        return float(((np.asarray(clear) > lengths - WALL) & (abs(aside) < WIDE)).mean())
 
     def _contact(self, door: str) -> None:
         """A reed contact at the upper edge of a leaf, on a model with links base and door."""
@@ -240,6 +270,28 @@ class _Placer:
         with simulator(f'{door}: '):
             self.world.spawn(xml, f'{door}_contact', [along, -0.015, 2.09, 0.0, 0.0, 0.0],
                              on=f'{model}::base')
+
+    def _bell(self) -> None:
+        """A doorbell at the wall beside the main entrance, outside, unless the home has one."""
+        door, porch = self.site.floors.entrance(), self.site.floors.porch()
+        if door is None or porch is None \
+                or any(kind == 'doorbell' for kind, *_ in self.world.entities()):
+            return
+        x, y, z, yaw = door.pose
+        out = (-math.sin(yaw), math.cos(yaw))
+        if (porch[0][0] - x) * out[0] + (porch[0][1] - y) * out[1] < 0:
+            out = (-out[0], -out[1])
+        height = self.home.elevation(porch[1]) + BELL[1]
+        for side in (1, -1):
+            along = side * (door.width / 2 + BELL[0])
+            start = (x + along * math.cos(yaw) + BELL[2] * out[0],
+                     y + along * math.sin(yaw) + BELL[2] * out[1], height)
+            away = float(self.world.cast([start], [(-out[0], -out[1], 0.0)], 2 * BELL[2])[0])
+            if away < 2 * BELL[2]:
+                self._spawn('model://doorbell', 'entrance_doorbell',
+                            (start[0] - away * out[0], start[1] - away * out[1], height,
+                             math.atan2(out[1], out[0])))
+                return
 
     def _plug(self, thing: str) -> None:
         """A smart plug that feeds the appliance there."""

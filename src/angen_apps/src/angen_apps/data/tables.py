@@ -1,26 +1,31 @@
-"""Reads a home's data again: its tables, with file and line of what cannot be read."""
+"""Reads a home's data again: its files, with the place of what is not as it must be."""
 from __future__ import annotations
 
 import csv
 import gzip
+import io
+import json
 import math
 import zlib
-from datetime import datetime
 from pathlib import Path
-from typing import Any, Callable, Iterator, Mapping, TextIO
+from typing import IO, Any, Callable, Iterator, Mapping, cast
 
+from angen_apps.data.shapes import (DAYS, YEARS, Each, Many, Reader, boolean, check_plain,
+                                    check_shape, check_value, clock, figure, inner_path, number,
+                                    shown, text, word)
+from angen_apps.data.site import LETTERS
+from angen_apps.residents.profiles import DAY
 from angen_tools.common.failure import Failure
-from angen_tools.common.text_file import shortened
+from angen_tools.common.output import SEED
+from angen_tools.common.text_file import LARGEST, read_text
 
 LONGEST = 1 << 14  # characters of a line
-
-
-def finite(text: str | float) -> float:
-    """A number; ValueError for others, and for those that are not finite."""
-    value = float(text)
-    if not math.isfinite(value):
-        raise ValueError(f'{text} is not finite')
-    return value
+LAYOUT_SIZE = 16 << 20  # bytes of layout.json and home.json, at most
+MANIFEST_SIZE = 4 * LARGEST  # bytes of a list of many homes, at most
+DAILY = 4 << 20  # characters of a table for each day and person, at most
+TABLE = 1 << 30  # characters of a table, at most
+AREA = 200_000.0  # m^2 that the rooms of all storeys may span
+LAST = (DAYS + 1) * DAY  # s
 
 
 def homes(folder: Path) -> list[Path]:
@@ -35,83 +40,179 @@ def homes(folder: Path) -> list[Path]:
 
 
 # columns of the files, and how their values are read
-Columns = Mapping[str, Callable[[str], object]]
+Row = dict[str, str]
+Columns = Mapping[str, Reader]
+TEXT, NAME = text(), text(1)
+WHO = text(1, 50, '/')  # who lives there: files have their names
+TIME, STAMP = figure(0.0, LAST), figure(-LAST, LAST)  # a faulty clock may be slow
+PLACE, STOREY = figure(-1e4, 1e4), figure(-1000, 1000, whole=True)  # m
+MAYBE = figure(-1e4, 1e4, nan=True)  # nan: away
+WATTS = figure(0.0, 1e7)
+PHASES = 'goes', 'does', 'waits', 'away'
+POSTURES = '', 'stand', 'sit', 'lie'
+KINDS = (*LETTERS, 'mains')  # sensors have these
 TRUTH: Columns = {
-    'resident': str, 'start': finite, 'end': finite, 'activity': str, 'phase': str,
-    'posture': str, 'room': str, 'thing': str, 'note': str, 'cause': str, 'x': float, 'y': float}
+    'resident': NAME, 'start': TIME, 'end': TIME, 'activity': NAME, 'phase': word(*PHASES),
+    'posture': word(*POSTURES), 'room': TEXT, 'thing': TEXT, 'note': TEXT, 'cause': TEXT,
+    'x': MAYBE, 'y': MAYBE}
 EVENTS: Columns = {
-    'time': datetime.fromisoformat, 'sensor': str, 'kind': str, 'value': str, 'cause': str,
-    'resident': str, 'room': str, 'activity': str}
-TRACK: Columns = {'time': finite, 'resident': str, 'x': finite, 'y': finite, 'storey': int}
-MOVES: Columns = {'time': finite, 'resident': str}
-MISSED: Columns = {'start': finite, 'end': finite, 'sensor': str, 'resident': str}
-FAULTS: Columns = {'time': finite, 'sensor': str, 'fault': str, 'detail': str}
-POWER: Columns = {'time': finite, 'kind': str, 'device': str, 'watts': finite}
-SLIDES: Columns = {'time': finite, 'model': str, 'link': str, 'x': finite, 'y': finite, 'z': finite}
-# keys of layout.json; a list has entries like its one
-LAYOUT = {'start': datetime.fromisoformat, 'days': finite,
-          'residents': [{'name': str, 'speed': finite}],
-          'rooms': [{'name': str, 'use': str, 'storey': int, 'polygon': [[finite]]}],
-          'doors': [{'name': str, 'kind': str, 'pose': [finite], 'width': finite, 'rooms': [str]}],
-          'landings': [{'elevator': str, 'storey': int, 'pose': [finite]}],
-          'things': [{'name': str, 'type': str, 'room': str, 'x': finite, 'y': finite}],
-          'sensors': [{'name': str, 'id': str, 'kind': str, 'room': str,
-                       'x': finite, 'y': finite, 'z': finite}]}
+    'time': clock(YEARS[0] - 1, YEARS[1] + 101), 'sensor': NAME, 'kind': TEXT, 'value': TEXT,
+    'cause': TEXT, 'resident': TEXT, 'room': TEXT, 'activity': TEXT}
+TRACK: Columns = {'time': TIME, 'resident': NAME, 'x': PLACE, 'y': PLACE, 'storey': STOREY}
+MOVES: Columns = {'time': TIME, 'resident': NAME}
+TALKS: Columns = {'start': TIME, 'end': TIME, 'resident': NAME, 'to': NAME}
+MISSED: Columns = {'start': STAMP, 'end': STAMP, 'sensor': NAME, 'resident': TEXT}
+FAULTS: Columns = {'time': STAMP, 'sensor': NAME, 'fault': TEXT, 'detail': TEXT}
+POWER: Columns = {'time': TIME, 'kind': NAME, 'device': NAME, 'watts': WATTS}
+SLIDES: Columns = {'time': TIME, 'model': NAME, 'link': NAME, 'x': PLACE, 'y': PLACE, 'z': PLACE}
+MEASURED = {'temperature': figure(-1e3, 1e3), 'light': figure(0.0, 1e6), 'mains': WATTS}  # by kind
+
+AT = number(-1e4, 1e4)  # m or rad
+FLOOR = number(-1000, 1000, whole=True)
+POINT, POSE = (AT, AT), (AT, AT, AT, AT)
+LAYOUT = {'start': clock(*YEARS), 'days': number(1, DAYS, whole=True),
+          'residents': [{'name': WHO, 'speed': number(0.01, 10.0), 'profile?': text(0, 50, '/'),
+                         'body?': TEXT}],
+          'guests?': [{'name': WHO, 'host': WHO}],
+          'rooms': [{'name': NAME, 'use': TEXT, 'storey': FLOOR, 'polygon': Many(POINT, 3),
+                     'holes?': [Many(POINT, 3)]}],
+          'doors': [{'name': NAME, 'kind': TEXT, 'pose': POSE, 'width': number(0.0, 100.0),
+                     'rooms': [TEXT], 'storey?': FLOOR}],
+          'landings?': [{'elevator': TEXT, 'storey': FLOOR, 'pose': POSE}],
+          'things': [{'name': NAME, 'type': TEXT, 'room': TEXT, 'x': AT, 'y': AT}],
+          'sensors': [{'name': NAME, 'id': NAME, 'kind': word(*KINDS), 'room': TEXT,
+                       'x': AT, 'y': AT, 'z': AT}]}
+ENTRY = {'settings': {'seed': number(0, SEED, whole=True), 'formats': [NAME], 'world': TEXT,
+                      'own_sensors': boolean, 'light': boolean},
+         'files': Each(inner_path, TEXT)}  # home.json
+HOMES: dict[str, Any] = {'homes': [{}]}  # manifest.json
 
 
-def rows(path: Path, columns: Columns) -> Iterator[dict[str, str]]:
+def parsed(path: Path, shape: Any, most: int = LAYOUT_SIZE) -> Any:
+    """A JSON file of a shape; Failure if it cannot be read or has another."""
+    _check_regular(path)
+    written = read_text(path, most)
+    try:
+        value = json.loads(written)
+    except json.JSONDecodeError as error:
+        raise Failure(f'{path}:{error.lineno}: is not JSON: {error.msg}') from None
+    except (ValueError, RecursionError) as error:  # digits, depth
+        raise Failure(f'{path}: is not JSON of ours: {error}') from None
+    check_plain(str(path), value)
+    check_shape(str(path), value, shape)
+    return value
+
+
+def layout_of(folder: Path) -> Any:
+    """The layout of a home; Failure if there is none, or it contradicts itself."""
+    path = folder / 'layout.json'
+    layout = parsed(path, LAYOUT)
+    names = [resident['name'] for resident in layout['residents']]
+    for i, guest in enumerate(layout.get('guests', [])):
+        if guest['host'] not in names:
+            raise Failure(f'{path}: guests[{i}].host is {shown(guest["host"])}, must be one of '
+                          'the residents')
+    storeys: dict[int, list[tuple[float, float]]] = {}
+    for room in layout['rooms']:
+        storeys.setdefault(room['storey'], []).extend(room['polygon'])
+    area = sum(math.prod(max(values) - min(values) for values in zip(*points))
+               for points in storeys.values())
+    if area > AREA:
+        raise Failure(f'{path}: the rooms span {area:.0f} m2, must be at most {AREA:.0f}')
+    return layout
+
+
+class Tables:
+    """The tables of a home, whose length has a limit by its layout if there is one."""
+
+    def __init__(self, folder: Path, layout: Any) -> None:
+        self.folder, self._most = folder, TABLE
+        self._kinds: dict[str, str] = {}
+        if layout is not None:
+            people = len(layout['residents']) + len(layout.get('guests', []))
+            self._most = min(TABLE, DAILY * layout['days'] * max(people, 1))
+            self._kinds = {sensor['id']: sensor['kind'] for sensor in layout['sensors']}
+
+    def rows(self, name: str, columns: Columns,
+             check: Callable[[Row], None] = lambda row: None) -> Iterator[Row]:
+        """The lines of one."""
+        return rows(self.folder / name, columns, check, self._most)
+
+    def truth(self, more: Columns | None = None) -> Iterator[Row]:
+        """truth.csv.gz; `more`: readers instead of those of TRUTH."""
+        return self.rows('truth.csv.gz', {**TRUTH, **(more or {})}, _check_place)
+
+    def events(self, more: Columns | None = None) -> Iterator[Row]:
+        """events.csv.gz; `more`: readers instead of those of EVENTS."""
+        return self.rows('events.csv.gz', {**EVENTS, **(more or {})}, self._check_measured)
+
+    def _check_measured(self, row: Row) -> None:
+        for kind in (row['kind'], self._kinds.get(row['sensor'], '')):
+            if kind in MEASURED:
+                check_value(f'value of a sensor of {kind}', row['value'], MEASURED[kind])
+
+
+def _check_place(row: Row) -> None:
+    """Who is not away has a posture; both numbers of a place are known or none is."""
+    if row['phase'] != 'away' and not row['posture']:
+        raise Failure('posture is empty, must be one if the phase is not away')
+    if math.isnan(float(row['x'])) != math.isnan(float(row['y'])):
+        raise Failure(f'x and y are {row["x"]} and {row["y"]}, must be numbers or both nan')
+
+
+def rows(path: Path, columns: Columns, check: Callable[[Row], None] = lambda row: None,
+         most: int = TABLE) -> Iterator[Row]:
     """The lines of a CSV file, compressed or not, by column; Failure with file and line for a
-    column or a value that is missing or cannot be read."""
+    column or a value that is missing or not as it must be, or if it has more characters.
+    `check`: of a line, raises Failure without its place."""
+    reader = csv.DictReader(lines(path, most=most))
     try:
-        opened: Any = gzip.open(path, 'rt', encoding='utf-8', newline='') \
-            if path.suffix == '.gz' else path.open(encoding='utf-8', newline='')
-        with opened as file:
-            reader = csv.DictReader(_lines(path, file))
-            for column in columns:
-                if column not in (reader.fieldnames or ()):
-                    raise Failure(f'{path}:1: has no column {column}')
-            for row in reader:
-                for column, read in columns.items():
-                    check_shape(f'{path}:{reader.line_num}: {column}', row[column], read)
-                yield row
-    except (OSError, EOFError, UnicodeDecodeError, csv.Error, zlib.error) as error:
-        raise Failure(f'{path}: cannot be read: {error}') from None
+        for column in columns:
+            if column not in (reader.fieldnames or ()):
+                raise Failure(f'{path}:1: has no column {column}')
+        for row in reader:
+            for column, read in columns.items():
+                try:
+                    read(row[column])
+                except ValueError as error:
+                    raise Failure(f'{path}:{reader.line_num}: {column} is '
+                                  f'{shown(row[column]) or "empty"}, {error}') from None
+            try:
+                check(row)
+            except Failure as failure:
+                raise Failure(f'{path}:{reader.line_num}: {failure}') from None
+            yield row
+    except csv.Error as error:
+        raise Failure(f'{path}:{reader.line_num}: cannot be read: {error}') from None
 
 
-def lines(path: Path) -> Iterator[str]:
-    """The lines of a text; Failure if it cannot be read."""
+def _check_regular(path: Path) -> None:
+    if not path.is_file():  # a pipe would block
+        raise Failure(f'{path}: is not a file that can be read')
+
+
+def opened(path: Path) -> IO[bytes]:
+    """A regular file, unpacked if it is compressed; Failure if it is none."""
+    _check_regular(path)
+    return cast(IO[bytes], gzip.open(path)) if path.suffix == '.gz' else path.open('rb')
+
+
+def lines(path: Path, most: int = TABLE, encoding: str = 'utf-8',
+          errors: str = 'strict') -> Iterator[str]:
+    """The lines of a text, compressed or not; Failure if it cannot be read, has a longer line, or
+    more characters. `encoding`, `errors`: as open() has them."""
+    count = read = 0
     try:
-        with path.open(encoding='utf-8') as file:
-            yield from _lines(path, file)
-    except (OSError, UnicodeDecodeError) as error:
-        raise Failure(f'{path}: cannot be read: {error}') from None
-
-
-def _lines(path: Path, file: TextIO) -> Iterator[str]:
-    number = 0
-    while line := file.readline(LONGEST + 1):
-        number += 1
-        if len(line) > LONGEST:
-            raise Failure(f'{path}:{number}: has a line of more than {LONGEST} characters')
-        yield line
-
-
-def check_shape(what: str, value: object, shape: Any) -> None:
-    """Failure if a value is not of a shape: a dict of keys, a list of one shape, or a reader."""
-    if isinstance(shape, dict):
-        if not isinstance(value, dict):
-            raise Failure(f'{what} must be an object')
-        for key, inner in shape.items():
-            if key not in value:
-                raise Failure(f'{what} has no {key}')
-            check_shape(f'{what}: {key}', value[key], inner)
-    elif isinstance(shape, list):
-        if not isinstance(value, list):
-            raise Failure(f'{what} must be a list')
-        for entry in value:
-            check_shape(what, entry, shape[0])
-    else:
-        try:
-            shape(value)
-        except (TypeError, ValueError):
-            raise Failure(f'{what} is {shortened(str(value))}, which cannot be read') from None
+        with opened(path) as packed, io.TextIOWrapper(packed, encoding, errors) as file:
+            while line := file.readline(LONGEST + 1):
+                count, read = count + 1, read + len(line)
+                if len(line) > LONGEST:
+                    raise Failure(f'{path}:{count}: has a line of more than {LONGEST} characters')
+                if read > most:
+                    raise Failure(f'{path}:{count}: has more than {most >> 20} MB, the limit for '
+                                  'such a table')
+                yield line
+    except UnicodeDecodeError as error:
+        raise Failure(f'{path}:{count + 1}: cannot be read from here: {error}') from None
+    except (OSError, EOFError, zlib.error) as error:
+        raise Failure(f'{path}:{count + 1}: cannot be read from here: {error}') from None

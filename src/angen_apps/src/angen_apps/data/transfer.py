@@ -5,14 +5,13 @@ ago something moved there, how busy the home is compared with its other minutes,
 """
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from angen_apps.data.realism import CASAS, DAY, Stream, read
-from angen_apps.data.tables import lines
+from angen_apps.data.tables import layout_of, lines
 from angen_tools.common.failure import Failure
 
 USES = ('kitchen', 'living', 'bedroom', 'bathroom', 'work', 'hall')
@@ -85,7 +84,7 @@ def minutes(stream: Stream, use: dict[str, str], letters: list[str]) -> Minutes:
     columns = []
     for letter in letters:
         on = np.char.startswith(sensor, letter) & (value == KINDS[letter])
-        where = np.array([use.get(name, OTHER) for name in sensor[on]])
+        where = np.array([use.get(name, OTHER) for name in sensor[on]], str)
         counts = np.array([np.bincount(at[on][where == one], minlength=size) for one in USES],
                           float)
         for summed in (counts, _sums(counts, -AROUND), _sums(counts, AROUND)):
@@ -146,7 +145,7 @@ def _uses(home: Path, rooms: Path | None) -> dict[str, str]:
     """The use of the room of each sensor: that of a list, or of our own layout."""
     folder = home.parent if home.name == CASAS else home
     if rooms is None and (folder / 'layout.json').is_file():
-        layout = json.loads((folder / 'layout.json').read_text(encoding='utf-8'))
+        layout = layout_of(folder)
         use = {room['name']: room['use'] for room in layout['rooms']}
         return {one['id']: use.get(one['room'], OTHER) for one in layout['sensors']}
     found = {}

@@ -12,6 +12,7 @@ import numpy as np
 from angen import Grid
 
 from angen_apps.plan.polygons import bounds, rectangle
+from angen_tools.common.geometry import turned
 
 SIDE = 0.05  # m, of a cell of the floor
 EDGE = 0.5  # m around the rooms
@@ -155,7 +156,7 @@ class Floors:
         if math.isnan(x):
             return False
         yaw = math.atan2(y - start[1], x - start[0])
-        return any(self._clear(start, (x - side * math.sin(yaw), y + side * math.cos(yaw)), storey)
+        return any(self._clear(start, turned((x, y), yaw, 0.0, side), storey)
                    for side in (0.0, -WIDE, WIDE))
 
     def _clear(self, a: tuple[float, float], b: tuple[float, float], storey: int) -> bool:

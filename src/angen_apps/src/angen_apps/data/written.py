@@ -1,25 +1,22 @@
 """The data of a home as its files have it."""
 from __future__ import annotations
 
-import json
 from collections import Counter
 from bisect import bisect_right
 from dataclasses import dataclass, field
 from datetime import datetime
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 from angen_apps.data.faults import Happened
 from angen_apps.data.recorder import Event, Missed
 from angen_apps.data.run import Data
 from angen_apps.data.site import Sensor
-from angen_apps.data.tables import (EVENTS, FAULTS, LAYOUT, MISSED, MOVES, POWER, TRACK, TRUTH,
-                                    check_shape, rows)
+from angen_apps.data.tables import (FAULTS, MISSED, MOVES, POWER, TALKS, TRACK, Tables,
+                                    layout_of)
 from angen_apps.data.whereabouts import Floors, Whereabouts, time_of, whereabouts
 from angen_apps.residents.profiles import DAY, Profile
 from angen_apps.residents.truth import Interval
-from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home
 
 LIST = 'home.json'  # settings, counts and hashes of a home
@@ -44,36 +41,33 @@ class Findings:
         return sum(len(found) for found in self.wrong.values())
 
 
-def parsed(path: Path) -> Any:
-    """A JSON file; Failure if it cannot be read."""
-    try:
-        return json.loads(path.read_text(encoding='utf-8'))
-    except (OSError, ValueError) as error:
-        raise Failure(f'{path}: cannot be read: {error}') from None
-
-
 class Written:
     """A home's folder, read."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.layout = parsed(folder / 'layout.json')
-        check_shape(f'{folder}/layout.json', self.layout, LAYOUT)
+        self.layout = layout_of(folder)
         self.start = datetime.fromisoformat(self.layout['start'])
         self.end = self.layout['days'] * DAY
-        self.names = [resident['name'] for resident in self.layout['residents']]
-        self.people = {r['name'] for r in self.layout['residents']
-                       if r.get('body', 'person') == 'person'}
-        self.truth = list(rows(folder / 'truth.csv.gz', TRUTH))
-        self.events = list(rows(folder / 'events.csv.gz', EVENTS))
-        self.track = list(rows(folder / 'track.csv.gz', TRACK))
-        self.moves = list(rows(folder / 'moves.csv.gz', MOVES))
-        self.missed = list(rows(folder / 'missed.csv', MISSED))
-        self.faults = list(rows(folder / 'faults.csv', FAULTS))
+        residents = {resident['name']: resident for resident in self.layout['residents']}
+        self.hosts = {guest['name']: guest['host'] for guest in self.layout.get('guests', [])}
+        self.names = [*residents, *self.hosts]
+        self.people = {name for name in self.names
+                       if residents.get(name, {}).get('body', 'person') == 'person'}
+        self.speeds = {name: residents[self.hosts.get(name, name)]['speed'] for name in self.names
+                       if self.hosts.get(name, name) in residents}
+        tables = Tables(folder, self.layout)
+        self.truth, self.events = list(tables.truth()), list(tables.events())
+        self.track = list(tables.rows('track.csv.gz', TRACK))
+        self.moves = list(tables.rows('moves.csv.gz', MOVES))
+        talks = 'talks.csv.gz'  # if somebody talks
+        self.talks = list(tables.rows(talks, TALKS)) if (folder / talks).exists() else []
+        self.missed = list(tables.rows('missed.csv', MISSED))
+        self.faults = list(tables.rows('faults.csv', FAULTS))
         self.faulty = {row['sensor'] for row in self.faults}
         self.times = [time_of(row, self.start) for row in self.events]
         self.loads: dict[str, tuple[list[float], list[float]]] = {}  # times and W, by device
-        for row in rows(folder / 'loads.csv.gz', POWER):
+        for row in tables.rows('loads.csv.gz', POWER):
             times, watts = self.loads.setdefault(f'{row["kind"]}/{row["device"]}', ([], []))
             times.append(float(row['time']))
             watts.append(float(row['watts']))
@@ -118,7 +112,7 @@ class Written:
         sensors = [Sensor(s['id'], s['kind'], '', s['name'], s['room'], s['x'], s['y'], s['z'])
                    for s in self.layout['sensors']]
         return Data(
-            self.start, int(self.layout['days']), seed, people, Home(), sensors,
+            self.start, self.layout['days'], seed, people, Home(), sensors,
             [Event(time, *(row[key] for key in Event._fields[1:]))
              for time, row in zip(self.times, self.events)],
             [Interval(float(row['start']), float(row['end']), row['resident'], row['activity'],

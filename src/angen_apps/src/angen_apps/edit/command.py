@@ -13,6 +13,7 @@ from angen_apps.edit.server import Editor
 from angen_apps.edit.simulation import Simulation
 from angen_apps.edit.worker import Worker
 from angen_apps.imports.command import SHOWN, read_plan
+from angen_apps.imports.picture import UPRIGHT
 from angen_apps.plan.drawing import drawing_of, to_json
 from angen_apps.residents.profiles import names
 from angen_apps.web.command import page, serve, symbols
@@ -21,6 +22,8 @@ from angen_tools.common.files import check_output
 from angen_tools.common.port import require_free
 
 WORLDS = ('.world', '.sdf')
+SEEN = ('.png', '.jpg', '.jpeg')  # pictures that browsers show
+BEGINS = '2026-03-23T07:00:00'  # local time; empty() of page/js/drawing.js has the same
 
 
 def edit(args: argparse.Namespace) -> None:
@@ -35,11 +38,14 @@ def edit(args: argparse.Namespace) -> None:
             for remark in remarks:
                 print(f'remark: {remark}', file=sys.stderr)
             desk = Desk(path, worker, drawing)
-            given = {'catalog': worker.run('the catalog', catalog), 'symbols': symbols(),
+            behind = plan if plan and plan.suffix.lower() in SEEN and not any(
+                remark.endswith(UPRIGHT) for remark in remarks) else None
+            given = {'behind': args.scale if behind else None,
+                     'catalog': worker.run('the catalog', catalog), 'symbols': symbols(),
                      'profiles': names(), 'days': days(), 'durations': durations()}
             simulation = Simulation(args.host)
-            serve('edit', lambda guard: Editor(desk, simulation, given, guard, page()), args.host,
-                  args.port, args.json)
+            serve('edit', lambda guard: Editor(desk, simulation, given, guard, page(), behind),
+                  args.host, args.port, args.json)
         finally:
             worker.end()
 
@@ -72,4 +78,5 @@ def _free(path: Path) -> Path:
 
 def _imported(file: Path, args: argparse.Namespace) -> tuple[dict[str, Any], list[str]]:
     plan = read_plan(file, args)
+    plan.start = BEGINS
     return to_json(drawing_of(plan, args.sensors)), plan.remarks[:SHOWN]

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -20,18 +21,26 @@ PULSE = 20.0  # s between pings
 
 
 class Editor(Site):
-    """`given`: what each page gets once, such as the catalog."""
+    """`given`: what each page gets once, such as the catalog; `behind`: a picture of the plan."""
 
     def __init__(self, desk: Desk, simulation: Simulation, given: dict[str, Any], guard: Guard,
-                 page: Path) -> None:
+                 page: Path, behind: Path | None = None) -> None:
         super().__init__(guard, page, 'edit.html', LARGEST)
         self._desk, self._simulation, self._given = desk, simulation, given
         self._windows: set[web.WebSocketResponse] = set()
         self._turn = asyncio.Lock()  # one change at a time
         self._runs = asyncio.Lock()  # one simulation at a time
+        self._prepares: asyncio.Task[None] | None = None
         self.app.add_routes([web.get('/home.json', self._home), web.get('/windows', self._window),
                              web.get('/plan.svg', self._picture),
                              web.post('/do/{what}', self._do)])
+        if behind is not None:
+            picture = behind
+
+            async def send(_: web.Request) -> web.FileResponse:
+                return web.FileResponse(picture)
+
+            self.app.add_routes([web.get('/behind', send)])
         self.app.on_shutdown.append(self._stop)
 
     async def _stop(self, _: web.Application) -> None:
@@ -93,9 +102,17 @@ class Editor(Site):
         except Failure as failure:
             return _json({'text': str(failure)}, 422)
 
+    async def _prepare(self) -> None:
+        """Starts what the first simulation would have to wait for; that one reports failures."""
+        async with self._runs:
+            with suppress(Failure, OSError):
+                await in_thread(self._simulation.prepare)
+
     async def _execute(self, what: str, order: dict[str, Any]) -> dict[str, Any]:
         desk, drawing, base = self._desk, order.get('drawing'), order.get('base')
         if what == 'survey':
+            if self._prepares is None:  # somebody draws
+                self._prepares = asyncio.create_task(self._prepare())
             found: dict[str, Any] = await in_thread(desk.survey, drawing, order.get('floor'))
             return found
         async with self._turn:

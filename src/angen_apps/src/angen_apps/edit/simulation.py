@@ -37,15 +37,20 @@ class Simulation:
     def run(self, world: Path, household: dict[str, str]) -> str:
         """The address of the page of the world, which runs. `household`: profiles of residents, by
         the names of people in the world whose places they take."""
-        sandbox = self._started()
-        if self._page is None:
-            self._page = self._serve(sandbox, 'web')
+        sandbox, page = self.prepare()
         while self._running:
             end(self._running.pop())
         self._running = [sandbox.node(world.absolute(), 1.0)]
         if household:
             self._running.append(self._settle(sandbox, world.absolute(), household))
-        return self._address(self._page, sandbox.folder / 'web.log')
+        return self._address(page, sandbox.folder / 'web.log')
+
+    def prepare(self) -> tuple[Sandbox, Popen[bytes]]:
+        """The master and the page, which take seconds to start and serve all runs."""
+        sandbox = self._started()
+        if self._page is None or self._page.poll() is not None:
+            self._page = self._serve(sandbox, 'web')
+        return sandbox, self._page
 
     def day(self, world: Path, household: dict[str, str]) -> str:
         """The address of a player of a day of these residents, which is generated."""

@@ -10,6 +10,7 @@ from angen_apps.imports.rmf import read_rmf
 from angen_apps.imports.sweethome import read_sweethome
 from angen_apps.plan.model import Plan
 from angen_apps.plan.writer import write_world, written
+from angen_apps.residents.ways import ways_in
 from angen_tools.common.failure import Failure
 from angen_tools.common.limited import run_limited
 
@@ -38,8 +39,12 @@ def import_home(path: Path, output: Path, args: argparse.Namespace) -> dict[str,
     plan = run_limited(path, read_plan, path, args)
     counts = write_world(plan, output, args.sensors)
     done = written(output, counts)
-    lines = [done['text']]
-    lines += [f'remark: {remark}' for remark in plan.remarks[:SHOWN]]
-    if len(plan.remarks) > SHOWN:
-        lines.append(f'and {len(plan.remarks) - SHOWN} more remarks')
-    return {**done, 'remarks': plan.remarks, 'text': '\n'.join(lines)}
+    try:
+        ways = ways_in(output)
+    except Failure as failure:
+        ways = [f'people find no ways: {failure}']
+    remarks = [*ways[1:], *plan.remarks]
+    lines = [done['text'], *ways[:1], *(f'remark: {remark}' for remark in remarks[:SHOWN])]
+    if len(remarks) > SHOWN:
+        lines.append(f'and {len(remarks) - SHOWN} more remarks')
+    return {**done, 'remarks': remarks, 'text': '\n'.join(lines)}

@@ -18,10 +18,11 @@ from angen_apps.imports.source import FARTHEST
 from angen_apps.imports.strokes import (LEAST_WALL, areas, by_label, cleaned_walls, slices,
                                         straight_walls)
 from angen_apps.plan.finish import finish, room_at, sides
-from angen_apps.plan.model import Opening, Piece, Plan, Point, Storey, Wall, turned
+from angen_apps.plan.model import Opening, Piece, Plan, Point, Storey, Wall
 from angen_apps.plan.names import slug
 from angen_apps.plan.polygons import area, bounds
 from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import turned
 from angen_tools.common.text_file import read_bytes
 from angen_tools.common.yaml_file import YamlFile
 
@@ -37,6 +38,7 @@ FINEST = 0.02  # m a pixel: finer pictures are read by blocks of pixels
 FINE = 0.035  # m a pixel: thin walls have several pixels across
 WALLS = 20_000
 MODES = ('trinary', 'scale', 'raw')  # map_server's modes; walls are the same in the first two
+UPRIGHT = 'the picture is put upright'
 SEAM = 1e-4  # m that walls overlap, so that no seam is between them
 Island = tuple[slice, slice]  # rows and columns
 Origin = tuple[float, float, float]  # x, y and yaw of a picture's lower left corner
@@ -59,7 +61,7 @@ def read_picture(path: Path, scale: float, with_doors: bool) -> Plan:
     del dark  # what follows takes as much memory
     if remarks:  # the page is put upright
         known[:] = True
-        remarks = [f'{remarks[0]}; the picture is put upright']
+        remarks = [f'{remarks[0]}; {UPRIGHT}']
     return _plan(path, walls, known, scale, (0.0, 0.0, 0.0), with_doors, remarks)
 
 

@@ -15,10 +15,11 @@ from angen_apps.imports.source import FARTHEST
 from angen_apps.plan.doors import LEAF_THICK
 from angen_apps.plan.finish import finish
 from angen_apps.plan.lifts import fitted, shaft
-from angen_apps.plan.model import Leaf, Lift, Opening, Plan, Point, Storey, Wall, local, turned
+from angen_apps.plan.model import Leaf, Lift, Opening, Plan, Point, Storey, Wall
 from angen_apps.plan.names import plain_name, slug
 from angen_apps.plan.walls import SLOPE, direction, footprint
 from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import local, turned
 from angen_tools.common.text_file import read_bytes
 from angen_tools.common.yaml_file import YamlFile, line_of
 

@@ -14,12 +14,12 @@ from angen_apps.imports.meshes import Meshes
 from angen_apps.imports.source import Xml, home_xml, root_of
 from angen_apps.imports.things import Entry, table, what_is
 from angen_apps.plan.finish import finish
-from angen_apps.plan.model import (Color, Lamp, Leaf, Opening, Piece, Plan, Point, Room, Storey,
-                                   Wall)
+from angen_apps.plan.model import (Color, Lamp, Leaf, Opening, Piece, Plan, Room, Storey, Wall)
 from angen_apps.plan.names import slug
-from angen_apps.plan.polygons import center, cleaned, contains, crosses_itself, split
+from angen_apps.plan.polygons import center, cleaned, contains, crosses_itself, rectangle, split
 from angen_apps.plan.walls import arc, cuts_wall
 from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import turned
 
 FLUX = 1600.0  # lm of a light of full power; 0.5, the default, is a bulb of 800 lm
 DEFAULT_HEIGHT = 2.5  # m
@@ -284,8 +284,8 @@ class _Home:
             z = sum(xml.number(s, 'z', None, -2, 3) for s in sources) / count * height
         power = xml.number(element, 'power', 0.5, 0.0, 1.0)
         storey.lamps.append(Lamp(
-            name, x + u * cos(yaw) - v * sin(yaw), y + u * sin(yaw) + v * cos(yaw),
-            storey.elevation + elevation + z, power * FLUX, color, name))
+            name, *turned((x, y), yaw, u, v), storey.elevation + elevation + z, power * FLUX,
+            color, name))
 
     def _piece(self, element: etree._Element) -> None:
         xml, storey = self.xml, self._storey(element)
@@ -317,16 +317,11 @@ class _Home:
 
     def _cut_floor(self, storey: Storey, piece: Piece) -> None:
         """A staircase passes the floor that is above the middle of its height."""
-        above = [s for s in self.storeys.values()
-                 if storey.elevation + 0.5 < s.elevation <= piece.z + piece.height]
-        c, s = cos(piece.yaw), sin(piece.yaw)
-        corners: list[Point] = [(piece.x + u * c - v * s, piece.y + u * s + v * c)
-                                for u, v in ((-piece.depth / 2, -piece.width / 2),
-                                             (piece.depth / 2, -piece.width / 2),
-                                             (piece.depth / 2, piece.width / 2),
-                                             (-piece.depth / 2, piece.width / 2))]
-        for other in above:
-            other.cutouts.append(tuple(corners))
+        half = piece.depth / 2, piece.width / 2
+        corners = rectangle(piece.x, piece.y, piece.yaw, (-half[0], -half[1]), half)
+        for other in self.storeys.values():
+            if storey.elevation + 0.5 < other.elevation <= piece.z + piece.height:
+                other.cutouts.append(tuple(corners))
 
 
 def _sliding(width: float, v: float) -> tuple[Leaf, ...]:

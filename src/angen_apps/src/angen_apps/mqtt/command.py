@@ -22,7 +22,6 @@ from angen_tools.session.live import Live
 TURN = 0.5  # s of wall time between two turns without news
 REST = 0.01  # s between two turns with news, which take several messages at once
 PAUSE = 1.0  # s after a simulator has ended
-TLS_PORT = 8883
 
 
 def serve(access: Access, prefix: str, style_name: str, discovery: str, profile: str, truth: bool

@@ -11,7 +11,6 @@ from angen_apps.mqtt.values import Value, flat_json, plain
 
 Topics = dict[str, str]  # payloads by topic
 Order = tuple[Thing, Part, str]  # a thing, the part that is commanded, and the payload
-OUR = ('bridge/hello', 'bridge/topics', 'bridge/state')  # topics of the bridge itself
 
 
 class Style(Protocol):

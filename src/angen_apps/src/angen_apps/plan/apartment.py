@@ -12,7 +12,8 @@ from random import Random
 from angen_apps.plan.finish import finish
 from angen_apps.plan.furnished import furnished
 from angen_apps.plan.lifts import THICK, add_shaft
-from angen_apps.plan.model import Lamp, Leaf, Lift, Opening, Plan, Point, Room, Storey, Wall, turned
+from angen_apps.plan.model import Lamp, Leaf, Lift, Opening, Plan, Point, Room, Storey, Wall
+from angen_tools.common.geometry import turned
 
 OUTER, INNER = THICK, 0.1  # m, walls
 CEILING, RISE = 2.5, 3.0  # m

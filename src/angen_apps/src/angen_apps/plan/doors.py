@@ -5,11 +5,12 @@ from dataclasses import dataclass
 
 from lxml import etree
 
-from angen_apps.plan.model import Leaf, Opening, turned
+from angen_apps.plan.model import Leaf, Opening
 from angen_apps.plan.polygons import rectangle
 from angen_models.catalog import REED_GAP, add_reed
 from angen_models.sdf import (Part, add_fixed, add_joint, add_link, add_plugin, add_pose, new_model,
                               spanned)
+from angen_tools.common.geometry import turned
 
 LEAF_THICK = 0.04  # m
 SASH_THICK = 0.03

@@ -14,6 +14,7 @@ from angen_apps.plan.symbols import SYMBOLS
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import pyplot, save_figure
+from angen_tools.common.geometry import local, turned
 from angen_tools.common.home import Door, Home, Room, Storey, Thing
 
 CUT = 1.1  # m above a floor at which walls are cut
@@ -226,17 +227,12 @@ def _draw_thing(axis: Any, scene: Scene, storey: Storey, thing: Thing) -> None:
     else:
         style = {'facecolor': 'white'}
     turn = 2 * np.arctan2(thing.pose[5], thing.pose[6])
-    c, s = np.cos(turn), np.sin(turn)
-    local = np.array([((x - thing.pose[0]) * c + (y - thing.pose[1]) * s,
-                       (y - thing.pose[1]) * c - (x - thing.pose[0]) * s)
-                      for part in parts for x, y in part.corners])
-    low, high = local.min(axis=0), local.max(axis=0)
+    own = np.array([local(thing.pose[:2], turn, at) for part in parts for at in part.corners])
+    low, high = own.min(axis=0), own.max(axis=0)
     middle, half = (low + high) / 2, (high - low) / 2
 
     def place(line: list[tuple[float, float]]) -> Any:
-        points = np.array(line) * half + middle
-        return (thing.pose[0] + points[:, 0] * c - points[:, 1] * s,
-                thing.pose[1] + points[:, 0] * s + points[:, 1] * c)
+        return zip(*(turned(thing.pose[:2], turn, *at) for at in np.array(line) * half + middle))
 
     outline = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
     if len(parts) == 1 and parts[0].type in ('cylinder', 'sphere'):
@@ -248,10 +244,8 @@ def _draw_thing(axis: Any, scene: Scene, storey: Storey, thing: Thing) -> None:
 
 def _draw_window(axis: Any, door: Door) -> None:
     x, y, _, yaw = door.pose
-    c, s = cos(yaw), sin(yaw)
     for away in (-0.07, 0.0, 0.07):
-        axis.plot(*zip(*((x + u * c - away * s, y + u * s + away * c)
-                         for u in (-door.width / 2, door.width / 2))),
+        axis.plot(*zip(*(turned((x, y), yaw, side * door.width / 2, away) for side in (-1, 1))),
                   color='#4a7fb5', lw=THIN, zorder=7, solid_capstyle='butt')
 
 

@@ -29,7 +29,8 @@ CHOICES = {('Opening', 'kind'): ('door', 'window', 'opening'),
                                 'flat')}
 PLAIN = {('Piece', 'model'): r'\w*', ('Sensor', 'model'): r'\w+', ('Piece', 'thing'): r'\w*',
          ('Piece', 'mesh'): r'(?!.*\.\.)[\w./ -]*', ('Room', 'use'): r'\w*',
-         ('Label', 'use'): r'\w*', ('Mover', 'habits'): r'\w*'}
+         ('Label', 'use'): r'\w*', ('Mover', 'habits'): r'\w*',
+         ('Plan', 'start'): r'[-\dT:]*'}
 LENGTHS = ('thickness', 'width', 'height', 'depth', 'slab', 'flux', 'ceiling', 'doorway',
            'low', 'high', 'chance')  # >= 0
 MARK = '<!-- angen drawing '
@@ -48,7 +49,7 @@ def drawing_of(plan: Plan, sensors: str) -> Drawing:
     """The drawing of a plan that is finished: without the names and passages that finish() adds.
     """
     return Drawing(Plan(plan.name, [_drawn(storey) for storey in plan.storeys], plan.north,
-                        plan.latitude, lifts=plan.lifts), sensors)
+                        plan.latitude, plan.start, lifts=plan.lifts), sensors)
 
 
 def _drawn(storey: Storey) -> Storey:

@@ -3,13 +3,13 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from math import cos, sin
+from math import sin
 from typing import Callable, Sequence
 
 import numpy as np
 from angen import Grid
 
-from angen_apps.plan.model import Lamp, Opening, Piece, Plan, Point, Room, Storey, Wall, local
+from angen_apps.plan.model import Lamp, Opening, Piece, Plan, Point, Room, Storey, Wall
 from angen_apps.plan.names import Names, slug, use_by_things, use_of
 from angen_apps.plan.nested import cut_out, holds
 from angen_apps.plan.passages import passages
@@ -17,6 +17,7 @@ from angen_apps.plan.polygons import area, contains, overlap, rectangle
 from angen_apps.plan.slabs import CELL, filled, raster_of
 from angen_apps.plan.travel import sided
 from angen_apps.plan.walls import cuts_wall, direction, footprint
+from angen_tools.common.geometry import local, turned
 
 WHOLE = 0.9  # share of an opening's width and height: a piece that fills it closes it
 JAMB = 0.1  # m from an end of a doorway to a wall beside it
@@ -247,8 +248,7 @@ def beside_box(storey: Storey, middle: Point, yaw: float, half: float) -> tuple[
     """Names of the rooms on both sides of a wall's box that runs along `yaw`."""
     found = []
     for sign in (-1, 1):
-        away = sign * (half + BESIDE)
-        room = room_at(storey, (middle[0] - away * sin(yaw), middle[1] + away * cos(yaw)))
+        room = room_at(storey, turned(middle, yaw, 0.0, sign * (half + BESIDE)))
         found.append(stem(room.name) if room is not None else 'outside')
     first, second = sorted(found, key=lambda name: (name == 'outside', name))
     return first, second

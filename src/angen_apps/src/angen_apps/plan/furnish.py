@@ -4,7 +4,7 @@ from __future__ import annotations
 from copy import deepcopy
 from functools import cache
 from math import pi, prod
-from typing import Sequence
+from typing import Iterator, Sequence
 
 import numpy as np
 from lxml import etree
@@ -31,21 +31,22 @@ def _template(name: str) -> tuple[etree._Element, np.ndarray, np.ndarray] | None
     model = sdf.read(file).find('model') if file is not None else None
     if model is None:
         return None
-    lows, highs = [], []
+    boxes = [(at - reach, at + reach) for at, reach in _collisions(model)]
+    if not boxes:
+        return None
+    lows, highs = zip(*boxes)
+    return model, np.min(lows, axis=0), np.max(highs, axis=0)
+
+
+def _collisions(model: etree._Element) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """The middle and half lengths of the box around each collision, along the model's axes."""
     for link in model.iterfind('link'):
         base = np.array(sdf.parse_pose(link.findtext('pose', '0 0 0')))[:3]
         for collision in link.iterfind('collision'):
             half = _half(collision.find('geometry'))
-            if half is None:
-                continue
-            pose = sdf.parse_pose(collision.findtext('pose', '0 0 0'))
-            reach = np.abs(rotation(pose[3:])) @ half
-            at = base + np.array(pose[:3])
-            lows.append(at - reach)
-            highs.append(at + reach)
-    if not lows:
-        return None
-    return model, np.min(lows, axis=0), np.max(highs, axis=0)
+            if half is not None:
+                pose = sdf.parse_pose(collision.findtext('pose', '0 0 0'))
+                yield base + np.array(pose[:3]), np.abs(rotation(pose[3:])) @ half
 
 
 def _half(geometry: etree._Element) -> np.ndarray | None:
@@ -236,21 +237,13 @@ def obstacles(model: etree._Element, name: str) -> list[Obstacle]:
     at = np.array(sdf.parse_pose(model.findtext('pose', '0 0 0')))
     turn = rotation(list(at[3:]))
     found = []
-    for link in model.iterfind('link'):
-        base = np.array(sdf.parse_pose(link.findtext('pose', '0 0 0')))[:3]
-        for collision in link.iterfind('collision'):
-            half = _half(collision.find('geometry'))
-            if half is None:
-                continue
-            pose = sdf.parse_pose(collision.findtext('pose', '0 0 0'))
-            reach = np.abs(rotation(pose[3:])) @ half
-            x, y, z = at[:3] + turn @ (base + np.array(pose[:3]))
-            rise = float(np.abs(turn[2]) @ reach)
-            wide = np.abs(turn[:2, :2]) @ reach[:2] + np.abs(turn[:2, 2]) * reach[2]
-            corners = rectangle(x, y, at[5], (-reach[0], -reach[1]), (reach[0], reach[1])) \
-                if not any(at[3:5]) else rectangle(x, y, 0, (-wide[0], -wide[1]),
-                                                   (wide[0], wide[1]))
-            found.append(Obstacle(name, corners, float(z) - rise, float(z) + rise))
+    for middle, reach in _collisions(model):
+        x, y, z = at[:3] + turn @ middle
+        rise, yaw, wide = float(np.abs(turn[2]) @ reach), at[5], reach[:2]
+        if any(at[3:5]):
+            yaw, wide = 0.0, np.abs(turn[:2, :2]) @ reach[:2] + np.abs(turn[:2, 2]) * reach[2]
+        corners = rectangle(x, y, yaw, (-wide[0], -wide[1]), (wide[0], wide[1]))
+        found.append(Obstacle(name, corners, float(z) - rise, float(z) + rise))
     return found
 
 

@@ -15,6 +15,7 @@ from angen_apps.plan.model import Opening, Piece, Plan, Room, Storey
 from angen_apps.plan.names import Names
 from angen_apps.plan.polygons import bounds, overlap, rectangle
 from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import turned
 
 # thing: model, width, depth, height
 PIECES = {'bed': ('bed', 1.6, 2.04, 0.9), 'nightstand': ('nightstand', 0.45, 0.4, 0.5),
@@ -134,7 +135,7 @@ def _placed(floor: _Floor, thing: str, placed: list[Piece], dice: Random) -> boo
     dice.shuffle(places)
     other, ahead = BESIDE.get(thing, ('', 0.0))
     for near in (piece for piece in placed if piece.thing == other):
-        x, y = near.x + ahead * cos(near.yaw), near.y + ahead * sin(near.yaw)
+        x, y = turned((near.x, near.y), near.yaw, ahead, 0.0)
         places.sort(key=lambda pieces: hypot(pieces[0].x - x, pieces[0].y - y) // NEAR)
     for pieces in places:
         if _fits(floor, pieces, placed) and _ways_are_free(floor, [*placed, *pieces]):
@@ -157,11 +158,10 @@ def _places(room: Room, thing: str, chairs: int) -> Iterator[list[Piece]]:
                 continue
             steps = int((ends[1] - ends[0]) / STEP)
             for along in (*ends, *(ends[0] + (i + 1) * STEP for i in range(steps))):
-                c, s = cos(yaw), sin(yaw)
-                u, v = deep / 2 + GAP, -along
-                yield [replace(piece, x=round(x + (u + piece.x) * c - (v + piece.y) * s, 3),
-                               y=round(y + (u + piece.x) * s + (v + piece.y) * c, 3),
-                               z=room.floor, yaw=yaw + piece.yaw) for piece in group]
+                places = [turned((x, y), yaw, deep / 2 + GAP + piece.x, piece.y - along)
+                          for piece in group]
+                yield [replace(piece, x=round(at[0], 3), y=round(at[1], 3), z=room.floor,
+                               yaw=yaw + piece.yaw) for at, piece in zip(places, group)]
 
 
 def _groups(thing: str, chairs: int) -> list[list[Piece]]:
@@ -257,4 +257,4 @@ def _ways_are_free(floor: _Floor, pieces: list[Piece]) -> bool:
 def _user(piece: Piece) -> tuple[float, float]:
     """The point to whose surroundings a way leads: before a piece, or a chair itself."""
     ahead = 0.0 if piece.thing == 'chair' else piece.depth / 2 + BEFORE
-    return piece.x + ahead * cos(piece.yaw), piece.y + ahead * sin(piece.yaw)
+    return turned((piece.x, piece.y), piece.yaw, ahead, 0.0)

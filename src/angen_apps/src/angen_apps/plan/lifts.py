@@ -7,18 +7,20 @@ from typing import Sequence
 
 from lxml import etree
 
-from angen_apps.plan.model import Lift, Opening, Plan, Point, Storey, Wall, local, turned
+from angen_apps.plan.model import Lift, Opening, Plan, Point, Storey, Wall
 from angen_apps.plan.names import Names, slug
-from angen_apps.plan.polygons import contains
+from angen_apps.plan.polygons import bounds, contains
 from angen_apps.plan.walls import cuts_wall, direction, footprint
 from angen_models.sdf import (Part, add, add_fixed, add_joint, add_link, add_plugin, add_pose,
                               new_model, spanned)
+from angen_tools.common.geometry import local, turned
 
 STEEL = (0.7, 0.72, 0.75)
 CLEAR = 2.1  # m, height of the doorway
 TOP = 2.29  # m, of the cabin
 GAP = 0.002
 THICK = 0.2  # m, the walls of a shaft
+THIN = 1e-3  # m: ground that is narrower is left out
 CEILING = 2.5  # m over a floor without walls
 CABIN_SILL = 0.04  # m that the cabin's floor reaches before the cabin, under its doors
 LANDING_DOOR = 0.06  # m before the cabin
@@ -26,6 +28,7 @@ BESIDE = 0.03  # m between the cabin and the walls beside it
 HOLE = 0.06  # m between the cabin and the floors beside it, whose edges are in cells of 5 cm
 FRONT = 0.1  # m before the cabin at which a landing's floor begins
 DOORS = 0.12  # m before the cabin for its doors and those of the landings
+Area = tuple[float, float, float, float]
 ASKEW = 0.2  # sine of twice the angle at which a wall is not along or across a cabin
 
 
@@ -76,6 +79,30 @@ def add_shaft(storey: Storey, lift: Lift, at: Point, inner: tuple[float, float],
     storey.walls += [Wall(a, b, THICK, z, top) for a, b in (
         (right, back_right), (left, back_left), (back_right, back_left))]
     storey.cutouts.append(shaft(lift))
+
+
+def around_pits(plan: Plan, margin: float) -> list[Area]:
+    """The ground of a plan and `margin` (m) around it, but for what is below its lifts, as
+    rectangles (west, south, east, north)."""
+    west, south, east, north = bounds(
+        [point for storey in plan.storeys for room in storey.rooms for point in room.polygon]
+        + [wall.start for storey in plan.storeys for wall in storey.walls]
+        + [(lift.x, lift.y) for lift in plan.lifts])
+    pits = [[round(edge, 4) for edge in bounds(shaft(lift))] for lift in plan.lifts]
+    west, south, east, north = (round(edge, 4) for edge in (west, south, east, north))
+    edges = sorted({west - margin, east + margin, *(x for pit in pits for x in pit[::2])})
+    found: list[Area] = []
+    for low, high in zip(edges, edges[1:]):
+        if high - low < THIN:
+            continue
+        y = south - margin
+        for _, bottom, _, top in sorted((pit for pit in pits if pit[0] < high and pit[2] > low),
+                                        key=lambda pit: pit[1]):
+            if bottom > y + THIN:
+                found.append((low, y, high, bottom))
+            y = max(y, top)
+        found.append((low, y, high, north + margin))
+    return found
 
 
 def front_of(lift: Lift) -> float:

@@ -5,7 +5,9 @@ Lengths in m, angles in rad, x to the right and y up on the page; heights z are 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import cos, hypot, pi, sin
+from math import hypot, pi
+
+from angen_tools.common.geometry import turned
 
 Point = tuple[float, float]
 Color = tuple[float, float, float]
@@ -216,6 +218,7 @@ class Plan:
     storeys: list[Storey]
     north: float = pi / 2
     latitude: float | None = None
+    start: str = ''  # local time at simulated time 0, as 2026-03-23T07:00:00
     entrance: str = ''
     entrances: list[str] = field(default_factory=list)  # openings that may be it, the best first
     lifts: list[Lift] = field(default_factory=list)
@@ -227,14 +230,3 @@ class Plan:
 
     def all_openings(self) -> list[Opening]:
         return [opening for storey in self.storeys for opening in storey.openings]
-
-
-def turned(origin: Point, yaw: float, u: float, v: float) -> Point:
-    """The point (u, v) of a frame at `origin` turned by `yaw`."""
-    return (origin[0] + u * cos(yaw) - v * sin(yaw), origin[1] + u * sin(yaw) + v * cos(yaw))
-
-
-def local(origin: Point, yaw: float, point: Point) -> Point:
-    """A point in the frame at `origin` turned by `yaw`."""
-    dx, dy = point[0] - origin[0], point[1] - origin[1]
-    return dx * cos(yaw) + dy * sin(yaw), dy * cos(yaw) - dx * sin(yaw)

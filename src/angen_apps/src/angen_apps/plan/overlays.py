@@ -7,13 +7,15 @@ import math
 import re
 from collections import Counter
 from dataclasses import dataclass, field
-from math import cos, hypot, inf, pi, sin
+from math import hypot, inf, pi
 from pathlib import Path
 from typing import Any, Iterable
 
 import numpy as np
 
+from angen_apps.plan.polygons import reach_of
 from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import turned
 from angen_tools.common.home import Storey
 from angen_tools.common.text_file import separator_hint
 
@@ -125,20 +127,6 @@ def _walls(scene: Any, storey: Storey) -> np.ndarray:
     return np.array(edges, float).reshape(-1, 4)
 
 
-def reach_of(x: float, y: float, yaw: float, walls: np.ndarray, far: float) -> float:
-    """The distance from a point along a direction to the nearest edge, at most `far`."""
-    if not len(walls):
-        return far
-    dx, dy = cos(yaw), sin(yaw)
-    ex, ey = walls[:, 2] - walls[:, 0], walls[:, 3] - walls[:, 1]
-    cross = dx * ey - dy * ex
-    with np.errstate(divide='ignore', invalid='ignore'):
-        t = ((walls[:, 0] - x) * ey - (walls[:, 1] - y) * ex) / cross
-        s = ((walls[:, 0] - x) * dy - (walls[:, 1] - y) * dx) / cross
-    hit = (np.abs(cross) > 1e-9) & (t > 0.02) & (s >= 0) & (s <= 1)
-    return float(min(far, t[hit].min())) if hit.any() else far
-
-
 def _draw_sensor(axis: Any, scene: Any, storey: Storey, entity: Any, walls: np.ndarray) -> None:
     kind, name, _, pose = entity
     color = COLORS[kind]
@@ -147,14 +135,13 @@ def _draw_sensor(axis: Any, scene: Any, storey: Storey, entity: Any, walls: np.n
         right, left, far = scene.fields[kind, name]
         if ahead < 0.3:  # looks down: a circle below
             far = max(0.3, (pose[2] - storey.elevation) * math.tan(min(left, 1.4)))
-            outline = [(pose[0] + far * cos(a), pose[1] + far * sin(a))
-                       for a in np.linspace(0, 2 * pi, 40)]
+            outline = [turned(pose, a, far, 0.0) for a in np.linspace(0, 2 * pi, 40)]
         else:
             angles = np.arange(yaw + right, yaw + left + STEP / 2, STEP)
             outline = [(pose[0], pose[1])]
             for a in angles:
                 r = reach_of(pose[0], pose[1], float(a), walls, far if far < inf else FAR)
-                outline.append((pose[0] + r * cos(a), pose[1] + r * sin(a)))
+                outline.append(turned(pose, a, r, 0.0))
         axis.fill(*zip(*outline), color=color, alpha=0.10, lw=0, zorder=5)
         axis.plot(*zip(*outline, outline[0]), color=color, alpha=0.4, lw=0.4, zorder=5)
     axis.plot([pose[0]], [pose[1]], 'o', color=color, ms=2.5, zorder=9)

@@ -7,6 +7,7 @@ from typing import Iterable, Sequence
 import numpy as np
 
 from angen_apps.plan.model import Point
+from angen_tools.common.geometry import turned
 from angen_tools.common.home import Room
 
 NEAR = 0.002  # m between corners that are one
@@ -148,10 +149,23 @@ def crosses_itself(polygon: Sequence[Point]) -> bool:
 
 def rectangle(x: float, y: float, yaw: float, low: Point, high: Point) -> list[Point]:
     """The corners of a rectangle given in a frame at x, y turned by yaw."""
-    c, s = cos(yaw), sin(yaw)
-    return [(x + u * c - v * s, y + u * s + v * c)
-            for u, v in ((low[0], low[1]), (high[0], low[1]), (high[0], high[1]),
-                         (low[0], high[1]))]
+    return [turned((x, y), yaw, u, v)
+            for u, v in ((low[0], low[1]), (high[0], low[1]), high, (low[0], high[1]))]
+
+
+def reach_of(x: float, y: float, yaw: float, walls: np.ndarray, far: float) -> float:
+    """The distance from a point along a direction to the nearest of edges, x y x y each, at most
+    `far`."""
+    if not len(walls):
+        return far
+    dx, dy = cos(yaw), sin(yaw)
+    ex, ey = walls[:, 2] - walls[:, 0], walls[:, 3] - walls[:, 1]
+    cross = dx * ey - dy * ex
+    with np.errstate(divide='ignore', invalid='ignore'):
+        t = ((walls[:, 0] - x) * ey - (walls[:, 1] - y) * ex) / cross
+        s = ((walls[:, 0] - x) * dy - (walls[:, 1] - y) * dx) / cross
+    hit = (np.abs(cross) > 1e-9) & (t > 0.02) & (np.abs(s - 0.5) <= 0.5 + 1e-9)
+    return float(min(far, t[hit].min())) if hit.any() else far
 
 
 def overlap(first: Sequence[Point], second: Sequence[Point]) -> float:

@@ -1,14 +1,16 @@
 """Sensors of a home by rules: the sensors of each room, and their heights."""
 from __future__ import annotations
 
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, hypot, pi
 
+import numpy as np
 from lxml import etree
 
 from angen_apps.plan.travel import Obstacle
 from angen_apps.plan.model import Point, Room
-from angen_apps.plan.polygons import bounds, center, contains, signed_area
+from angen_apps.plan.polygons import bounds, center, contains, reach_of, signed_area
 from angen_models.world import include
+from angen_tools.common.geometry import turned
 
 PIR_HEIGHT = 2.2
 PIR_PITCH = 0.25  # rad down
@@ -35,10 +37,10 @@ def place(world: etree._Element, room: Room, stem: str, number: str, solids: lis
                 (*_rounded((x, y)), round(room.floor + height, 4), 0, PIR_PITCH, round(yaw, 5)))
     if corners:
         x, y, yaw = corners[-1]
-        x, y = x + 0.25 * cos(yaw), y + 0.25 * sin(yaw)
         include(world, 'luminosity_sensor', f'{stem}_lux{number}',
-                (*_rounded((x, y)), round(room.floor + min(LUX_HEIGHT, room.ceiling - 0.15), 4),
-                 0, 0.5, round(yaw, 5)))
+                (*_rounded(turned((x, y), yaw, 0.25, 0.0)),
+                 round(room.floor + min(LUX_HEIGHT, room.ceiling - 0.15), 4), 0, 0.5,
+                 round(yaw, 5)))
 
 
 def _rounded(point: Point) -> Point:
@@ -60,6 +62,7 @@ def _corners(room: Room) -> list[tuple[float, float, float, float]]:
     if signed_area(points) < 0:
         points.reverse()
     found = []
+    edges = np.hstack([points, np.roll(points, -1, axis=0)])
     for before, here, after in zip([points[-1], *points[:-1]], points, [*points[1:], points[0]]):
         ax, ay = before[0] - here[0], before[1] - here[1]
         bx, by = after[0] - here[0], after[1] - here[1]
@@ -69,24 +72,8 @@ def _corners(room: Room) -> list[tuple[float, float, float, float]]:
         yaw = atan2(ay / a + by / b, ax / a + bx / b)
         x, y = (here[0] + OFF_WALL * (ax / a + bx / b), here[1] + OFF_WALL * (ay / a + by / b))
         if contains(points, x, y):
-            found.append((x, y, yaw, _sight(points, x, y, yaw)))
+            found.append((x, y, yaw, reach_of(x, y, yaw, edges, 30.0)))
     return found
-
-
-def _sight(points: list[Point], x: float, y: float, yaw: float) -> float:
-    """The distance to the edge of a polygon along a direction, m."""
-    dx, dy = cos(yaw), sin(yaw)
-    far = 30.0
-    for (x0, y0), (x1, y1) in zip(points, [*points[1:], points[0]]):
-        ex, ey = x1 - x0, y1 - y0
-        cross = dx * ey - dy * ex
-        if abs(cross) < 1e-9:
-            continue
-        t = ((x0 - x) * ey - (y0 - y) * ex) / cross
-        s = ((x0 - x) * dy - (y0 - y) * dx) / cross
-        if t > 1e-6 and -1e-9 <= s <= 1 + 1e-9:
-            far = min(far, t)
-    return far
 
 
 def _opposite(room: Room, solids: list[Obstacle], z: float
@@ -96,8 +83,7 @@ def _opposite(room: Room, solids: list[Obstacle], z: float
 
     def is_free(x: float, y: float, yaw: float) -> bool:
         for ahead in (0.0, 0.1, 0.3, 0.6, SIGHT):
-            px, py = x + ahead * cos(yaw), y + ahead * sin(yaw)
-            if any(contains(o.corners, px, py) for o in solids):
+            if any(contains(o.corners, *turned((x, y), yaw, ahead, 0.0)) for o in solids):
                 return False
         return True
 

@@ -7,8 +7,9 @@ from typing import Callable, Iterable, Sequence
 
 import numpy as np
 
-from angen_apps.plan.model import Color, Opening, Point, Wall, local
+from angen_apps.plan.model import Color, Opening, Point, Wall
 from angen_apps.plan.polygons import overlap, rectangle
+from angen_tools.common.geometry import local, turned
 
 ALIGNED = 0.01  # m that a wall may deviate from the direction of others along its length
 REACH = 0.05  # m before another wall at which an end is joined to it
@@ -39,8 +40,7 @@ class Box:
     @property
     def middle(self) -> tuple[float, float, float]:
         u, v, z = ((a + b) / 2 for a, b in zip(self.low, self.high))
-        c, s = cos(self.yaw), sin(self.yaw)
-        return u * c - v * s, u * s + v * c, z
+        return (*turned((0, 0), self.yaw, u, v), z)
 
 
 def arc(start: Point, end: Point, extent: float) -> list[Point]:
@@ -135,7 +135,7 @@ def _extended(wall: Wall, others: Sequence[Wall]) -> Wall:
     for point, sign in ((wall.start, -1.0), (wall.end, 1.0)):
         more = max((_extension(wall, point, yaw if sign > 0 else yaw + pi, other)
                     for other in others), default=0.0)
-        ends.append((point[0] + sign * more * cos(yaw), point[1] + sign * more * sin(yaw)))
+        ends.append(turned(point, yaw, sign * more, 0.0))
     if wall.top_at_end is not None:
         return wall  # its slope would change
     return replace(wall, start=ends[0], end=ends[1])
@@ -240,8 +240,7 @@ def _cuts(wall: Wall, yaw: float, openings: Sequence[Opening]
         # along an oblique wall: the part of its center line in the hole, wider on one face
         middle = u - v * tan(away)
         half = opening.width / 2 / cos(away) + wall.thickness / 2 * abs(tan(away))
-        ends = [local((0, 0), yaw, (wall.start[0] + w * cos(heading),
-                                    wall.start[1] + w * sin(heading)))
+        ends = [local((0, 0), yaw, turned(wall.start, heading, w, 0.0))
                 for w in (middle - half, middle + half)]
         axis = 0 if abs(ends[1][0] - ends[0][0]) >= abs(ends[1][1] - ends[0][1]) else 1
         low, high = [-1e6, -1e6, opening.bottom], [1e6, 1e6, opening.top]

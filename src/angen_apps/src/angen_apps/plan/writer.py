@@ -1,9 +1,11 @@
 """Writes a plan as a world in SDF that people can read and edit."""
 from __future__ import annotations
 
+from contextlib import ExitStack
 from dataclasses import replace
-from math import cos, pi, sin
+from math import pi
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, Iterable
 
 from lxml import etree
@@ -13,7 +15,7 @@ from angen_apps.plan.doors import GLASS, OAK, Hung, leaf_model
 from angen_apps.plan.drawing import Drawing, drawing_of, kept
 from angen_apps.plan.finish import beside_box, room_at, sides, stem
 from angen_apps.plan.furnish import obstacles, piece_model
-from angen_apps.plan.lifts import add_lift
+from angen_apps.plan.lifts import add_lift, around_pits
 from angen_apps.plan.names import Names, line_of, slug, with_number
 from angen_apps.plan.model import Lamp, Mover, Opening, Plan, Room, Storey
 from angen_apps.plan.slabs import Slabs, slabs
@@ -24,14 +26,18 @@ from angen_models.sdf import (ANGEN, Part, add, add_home, add_link, add_plugin, 
 from angen_models.world import add_world_plugins, comment, include, new_world
 from angen_tools.common.catalog import angen_module, simulator
 from angen_tools.common.files import make_folder, write_text
+from angen_tools.common.geometry import turned
 from angen_tools.world import sdf
 
 SUNK = 0.02  # m that walls reach into the floor: no light passes below
 STEP_DOWN = 0.005  # m from the lowest floor to the ground
 PIT = 0.15  # m, the same where a lift needs room below its cabin
+AROUND, GROUND = 6.0, (0.5, 0.5, 0.5)  # m of ground around a home with lifts, and its color
 ROOF = 0.1  # m, thickness of a ceiling without a storey above
 UNDER_TOP = 0.006  # m that ceilings begin below the walls' tops
 PANE = 0.02  # m, thickness of a pane that does not open
+AIR = {'temperature_sensor', 'humidity_sensor', 'heater'}  # models that need the air of rooms
+WARM = 20  # °C to which radiators heat rooms
 INSIDE = 0.02  # m from a wall's face to the source of daylight
 FLOOR_THICK = 0.2  # m of the lowest floor
 ELEMENTS, PARTS = 8000, 200  # XML elements of a building, boxes of a link; more are divided
@@ -59,14 +65,16 @@ def write_world(plan: Plan, path: Path, sensors: str = 'seed', drawn: Drawing | 
 
 def _write_checked(path: Path, text: str) -> None:
     """Writes a world that the simulator can load; Failure, and no world, if it cannot."""
-    part = path.with_name(f'.{path.name}.part')
-    write_text(part, text)
-    try:
+    is_device = path.exists() and not path.is_file()  # a pipe, or /dev/null
+    target = path if is_device else path.resolve()
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(TemporaryDirectory())) if is_device else target.parent
+        part = folder / f'.{target.name}.part'
+        stack.callback(part.unlink, missing_ok=True)
+        write_text(part, text)
         with simulator('the plan makes a world that cannot be read again: '):
             angen_module().World(str(part))
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
+        write_text(path, text)
 
 
 def written(path: Path, counts: dict[str, int]) -> dict[str, Any]:
@@ -141,10 +149,17 @@ def _with_namespace(root: etree._Element) -> tuple[etree._Element, etree._Elemen
 
 
 def _lower_ground(world: etree._Element, plan: Plan) -> None:
+    """The ground is below the lowest floor, and deeper below the cabins of lifts."""
     lowest = min((storey.elevation for storey in plan.storeys), default=0.0)
     ground = world.find("model[@name='ground_plane']")
     lower = lowest - (PIT if plan.lifts else STEP_DOWN)
     ground.find('pose').text = numbers(0, 0, round(lower, 4), 0, 0, 0)
+    if plan.lifts:
+        _, model = new_model('ground_around_lifts', static=True)
+        _link(model, 'link', [spanned(f'ground_{i}', (w, s, lower), (e, n, lowest - STEP_DOWN),
+                                      material=GROUND)
+                              for i, (w, s, e, n) in enumerate(around_pits(plan, AROUND))])
+        world.append(model)
 
 
 def _add_home(world: etree._Element, plan: Plan) -> None:
@@ -154,6 +169,8 @@ def _add_home(world: etree._Element, plan: Plan) -> None:
     add_home(home, 'north', round(plan.north, 6))
     if plan.latitude is not None:
         add_home(home, 'latitude', round(plan.latitude, 4))
+    if plan.start:
+        add_home(home, 'start', plan.start)
 
 
 def _add_storey(world: etree._Element, plan: Plan, storey: Storey, made: Slabs, sensors: str,
@@ -208,6 +225,10 @@ def _add_building(world: etree._Element, plan: Plan, storey: Storey, made: Slabs
         add_home(described, 'height', round(storey.height, 4))
     for room in storey.rooms:
         _add_room(model, room)
+    models = {sensor.model for sensor in storey.sensors} | {piece.model for piece in storey.pieces}
+    if storey.rooms and models & AIR:
+        add_plugin(model, 'climate', 'libroom_climate.so', heating=WARM,
+                   device_name=with_number('home', storey.number))
     for opening in storey.openings:
         if opening.kind == 'opening' and not opening.filled:
             _add_passage(model, storey, opening)
@@ -298,13 +319,11 @@ def _pane(opening: Opening) -> Part:
 
 def _fixed_leaf(hung: Hung) -> Part:
     bottom, top = hung.heights
-    x, y = hung.hinge
     away = hung.thick / 2 * (1 if hung.turn <= 0 else -1)
-    c, s = cos(hung.yaw), sin(hung.yaw)
+    x, y = turned(hung.hinge, hung.yaw, hung.width / 2, away)
     return Part(
         'leaf', (round(hung.width, 5), hung.thick, round(top - bottom, 5)),
-        (round(x + hung.width / 2 * c - away * s, 5), round(y + hung.width / 2 * s + away * c, 5),
-         round((top + bottom) / 2, 5)), (0, 0, round(hung.yaw, 6)),
+        (round(x, 5), round(y, 5), round((top + bottom) / 2, 5)), (0, 0, round(hung.yaw, 6)),
         material=GLASS if hung.opening.kind == 'window' or hung.opening.glazed else OAK)
 
 

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from angen import Grid
@@ -12,6 +11,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
 from angen_apps.maps.gridmap import FREE
+from angen_tools.common.geometry import to_segment
 
 Point = tuple[float, float]
 NEAR_COST = 4.0  # how much more a cell beside an obstacle costs than one in the open
@@ -38,30 +38,21 @@ class Planner:
     def __init__(self, grid: Grid, radius: float) -> None:
         self.grid = grid
         clear = distances(grid, radius + OPEN)
-        self._passable = (clear >= radius) & (grid.cells == FREE)
+        self.passable = (clear >= radius) & (grid.cells == FREE)  # rows, columns: where it fits
         cost = 1 + NEAR_COST * np.clip((radius + OPEN - clear) / OPEN, 0, 1)
-        self._graph = step_costs(self._passable, cost)
-
-    @cached_property
-    def _reversed(self) -> csr_matrix:
-        return csr_matrix(self._graph.T)
+        self._graph = step_costs(self.passable, cost)
 
     def is_free(self, point: Point) -> bool:
         """Whether the robot fits there."""
         row, column = self.grid.cell(*point)
-        rows, columns = self._passable.shape
-        return 0 <= row < rows and 0 <= column < columns and bool(self._passable[row, column])
-
-    @property
-    def passable(self) -> np.ndarray:
-        """The cells (rows, columns) where the robot fits."""
-        return self._passable
+        rows, columns = self.passable.shape
+        return 0 <= row < rows and 0 <= column < columns and bool(self.passable[row, column])
 
     def nearest(self, point: Point, reach: float) -> Point | None:
         """The point, or the nearest place within `reach` (m) where the robot fits."""
         if self.is_free(point):
             return point
-        rows, columns = np.nonzero(self._passable)
+        rows, columns = np.nonzero(self.passable)
         away = np.hypot(self.grid.x[columns] - point[0], self.grid.y[rows] - point[1])
         best = int(away.argmin()) if len(away) else -1
         if best < 0 or away[best] > reach:
@@ -70,10 +61,10 @@ class Planner:
 
     def costs(self, start: Point) -> np.ndarray:
         """The cost of the way from start to each cell (rows, columns), in m of open floor."""
-        columns = self._passable.shape[1]
+        columns = self.passable.shape[1]
         row, column = self.grid.cell(*start)
         found = dijkstra(self._graph, indices=row * columns + column)
-        return found.reshape(self._passable.shape) * self.grid.resolution
+        return found.reshape(self.passable.shape) * self.grid.resolution
 
     def way(self, start: Point, goal: Point) -> list[Point] | None:
         """Points from start to goal, about a cell apart; None if there is no way."""
@@ -85,33 +76,10 @@ class Planner:
         points = [start, *(self.grid.point(*cell) for cell in cells[1:-1]), goal]
         return smooth(points)
 
-    def toward(self, goal: Point) -> np.ndarray:
-        """The cell that follows each cell on the way to a goal, below 0 if there is none. Cells
-        are counted row by row."""
-        columns = self._passable.shape[1]
-        row, column = self.grid.cell(*goal)
-        return np.asarray(dijkstra(self._reversed, indices=row * columns + column,
-                                   return_predecessors=True)[1])
-
-    def along(self, following: np.ndarray, start: Point, goal: Point) -> list[Point] | None:
-        """As way(), not smoothed; `following`: toward() the goal."""
-        if not (self.is_free(start) and self.is_free(goal)):
-            return None
-        columns = self._passable.shape[1]
-        here, end = (row * columns + column
-                     for row, column in (self.grid.cell(*start), self.grid.cell(*goal)))
-        points = [start]
-        while here != end:
-            here = int(following[here])
-            if here < 0:
-                return None
-            points.append(self.grid.point(*divmod(here, columns)))
-        return [*points[:-1], goal] if len(points) > 1 else [start, goal]
-
     def _search(self, start: tuple[int, int], goal: tuple[int, int]
                 ) -> list[tuple[int, int]] | None:
         """Cells from start to goal."""
-        columns = self._passable.shape[1]
+        columns = self.passable.shape[1]
         first, here = (row * columns + column for row, column in (start, goal))
         came = dijkstra(self._graph, indices=first, return_predecessors=True)[1]
         if here != first and came[here] < 0:
@@ -195,13 +163,6 @@ class Door:
     def crosses(self, a: Point, b: Point) -> bool:
         """Whether a step from a to b crosses the shut leaf."""
         return _cross(a, b, self.hinge, self.tip(self.shut))
-
-
-def to_segment(point: Point, a: Point, b: Point) -> float:
-    """Meters from a point to the segment between two others."""
-    x, y, dx, dy = point[0] - a[0], point[1] - a[1], b[0] - a[0], b[1] - a[1]
-    along = min(max((x * dx + y * dy) / (dx * dx + dy * dy), 0.0), 1.0)
-    return math.hypot(x - along * dx, y - along * dy)
 
 
 def _cross(a: Point, b: Point, c: Point, d: Point) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 import sys
 from dataclasses import replace
-from math import cos, hypot, sin
+from math import hypot
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,7 @@ from angen_apps.robot.route_file import Lift, Route, Waypoint, default_route, re
 from angen_apps.robot.tour import in_order
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import make_folder, write_text
+from angen_tools.common.geometry import turned
 from angen_tools.common.home import Home, Room
 from angen_tools.session.in_process import InProcess
 from angen_tools.world import sdf
@@ -100,7 +101,7 @@ def _start(route: Route, survey: Survey, planners: dict[int, Planner], entities:
         raise Failure(f'{world}: the main entrance {home.entrance} leads into no room')
     x, y, _, yaw = door.pose
     behind = room
-    sides = [(x - side * INSIDE * sin(yaw), y + side * INSIDE * cos(yaw)) for side in (-1, 1)]
+    sides = [turned((x, y), yaw, 0.0, side * INSIDE) for side in (-1, 1)]
     wish = min(sides, key=lambda point: (not behind.contains(*point), point))
     planner = planners[room.storey]
     place = _clear_of_doors(wish, survey, planner, room.storey, route)

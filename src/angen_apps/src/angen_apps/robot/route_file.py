@@ -74,10 +74,9 @@ class _Reader(YamlFile):
         listed = self.list(entries['waypoints'], 'waypoints')
         numbers = {key: self.number(entries[key], key, low, high) if key in entries else usual
                    for key, (low, high, usual) in NUMBERS.items()}
-        robot = self.text(entries['robot'], 'robot') if 'robot' in entries else 'turtlebot'
-        lift = self._lift(entries['elevator']) if 'elevator' in entries else None
-        return Route(self.path, [self._waypoint(node) for node in listed], robot,
-                     elevator=lift, **numbers)
+        return Route(self.path, [self._waypoint(node) for node in listed],
+                     entries.of('robot', self.text, 'turtlebot'),
+                     elevator=entries.of('elevator', self._lift), **numbers)
 
     def _waypoint(self, node: Any) -> Waypoint:
         entries = self.entries(node, 'a waypoint', WAYPOINT, WAYPOINT)
@@ -88,8 +87,8 @@ class _Reader(YamlFile):
         return Waypoint(name, int(floor), self._point(entries['at'], 'at'),
                         line_of(node))
 
-    def _lift(self, node: Any) -> Lift:
-        entries = self.entries(node, 'elevator', LIFT, LIFT)
+    def _lift(self, node: Any, what: str) -> Lift:
+        entries = self.entries(node, what, LIFT, LIFT)
         return Lift(self.text(entries['name'], 'name'), self._point(entries['cabin'], 'cabin'),
                     self._point(entries['landing'], 'landing'))
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from angen_apps.robot.localizer import Field, returns_of, to_world, unexplained
 from angen_apps.robot.pilot import Pose
+from angen_tools.common.geometry import local
 
 GAP = 0.15  # m between two returns of the same thing
 FEWEST = 6  # returns of a person
@@ -110,9 +111,7 @@ def find_figure(depth: Any, camera: tuple[float, float, float], pose: Pose, arc:
     """
     image = np.asarray(depth.depth).reshape(int(depth.height), int(depth.width))
     eye = pose.then(Pose(camera[0], camera[1], 0.0))
-    c, s = math.cos(eye.yaw), math.sin(eye.yaw)
-    ahead = c * (arc.x - eye.x) + s * (arc.y - eye.y)
-    left = -s * (arc.x - eye.x) + c * (arc.y - eye.y)
+    ahead, left = local((eye.x, eye.y), eye.yaw, (arc.x, arc.y))
     if ahead < 0.6:
         return None
     column = depth.center_x - depth.focal * left / ahead

@@ -2,35 +2,37 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from angen_apps.data.run import first_day
 from angen_apps.residents.floors import Floors
 from angen_apps.residents.household import Household
 from angen_apps.residents.places import Spot
 from angen_apps.residents.profiles import Profile
-from angen_apps.residents.simulated import Simulated
+from angen_apps.residents.simulator import Simulator
 from angen_apps.residents.wanderer import Wanderer
 from angen_apps.robot.route_file import Route
 from angen_apps.seek.home import Home
 from angen_tools.common.failure import Failure
+from angen_tools.session.in_process import InProcess
 
 WALKER = Profile('wanderer', 0.8, {}, {}, (), {}, {}, closes_doors=0.6, lamps_on=0.8, lamps_off=1.0)
 DOOR_ROOM = 0.45  # m from where one stays to where a leaf swings
 LIFT_ROOM = 1.6  # m from there to the middle of the cabin
 
 
-class _Beside(Simulated):
+class _Beside(Simulator):
     """The simulation whose time passes by the robot's cycles."""
 
     def run(self, seconds: float) -> None:
         return
 
 
-def add_person(world: object, floors: Floors, home: Home, route: Route, name: str, seed: int
+def add_person(world: Any, floors: Floors, home: Home, route: Route, name: str, seed: int
                ) -> Household:
     """A household of one who walks about; its run() is called before each of the robot's cycles.
     Failure if the building has no place to walk to."""
-    simulator = _Beside(world, home.described)
+    simulator = _Beside(InProcess(world), home.described)
     household = Household(simulator, floors, seed, 'seek', first_day(home.described),
                           home.described.time_of_day)
     spots = [spot for cell in range(len(home.at)) if (spot := _spot(home, cell, floors, route))]

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import datetime
-import json
 import math
 import tempfile
 from collections import defaultdict
@@ -11,9 +10,11 @@ from typing import Any, Iterator, NamedTuple
 
 import numpy as np
 
+from angen_apps.data import shapes
 from angen_apps.data.generate import CABINS, HOME, LOADS, sha256
 from angen_apps.data.site import Site, apartment
-from angen_apps.data.tables import EVENTS, POWER, SLIDES, TRACK, TRUTH, homes, rows
+from angen_apps.data.tables import (ENTRY, POWER, SLIDES, TRACK, Tables, homes, layout_of,
+                                    parsed)
 from angen_apps.residents.figures import walker
 from angen_apps.web.history import numbers
 from angen_apps.web.played import Lined
@@ -31,6 +32,7 @@ POSTURES = {'stand': 'standing', 'sit': 'sitting', 'lie': 'lying'}
 LEAVES = ('door', 'window', 'cabinet')
 WORDS = {'motion': ('MOTION', 'still'), 'area': ('MOTION', 'still'), 'door': ('open', 'closed'),
          'item': ('pressed', 'free'), 'power': ('on', 'off')}  # words of summaries
+HAPPENED = {'open': 'opened', 'free': 'released'}  # by these: words of events, if they differ
 SHOWN = (*LEAVES, 'lamp', 'appliance', 'person')  # devices whose states the files have
 FIRST = ('ON', 'OPEN', 'PRESENT')
 UNITS = {'temperature': ('temperature', '°C'), 'light': ('illuminance', 'lx')}
@@ -71,14 +73,6 @@ def _moment(row: dict[str, str], things: dict[str, Any]) -> Moment:
     return Moment(start, 0, x, y, yaw, text)
 
 
-def read(folder: Path, name: str) -> Any:
-    """A JSON file of the folder."""
-    try:
-        return json.loads((folder / name).read_text(encoding='utf-8'))
-    except (OSError, ValueError) as error:
-        raise Failure(f'{folder / name}: cannot be read: {error}') from None
-
-
 class Day(Lined):
     """A Source, see server.py."""
 
@@ -86,12 +80,28 @@ class Day(Lined):
         found = homes(folder)
         if found != [folder]:
             raise Failure(f'{folder}: has several homes; give one, such as {found[0]}')
-        self._data, self._layout = folder, read(folder, 'layout.json')
-        self._settings = read(folder, HOME)['settings']
+        self._data, self._layout = folder, layout_of(folder)
+        self._settings = parsed(folder / HOME, ENTRY)['settings']
+        self._tables = Tables(folder, self._layout)
+        self._sensors = {sensor['id']: sensor for sensor in self._layout['sensors']}
         self._start = datetime.datetime.fromisoformat(self._layout['start'])
-        self._people = [resident['name'] for resident in self._layout['residents']]
+        speeds = {resident['name']: resident['speed'] for resident in self._layout['residents']}
+        guests = self._layout.get('guests', [])
+        self._who = {'resident': shapes.word(*speeds, *(guest['name'] for guest in guests))}
+        phases: dict[str, set[str]] = {}
+        for row in self._truth():
+            phases.setdefault(row['resident'], set()).add(row['phase'])
+        speeds.update((guest['name'], speeds[guest['host']]) for guest in guests
+                      if phases.get(guest['name'], set()) - {'away'})
+        for name in speeds:
+            if name not in phases:
+                raise Failure(f'{folder}/truth.csv.gz: has no line of {name}')
+        self._people: dict[str, float] = speeds  # and m/s
         self._cabins: dict[str, Cabin] = {}
         super().__init__(self._layout['days'] * DAY, folder.name)
+        for table in (self._events(), self._track(), self._loads(), self._slides()):
+            for _ in table:  # before a page opens, it says what is wrong
+                pass
         self._world = self._furnished(world)
 
     def _furnished(self, given: Path | None) -> Any:
@@ -105,19 +115,33 @@ class Day(Lined):
                 apartment(given)
             site = Site(given, self._settings['seed'], not self._settings['own_sensors'],
                         self._settings['light'])
-        for resident in self._layout['residents']:
-            first = next(r for r in self._truth() if r['resident'] == resident['name'])
+        for name, speed in self._people.items():
+            first = next(r for r in self._truth() if r['resident'] == name)
             room = site.home.room(first['room']) or site.home.rooms[0]
-            with simulator(f'{resident["name"]}: '):
-                site.world.spawn(walker(resident['name'], resident['speed'], 'person'),
-                                 resident['name'], [*room.center, room.floor, 0.0, 0.0, 0.0])
+            with simulator(f'{name}: '):
+                site.world.spawn(walker(name, speed, 'person'), name,
+                                 [*room.center, room.floor, 0.0, 0.0, 0.0])
         self._sources = {name: (kind, model) for kind, name, model, _ in site.world.entities()}
         self._floors = {room.name: room.floor for room in site.home.rooms}
         self._elevations = {storey.number: storey.elevation for storey in site.home.storeys}
         return site.world
 
     def _truth(self) -> Iterator[dict[str, str]]:
-        return rows(self._data / 'truth.csv.gz', TRUTH)
+        return self._tables.truth(self._who)
+
+    def _track(self) -> Iterator[dict[str, str]]:
+        return self._tables.rows('track.csv.gz', {**TRACK, **self._who})
+
+    def _events(self) -> Iterator[dict[str, str]]:
+        return self._tables.events({'sensor': shapes.word(*self._sensors)})
+
+    def _loads(self) -> Iterator[dict[str, str]]:
+        """None in data of an earlier version."""
+        return self._tables.rows(LOADS, POWER) if (self._data / LOADS).exists() else iter(())
+
+    def _slides(self) -> Iterator[dict[str, str]]:
+        """None without an elevator, or in data of an earlier version."""
+        return self._tables.rows(CABINS, SLIDES) if (self._data / CABINS).exists() else iter(())
 
     # --- from the world: the scene, and the angles of open leaves
 
@@ -166,9 +190,9 @@ class Day(Lined):
         self._play_residents()
         self._play_events()
         self._play_loads()
-        ribbon = [[name, [[float(r['start']), float(r['end']), r['activity']]
-                          for r in self._truth() if r['resident'] == name]]
-                  for name in self._people]
+        ribbon: list[Any] = [[name, [[float(r['start']), float(r['end']), r['activity']]
+                                     for r in self._truth() if r['resident'] == name]]
+                             for name in self._people]
         self._line['ribbon'] = ribbon
         wakes = [spans[0][1] for _, spans in ribbon if spans and spans[0][2] == 'sleep']
         self._line.update(begin=max(0.0, min(wakes, default=0.0) - BEFORE), speed=SPEED)
@@ -185,7 +209,7 @@ class Day(Lined):
             moments[row['resident']].append(moment_of(row, things, self._floors))
             self.store.add_event([float(row['start']), 'resident', row['resident'], row['phase'],
                                   ' '.join(filter(None, (row['activity'], row['room'])))])
-        for step in rows(self._data / 'track.csv.gz', TRACK):
+        for step in self._track():
             moments[step['resident']].append(
                 Moment(float(step['time']), 1, float(step['x']), float(step['y']),
                        floor=self._elevations.get(int(step.get('storey') or 0))))
@@ -198,7 +222,8 @@ class Day(Lined):
         floor = next((m.floor for m in moments if m.floor is not None), 0.0)
         above = float(self._closed[link][2]) - floor  # height of the body's origin
         rider = Rider([*self._cabins.values()], floor)
-        at, yaw = (0.0, 0.0), 0.0
+        at = next(((m.x, m.y) for m in moments if not math.isnan(m.x)), (0.0, 0.0))
+        yaw = 0.0
         ends = [*(m.time for m in moments[1:]), self._line['end']]
         for m, end in zip(moments, ends):
             if math.isnan(m.x):  # away
@@ -216,13 +241,12 @@ class Day(Lined):
                                       self._values('person', 'speed', m.speed))], False)
 
     def _play_events(self) -> None:
-        sensors = {sensor['id']: sensor for sensor in self._layout['sensors']}
         leaves = {e['model']: e for e in self.store.part('entities') if e['kind'] in LEAVES}
-        for event in rows(self._data / 'events.csv.gz', EVENTS):
+        for event in self._events():
             time = (datetime.datetime.fromisoformat(event['time']) - self._start).total_seconds()
-            sensor = sensors[event['sensor']]
+            sensor = self._sensors[event['sensor']]
             kind, name = sensor['kind'], sensor['name']
-            if name not in self._sources:
+            if name not in self._sources or kind == 'mains':
                 continue
             source, model = self._sources[name]
             if kind in UNITS:
@@ -231,13 +255,17 @@ class Day(Lined):
                 self.store.put_rows([(source, name, f'{value:g} {unit}', False, time,
                                       self._values(source, field, value))], False)
                 continue
+            if kind == 'bell':
+                self.store.add_event([time, kind, name, 'rang', event['resident']])
+                continue
             is_on, moves = event['value'] in FIRST, kind in ('motion', 'area')
             word = WORDS[kind][0 if is_on else 1]
             self.store.put_rows([(source, name, word, is_on and moves, time, [])], False)
             if kind == 'door':
                 self._turn(time, leaves.get(model), is_on)
             if not moves:
-                self.store.add_event([time, kind, name, word, event['resident']])
+                self.store.add_event([time, kind, name, HAPPENED.get(word, word),
+                                      event['resident']])
 
     def _turn(self, time: float, leaf: dict[str, Any] | None, is_open: bool) -> None:
         if leaf is None:
@@ -251,11 +279,8 @@ class Day(Lined):
 
     def _play_loads(self) -> None:
         """Lamps and appliances as they were switched; the most of a day is full light."""
-        path = self._data / LOADS
-        if not path.is_file():
-            return  # data of an earlier version
         loads = [(float(row['time']), row['kind'], row['device'], float(row['watts']))
-                 for row in rows(path, POWER)]
+                 for row in self._loads()]
         most: dict[str, float] = defaultdict(float)
         for _, kind, name, watts in loads:
             most[f'{kind}/{name}'] = max(most[f'{kind}/{name}'], watts)
@@ -272,14 +297,10 @@ class Day(Lined):
             if time > 0.0:
                 self.store.add_event([time, kind, name, word.lower(), f'{watts:g} W'])
 
-    def _slides(self) -> list[dict[str, str]]:
-        path = self._data / CABINS
-        return list(rows(path, SLIDES)) if path.is_file() else []  # no elevator, or data of before
-
     def _play_cabins(self) -> None:
         links = self.store.scene['links'] if self.store.scene else []
         found = {(link['model'], link['name']): i for i, link in enumerate(links)}
-        slides = self._slides()
+        slides = list(self._slides())
         for row in slides:
             link = found.get((row['model'], row['link']))
             if link is None:

@@ -92,7 +92,7 @@ class Guard:
         """The role of a token; None: it is none."""
         found = None
         for role, token in self.tokens.items():  # all of them: the time tells nothing
-            if hmac.compare_digest(given.encode(), token.encode()):
+            if hmac.compare_digest(given.encode(errors='replace'), token.encode()):
                 found = role
         return found
 

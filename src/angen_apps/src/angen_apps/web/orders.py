@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 import threading
+from contextlib import suppress
 from typing import Any, Callable
 
 from angen_apps.controls.places import Taken, place, things
@@ -12,6 +13,7 @@ from angen_apps.web.trips import Trips
 from angen_tools.common.catalog import is_robot, kinds
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home
+from angen_tools.common.wait import wait
 from angen_tools.session.live import Live
 
 LONGEST = 4096  # bytes of a text, as the simulator's own limit
@@ -19,6 +21,7 @@ MOST_STEPS = 10_000_000
 MOST_RATE = 1000.0
 HOLD = 0.7  # s after the last order, and a robot stops
 LIMIT = 15.0  # s that a service may take
+SUBSCRIBED = 1.0  # s in which a subscriber of a new publisher connects
 
 
 class Orders:
@@ -30,11 +33,13 @@ class Orders:
         self._publishers: dict[str, Any] = {}
         self._stops: dict[str, threading.Timer] = {}
         self._lock = threading.Lock()  # guards these two
-        self._known: dict[str, Callable[[dict[str, Any]], dict[str, Any]]] = {
-            'command': self._command, 'pause': self._pause, 'resume': self._resume,
-            'step': self._step, 'reset': self._reset, 'rate': self._rate, 'spawn': self._spawn,
-            'delete': self._delete, 'save': self._save, 'drive': self._drive, 'goal': self._goal,
-            'halt': self._halt, 'move': self._move}
+        self._known: dict[str, Callable[[dict[str, Any]], dict[str, Any] | None]] = {
+            'command': self._command, 'pause': lambda _: Live().pause(),
+            'resume': lambda _: Live().resume(), 'step': self._step,
+            'reset': lambda _: Live().reset(), 'rate': self._rate, 'spawn': self._spawn,
+            'delete': self._delete, 'save': lambda _: {'xml': Live().save()},
+            'drive': self._drive, 'goal': self._goal, 'move': self._move,
+            'halt': lambda order: self.trips.stop(self._robot(order))}
 
     def known(self) -> list[str]:
         """The names of orders."""
@@ -46,7 +51,7 @@ class Orders:
         if do is None:
             raise ValueError('unknown order; known are ' + ', '.join(self._known))
         try:
-            return do(order)
+            return do(order) or {}
         except Failure as failure:
             raise ValueError(str(failure)) from None
 
@@ -56,18 +61,6 @@ class Orders:
         answer = Live().call('angen/command', SendCommand, LIMIT, target=target, text=words)
         return {'text': answer.state}
 
-    def _pause(self, _: dict[str, Any]) -> dict[str, Any]:
-        Live().pause()
-        return {}
-
-    def _resume(self, _: dict[str, Any]) -> dict[str, Any]:
-        Live().resume()
-        return {}
-
-    def _reset(self, _: dict[str, Any]) -> dict[str, Any]:
-        Live().reset()
-        return {}
-
     def _step(self, order: dict[str, Any]) -> dict[str, Any]:
         from angen_msgs.srv import Step
         stats = self._store.part('stats') or {}
@@ -76,9 +69,8 @@ class Orders:
         taken = Live().call('angen/step', Step, 120.0, ticks=ticks).taken
         return {'text': f'{taken * step:g} s'}
 
-    def _rate(self, order: dict[str, Any]) -> dict[str, Any]:
+    def _rate(self, order: dict[str, Any]) -> None:
         Live().rate = number(order, 'rate', 0.0, MOST_RATE)
-        return {}
 
     def _spawn(self, order: dict[str, Any]) -> dict[str, Any]:
         from angen_tools.world import sdf, sensor
@@ -110,10 +102,7 @@ class Orders:
         name = text(order, 'name')
         return {'text': Live().call('angen/delete', Delete, LIMIT, name=name).message}
 
-    def _save(self, _: dict[str, Any]) -> dict[str, Any]:
-        return {'xml': Live().save()}
-
-    def _drive(self, order: dict[str, Any]) -> dict[str, Any]:
+    def _drive(self, order: dict[str, Any]) -> None:
         from geometry_msgs.msg import Twist
         name = self._robot(order)
         twist = Twist()
@@ -129,7 +118,6 @@ class Orders:
                 self._stops[name] = threading.Timer(HOLD, self._stop, (name,))
                 self._stops[name].daemon = True
                 self._stops[name].start()
-        return {}
 
     def _stop(self, name: str) -> None:
         from geometry_msgs.msg import Twist
@@ -181,16 +169,13 @@ class Orders:
             raise Failure(f'no place is free in {room}')
         return at[0], at[1], at[3]
 
-    def _halt(self, order: dict[str, Any]) -> dict[str, Any]:
-        self.trips.stop(self._robot(order))
-        return {}
-
     def _publisher(self, topic: str, kind: type) -> Any:
         import rospy
         with self._lock:
             if topic not in self._publishers:
-                self._publishers[topic] = rospy.Publisher(topic, kind, queue_size=1)
-                wait_for_subscriber(self._publishers[topic])
+                made = self._publishers[topic] = rospy.Publisher(topic, kind, queue_size=1)
+                with suppress(Failure):  # there may be none
+                    wait(lambda: made.get_num_connections() > 0, '', SUBSCRIBED)
             return self._publishers[topic]
 
 
@@ -199,14 +184,6 @@ def about_z(angle: float, x: float, y: float, z: float, w: float
     """A quaternion turned about the vertical."""
     c, s = math.cos(angle / 2), math.sin(angle / 2)
     return c * x - s * y, c * y + s * x, c * z + s * w, c * w - s * z
-
-
-def wait_for_subscriber(publisher: Any, limit: float = 1.0) -> None:
-    """Returns when there is one, or after the limit."""
-    import time
-    end = time.monotonic() + limit
-    while publisher.get_num_connections() == 0 and time.monotonic() < end:
-        time.sleep(0.02)
 
 
 def text(order: dict[str, Any], key: str) -> str:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Awaitable, Callable, Protocol
 
 from aiohttp import WSMsgType, web
+from aiohttp.http_exceptions import HttpProcessingError
 
 from angen_apps.web.files import Files
 from angen_apps.web.guard import BUILD, HEADERS, ROLE, Budget, Guard, Handler, refusal
@@ -94,11 +95,19 @@ class Browser:
                 await asyncio.sleep(PERIOD)
 
 
+def is_of_server(record: logging.LogRecord) -> bool:
+    """False for requests that are no HTTP, which their clients are told, and for clients that went
+    away."""
+    error = record.exc_info[1] if record.exc_info else None
+    return not isinstance(error, (HttpProcessingError, ConnectionResetError, BrokenPipeError))
+
+
 class Site:
     """The application with its files: those of the folder `page`, of which `index` is the first."""
 
     def __init__(self, guard: Guard, page: Path, index: str, largest: int) -> None:
         """`largest`: bytes of a request."""
+        logging.getLogger('aiohttp.server').addFilter(is_of_server)
         self._files, self._name = Files(page), index
         self.clients: set[Any] = set()  # protocols of connections that sent a request
         self.app = web.Application(middlewares=[self._count_client, guard.middleware],

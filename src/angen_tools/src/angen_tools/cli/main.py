@@ -142,6 +142,15 @@ def stop(number: int, _: Any) -> NoReturn:
     sys.exit(128 + number)  # a shell's exit code of a command that a signal ended
 
 
+def open_closed_streams() -> None:
+    """Standard streams that the caller has closed become /dev/null."""
+    for number, name in enumerate(('stdin', 'stdout', 'stderr')):
+        if getattr(sys, name) is None:
+            stream = open(os.devnull, 'w' if number else 'r', encoding='utf-8')
+            os.set_inheritable(stream.fileno(), True)
+            setattr(sys, name, stream)
+
+
 def leave() -> None:
     """Takes this process off the ROS master, if it had become a node."""
     rospy = sys.modules.get('rospy')
@@ -151,6 +160,7 @@ def leave() -> None:
 
 def main() -> None:
     """The program. Ends at once: threads that still wait for an answer are abandoned."""
+    open_closed_streams()
     logging.raiseExceptions = False  # a log that cannot be written, of rospy's, is not reported
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, stop)

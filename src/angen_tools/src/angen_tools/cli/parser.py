@@ -11,6 +11,7 @@ from typing import Any, Callable, NoReturn
 from angen_tools.cli.arguments import at_least, checked, path
 from angen_tools.common.catalog import kinds
 from angen_tools.common.nearest import asked, did_you_mean, nearest
+from angen_tools.common.output import SEED
 
 Run = Callable[[argparse.Namespace], int]  # executes the command; returns the exit code
 # Other words for kinds and commands, which no likeness of letters finds.
@@ -22,7 +23,6 @@ MEANT = {'light': 'lamp', 'bulb': 'lamp', 'lift': 'elevator', 'oven': 'stove', '
 # Commands of ./angen, which angen itself has not.
 ENTRY = ('demo', 'shell', 'build', 'test', 'fuzz', 'coverage', 'tidy', 'docs')
 ALIKE = 0.75  # likeness of an option and the one that was meant
-SEED = 2**53 - 1  # the largest: JSON has no larger whole numbers
 EXPLICIT = re.compile("ignored explicit argument '.*'")  # argparse's error for --json=yes
 NEGATIVE = re.compile(r'-\.?\d.*')  # -1.57 and -90deg are values, no options
 

@@ -29,12 +29,12 @@ def writing(path: Path, binary: bool = False, log: bool = False) -> Iterator[IO[
     written.
     """
     target = path.resolve()
-    make_folder(target.parent)
     try:
-        if target.exists() and not target.is_file():  # a terminal, a pipe
-            with _opened(os.open(target, os.O_WRONLY), binary) as file:
+        if path.exists() and not path.is_file():  # a terminal; a pipe, whose target has no name
+            with _opened(os.open(path, os.O_WRONLY), binary) as file:
                 yield file
         else:
+            make_folder(target.parent)
             yield from _in_part(target, binary, log)
     except BrokenPipeError:
         raise

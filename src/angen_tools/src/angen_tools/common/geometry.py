@@ -1,4 +1,4 @@
-"""Rotations of SDF and of ROS messages; angles in rad."""
+"""Rotations of SDF and of ROS messages, frames in the plane, and distances; rad and m."""
 from __future__ import annotations
 
 import math
@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import numpy as np
+
+Point = tuple[float, float]
 
 
 def quaternion(roll: float, pitch: float, yaw: float) -> tuple[float, float, float, float]:
@@ -18,6 +20,26 @@ def quaternion(roll: float, pitch: float, yaw: float) -> tuple[float, float, flo
 def yaw(x: float, y: float, z: float, w: float) -> float:
     """The rotation about z of a quaternion."""
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+
+def turned(origin: Point, yaw: float, u: float, v: float) -> Point:
+    """The point (u, v) of a frame at `origin` turned by `yaw`."""
+    c, s = math.cos(yaw), math.sin(yaw)
+    return origin[0] + u * c - v * s, origin[1] + u * s + v * c
+
+
+def local(origin: Point, yaw: float, point: Point) -> Point:
+    """A point in the frame at `origin` turned by `yaw`."""
+    dx, dy, c, s = point[0] - origin[0], point[1] - origin[1], math.cos(yaw), math.sin(yaw)
+    return dx * c + dy * s, dy * c - dx * s
+
+
+def to_segment(point: Point, a: Point, b: Point) -> float:
+    """The distance of a point from the segment between two others."""
+    x, y, dx, dy = point[0] - a[0], point[1] - a[1], b[0] - a[0], b[1] - a[1]
+    length = dx * dx + dy * dy
+    share = min(max((x * dx + y * dy) / length, 0.0), 1.0) if length else 0.0
+    return math.hypot(x - share * dx, y - share * dy)
 
 
 def yaw_of(q: Any) -> float:

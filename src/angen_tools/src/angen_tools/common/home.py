@@ -10,10 +10,10 @@ from typing import Any, Mapping, get_args, get_origin, get_type_hints
 
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.clock import time_of_day
+from angen_tools.common.geometry import Point, to_segment
 from angen_tools.common.geometry import yaw as yaw_of
 
 IN_WALL = 0.1  # m: a thing in a wall, floor or ceiling is in the room
-Point = tuple[float, float]
 FloorPose = tuple[float, float, float, float]  # x y z yaw
 Pose = tuple[float, float, float, float, float, float, float]  # x y z and quaternion x y z w
 
@@ -64,7 +64,7 @@ class Room:
 
     def distance(self, x: float, y: float) -> float:
         """To the nearest of its edges, from either side."""
-        return min(_away(a, b, x, y) for polygon in (self.polygon, *self.holes)
+        return min(to_segment((x, y), a, b) for polygon in (self.polygon, *self.holes)
                    for a, b in _edges(polygon))
 
     def at_height(self, z: float) -> bool:
@@ -202,14 +202,6 @@ def _inside(polygon: list[Point], x: float, y: float) -> bool:
         if (ay > y) != (by > y) and x < ax + (y - ay) / (by - ay) * (bx - ax):
             inside = not inside
     return inside
-
-
-def _away(a: Point, b: Point, x: float, y: float) -> float:
-    along = (b[0] - a[0], b[1] - a[1])
-    length = along[0] ** 2 + along[1] ** 2
-    share = ((x - a[0]) * along[0] + (y - a[1]) * along[1]) / length if length else 0.0
-    share = min(max(share, 0.0), 1.0)
-    return math.hypot(x - a[0] - share * along[0], y - a[1] - share * along[1])
 
 
 @cache

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from rich.console import Console, RenderableType
     from rich.table import Table
 
+SEED = 2**53 - 1  # the largest: JSON has no larger whole numbers
 ENDLESS = 1_000_000  # columns, more than any table has
 
 

@@ -12,13 +12,22 @@ from typing import Iterator, Sequence
 
 from angen_tools.common.output import console, table
 
+CTRL_C = '\x03'
+NO_KEY = b'\0'  # no key has this function
+
 
 @contextmanager
 def single_keys() -> Iterator[None]:
-    """Keys of stdin come one by one, without echo; the terminal is restored at the end."""
+    """Keys of stdin come one by one, without echo; the terminal is restored at the end.
+
+    Ctrl-C is a key, too: an exception in the midst of a library's locks could lose more.
+    """
     before = termios.tcgetattr(sys.stdin)
     try:
         tty.setcbreak(sys.stdin)
+        keys = termios.tcgetattr(sys.stdin)
+        keys[6][termios.VINTR] = NO_KEY
+        termios.tcsetattr(sys.stdin, termios.TCSANOW, keys)
         yield
     finally:
         termios.tcsetattr(sys.stdin, termios.TCSADRAIN, before)
@@ -52,10 +61,10 @@ class LiveTable:
             self._keys.__exit__(None, None, None)
 
     def closed(self) -> bool:
-        """Whether q was pressed; space turns the page."""
+        """Whether q or Ctrl-C was pressed; space turns the page."""
         key = pressed_key()
         self._page += key == ' '
-        return key in ('q', 'Q')
+        return key in ('q', 'Q', CTRL_C)
 
     def draw(self, title: str, head: Sequence[str], rows: Sequence[Sequence[str]],
              right: Sequence[str] = ()) -> None:

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any, Iterable
+from typing import Any, Callable, Iterable, Sequence
 
 import yaml
 
@@ -13,6 +13,14 @@ from angen_tools.common.text_file import read_text, shortened
 
 DEEPEST = 100  # levels of lists in lists: the composer of libyaml calls itself for each
 MOST = 1_000_000  # nodes and ends of lists: the composer takes memory for each
+
+
+class Entries(dict[str, Any]):
+    """The nodes of a mapping by key."""
+
+    def of(self, key: str, read: Callable[[Any, str], Any], otherwise: Any = None) -> Any:
+        """What `read` makes of a node and its key; `otherwise` if the key is not there."""
+        return read(self[key], key) if key in self else otherwise
 
 
 class YamlFile:
@@ -39,13 +47,13 @@ class YamlFile:
         return Failure(f'{self.path}:{line_of(node)}: {what}')
 
     def entries(self, node: Any, what: str, keys: Iterable[str] = (), required: Iterable[str] = ()
-                ) -> dict[str, Any]:
+                ) -> Entries:
         """A mapping's values by key; with `keys` no others are known."""
         known = list(keys)
         if not isinstance(node, yaml.MappingNode):
             expected = f'have {", ".join(known)}' if known else 'be a mapping'
             raise self.fail(node, f'{what} must {expected}')
-        found: dict[str, Any] = {}
+        found = Entries()
         for key, value in node.value:
             name = self.text(key, 'a key')
             if known and name not in known:
@@ -58,6 +66,21 @@ class YamlFile:
             if key not in found:
                 raise self.fail(node, f'{what} has no {key}; it needs {", ".join(required)}')
         return found
+
+    def nodes(self, node: Any, what: str) -> Sequence[Any]:
+        """The nodes of a list that is not empty; of anything else the node itself."""
+        return self.list(node, what) if is_list(node) else [node]
+
+    def texts(self, node: Any, what: str) -> tuple[str, ...]:
+        """One text, or a list of them."""
+        return tuple(self.text(each, what) for each in self.nodes(node, what))
+
+    def said(self, node: Any, what: str, read: Callable[[str], Any]) -> Any:
+        """What `read` makes of a text; its ValueError says what would be right."""
+        try:
+            return read(self.text(node, what))
+        except ValueError as error:
+            raise self.fail(node, f'{what}: {error}') from None
 
     def list(self, node: Any, what: str) -> list[Any]:
         """The nodes of a list that is not empty."""

@@ -60,7 +60,7 @@ class Keys:
         elif key in (b'-', b'_'):
             self.speed, self.turn = self.speed / STEP, self.turn / STEP
         else:
-            self.quit = self.quit or key in (b'q', b'Q', b'\x04')
+            self.quit = self.quit or key in (b'q', b'Q', b'\x03', b'\x04')
             self._way = (0, 0)
 
     def command(self, now: float) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from lxml import etree
 from angen_tools.common.catalog import kind_of, kinds, simulator
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
-from angen_tools.common.geometry import yaw
+from angen_tools.common.geometry import turned, yaw
 from angen_tools.common.nearest import did_you_mean
 from angen_tools.session.live import Live
 from angen_tools.world import models, sdf, sensor
@@ -103,8 +103,7 @@ def seat_sitter(name: str, chair: str) -> dict[str, Any]:
         raise Failure(f"'{chair}' is not upright")
     heading = yaw(*turn)
     ahead = seat[0] + max(0.0, seat[3] / 2 - SHANKS)
-    x += ahead * math.cos(heading) - seat[1] * math.sin(heading)
-    y += ahead * math.sin(heading) + seat[1] * math.cos(heading)
+    x, y = turned((x, y), heading, ahead, seat[1])
     z += seat[2] + SEAT_AIR
     for other, place in places.items():
         if other != chair and math.dist((x, y, z), place[:3]) < SITTER_WIDTH:

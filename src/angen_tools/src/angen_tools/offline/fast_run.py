@@ -53,6 +53,8 @@ def run(path: str, span: float, seed: int, out: Path, day: Path | None = None,
         check_name(readings)
     with simulator() as angen:
         world = angen.World(path, seed=seed)
+    for line in world.warnings:
+        print(f'warning: {line}', file=sys.stderr)
     orders = checked_orders(world, read_day(day, Home.of_world(world).time_of_day) if day else [])
     log = out / 'events.csv'
     began = time.monotonic()

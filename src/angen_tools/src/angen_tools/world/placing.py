@@ -8,13 +8,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cache
 from itertools import islice, zip_longest
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, hypot, pi
 from random import Random
 from typing import Iterator
 
 from angen_models import plan, world
 from angen_models.furniture import pieces
 from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import to_segment, turned
 
 KINDS = ('pir', 'switch', 'luminosity', 'contact')
 LATTICE = 0.25  # between sensors of one kind in a room
@@ -145,14 +146,14 @@ def _free_chairs(_kind: str, room: str, floor: int, rng: Random) -> list[Spot]:
 @cache
 def _free_points(room: str, ground_floor: bool) -> list[tuple[float, float]]:
     boxes = [_footprint(*piece) for piece in world.furniture_in(room, 0)]
-    doors = [(x + cos(yaw) / 2, y + sin(yaw) / 2) for x, y, yaw in plan.DOORS.values()]
+    doors = [turned((x, y), yaw, 0.5, 0.0) for x, y, yaw in plan.DOORS.values()]
     way = list(zip(plan.WALK, plan.WALK[1:])) if ground_floor else []
     x, y, radius = plan.ROUND
     middle, reach = (x, y + radius), radius + ROBOT_REACH + CHAIR_REACH if ground_floor else 0.0
     return [point for point in _points(room, CHAIR_LATTICE, CHAIR_REACH)
             if all(_outside(point, box) > CHAIR_REACH for box in boxes)
             and all(hypot(point[0] - x, point[1] - y) > DOOR_REACH + CHAIR_REACH for x, y in doors)
-            and all(_from_line(point, a, b) > PERSON_REACH + CHAIR_REACH for a, b in way)
+            and all(to_segment(point, a, b) > PERSON_REACH + CHAIR_REACH for a, b in way)
             and hypot(point[0] - middle[0], point[1] - middle[1]) > reach]
 
 
@@ -163,9 +164,8 @@ def _footprint(model: str, _name: str, pose: Pose) -> tuple[float, float, float,
     for part in parts:
         half = [v / 2 for v in part.size] if len(part.size) == 3 else [part.size[0]] * 2
         for sx, sy in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
-            u, v = part.at[0] + sx * half[0], part.at[1] + sy * half[1]
-            corners.append((pose[0] + u * cos(pose[5]) - v * sin(pose[5]),
-                            pose[1] + u * sin(pose[5]) + v * cos(pose[5])))
+            corners.append(turned(pose[:2], pose[5], part.at[0] + sx * half[0],
+                                  part.at[1] + sy * half[1]))
     xs, ys = zip(*corners)
     return min(xs), min(ys), max(xs), max(ys)
 
@@ -174,11 +174,3 @@ def _outside(point: tuple[float, float], box: tuple[float, float, float, float])
     """The distance of a point from a box, 0 inside."""
     return hypot(max(box[0] - point[0], 0.0, point[0] - box[2]),
                  max(box[1] - point[1], 0.0, point[1] - box[3]))
-
-
-def _from_line(point: tuple[float, float], a: tuple[float, float], b: tuple[float, float]
-               ) -> float:
-    """The distance of a point from the line from a to b."""
-    (x, y), (dx, dy) = (point[0] - a[0], point[1] - a[1]), (b[0] - a[0], b[1] - a[1])
-    along = min(1.0, max(0.0, (x * dx + y * dy) / (dx * dx + dy * dy)))
-    return hypot(x - along * dx, y - along * dy)

@@ -1,42 +1,47 @@
 """Checks each file of a home against its list, and against the files from which it follows."""
 from __future__ import annotations
 
-import gzip
 import tempfile
-from itertools import zip_longest
+import zlib
 from pathlib import Path
 from typing import Any
 
 from angen_apps.data.formats import FORMATS
 from angen_apps.data.generate import HOME, MANIFEST, TRUTH, sha256
-from angen_apps.data.recorder import VALUES
-from angen_apps.data.written import Findings, Written, parsed
+from angen_apps.data.recorder import TAP, VALUES
+from angen_apps.data.shapes import shown
+from angen_apps.data.tables import ENTRY, HOMES, MANIFEST_SIZE, opened, parsed
+from angen_apps.data.written import Findings, Written
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
 from angen_tools.common.text_file import shortened
 
 LISTED, FOLLOWS = 'a file is as it is listed', 'a file follows from truth and events'
+BLOCK = 1 << 16  # bytes of a line that are compared at a time
 
 
 def check(findings: Findings, home: Written) -> None:
     """All checks of files."""
     path = home.folder / HOME
-    entry = parsed(path) if path.is_file() else None
-    try:
-        files, settings = dict(entry['files']), dict(entry['settings'])
-        formats = [str(name) for name in settings['formats']]
-        seed = int(settings['seed'])
-    except (KeyError, TypeError, ValueError):
-        findings.say(LISTED, False, f'{path}: is missing, or has no files and settings')
+    if not path.exists():
+        findings.say(LISTED, False, f'{path}: is missing')
         return
+    entry = parsed(path, ENTRY)
+    files, settings = entry['files'], entry['settings']
     _listed(findings, home, entry, files)
     _manifest(findings, home, entry)
     _ids(findings, home)
-    for name in dict.fromkeys((*formats, 'csv')):
+    days = home.layout['days']
+    last = max((float(row['end']) for row in home.truth), default=0.0)
+    if len(home.truth) < days or last < home.end - 1.0:  # else days without data are written
+        findings.say(FOLLOWS, False, f'layout.json has {days} days, the truth {len(home.truth)} '
+                     f'lines until {last:.3f}')
+        return
+    for name in dict.fromkeys((*settings['formats'], 'csv')):
         if name not in FORMATS:
             findings.say(LISTED, False, f'{path}: {name} is not a format')
         elif entry.get('version') == angen_module().__version__:
-            _follows(findings, home, name, seed, files)
+            _follows(findings, home, name, settings['seed'], files)
 
 
 def _listed(findings: Findings, home: Written, entry: Any, files: dict[str, str]) -> None:
@@ -63,10 +68,8 @@ def _manifest(findings: Findings, home: Written, entry: Any) -> None:
     path = next((folder / MANIFEST for folder in (home.folder, home.folder.parent)
                  if (folder / MANIFEST).is_file()), None)
     if path is not None:
-        homes = parsed(path)
-        listed = homes.get('homes', []) if isinstance(homes, dict) else []
-        findings.say(LISTED, entry in listed, f'{path}: does not list {home.folder.name} as '
-                     f'{HOME} does')
+        findings.say(LISTED, entry in parsed(path, HOMES, MANIFEST_SIZE)['homes'],
+                     f'{path}: does not list {home.folder.name} as {HOME} does')
 
 
 def _ids(findings: Findings, home: Written) -> None:
@@ -90,6 +93,8 @@ def _ids(findings: Findings, home: Written) -> None:
 def _is_value(kind: str, value: str) -> bool:
     if kind in VALUES:
         return value in VALUES[kind]
+    if kind == 'bell':
+        return value == TAP
     try:
         number = float(value)
     except ValueError:
@@ -109,28 +114,34 @@ def _follows(findings: Findings, home: Written, name: str, seed: int,
             return
         for path in made:
             own = home.folder / path.relative_to(scratch)
-            shown = str(own.relative_to(home.folder))
-            findings.say(LISTED, shown in files, f'{shown} is not listed')
-            wrong = _difference(own, path) if own.is_file() else 'is missing'
-            findings.say(FOLLOWS, not wrong, f'{shown}{wrong}')
+            path_in = str(own.relative_to(home.folder))
+            findings.say(LISTED, path_in in files, f'{path_in} is not listed')
+            wrong = _difference(own, path) if own.is_file() else ' is missing'
+            findings.say(FOLLOWS, not wrong, f'{path_in}{wrong}')
 
 
 def _difference(own: Path, made: Path) -> str:
     """The first line in which two files differ; empty if they do not."""
     if own.suffix == '.parquet':
         from angen_apps.data.formats.table import pyarrow
-        parquet = pyarrow().parquet
-        return '' if parquet.read_table(own).equals(parquet.read_table(made)) else ' differs'
+        arrow = pyarrow()
+        try:
+            same = arrow.parquet.read_table(own).equals(arrow.parquet.read_table(made))
+        except (OSError, arrow.ArrowException) as error:
+            return f' cannot be read: {error}'
+        return '' if same else ' differs'
+    number = 1
     try:
-        texts = [(gzip.decompress(path.read_bytes()) if path.suffix == '.gz'
-                  else path.read_bytes()) for path in (own, made)]
-    except (OSError, EOFError) as error:
-        return f' cannot be read: {error}'
-    if texts[0] == texts[1]:
-        return ''
-    for number, (line, right) in enumerate(zip_longest(*(text.splitlines() for text in texts),
-                                                       fillvalue=b'nothing'), 1):
-        if line != right:
-            return (f':{number}: is {shortened(line.decode(errors="replace"))}, must be '
-                    f'{shortened(right.decode(errors="replace"))}')
-    return ' differs'
+        with opened(own) as file, opened(made) as other:
+            while (line := file.readline(BLOCK)) == (right := other.readline(BLOCK)):
+                if not line:
+                    return ''
+                number += line.endswith(b'\n')
+    except (OSError, EOFError, zlib.error) as error:
+        return f':{number}: cannot be read from here: {error}'
+    return f':{number}: is {_part(line)}, must be {_part(right)}'
+
+
+def _part(line: bytes) -> str:
+    """A line, or the part that is read, for an error."""
+    return shown(line.decode(errors='replace').rstrip('\n')) if line else 'nothing'

@@ -1,6 +1,7 @@
 """Checks labels against place, posture and the thing in use, in the truth, events and casas.txt."""
 from __future__ import annotations
 
+import math
 import re
 
 from angen_apps.data.formats.casas import ENTER
@@ -12,10 +13,12 @@ from angen_apps.residents.profiles import FOLDER, read
 
 EARLY, LATE = 3.0, 1.0  # s between a cause and its event: motion before, and at, it
 HAND = 31.0  # s between a command and the event of its device
-KINDS = {'motion': ('motion', 'area'), 'seat': ('item',), 'hand': ('door', 'power'),
+KINDS = {'motion': ('motion', 'area'), 'seat': ('item',), 'hand': ('door', 'power', 'bell'),
+         'visitor': ('bell',),
          'air': ('temperature',), 'light': ('light',), 'power': ('mains',)}  # kinds, by cause
 START = 1.0  # s, in which sensors report their first states
 OWN = ('motion', 'seat', 'hand')  # causes that are residents
+GUEST = ('visit', 'eat', 'leave')
 ALWAYS = {'sleep', 'leave', 'relax', 'toilet', 'wash', 'shower', 'dress', 'nap'}
 NOTED = 0.3  # share of a resident's time with notes of what did not go as planned, at most
 LABEL = re.compile(r'(?:(R\d+)_)?(\w+) (begin|end)')
@@ -27,6 +30,7 @@ def check(findings: Findings, home: Written) -> None:
     _profiles(findings, home)
     _noted(findings, home)
     _events(findings, home)
+    _talks(findings, home)
     if (home.folder / 'casas.txt').is_file():
         _turns(findings, home)
 
@@ -71,7 +75,14 @@ def _is(what: str, kind: str, use: str) -> bool:
 
 
 def _profiles(findings: Findings, home: Written) -> None:
-    """Residents do what their profile has, if it is one of Angen's."""
+    """Residents do what their profile has, if it is one of Angen's; guests come to see somebody."""
+    for guest, host in home.hosts.items():
+        for row in home.truth:
+            if row['resident'] == guest and row['phase'] == 'does':
+                findings.say('a guest comes to see its host', row['activity'] in GUEST
+                             and host in home.who and not math.isnan(
+                                 home.who[host].at(float(row['start']))[0]),
+                             f'{guest} at {row["start"]}: {row["activity"]}, {host} is away')
     for resident in home.layout['residents']:
         profile = str(resident.get('profile', ''))
         if (FOLDER / f'{profile}.yaml').is_file():
@@ -115,6 +126,20 @@ def _events(findings: Findings, home: Written) -> None:
                home.who[who].intervals(time - early, time + LATE)}
         findings.say('an event has the activity of its resident', name in did,
                      f'{where}: {who} {name}, the truth has {" and ".join(sorted(did))}')
+
+
+def _talks(findings: Findings, home: Written) -> None:
+    """Who talks does so with somebody in the same room, and is awake and at home."""
+    for row in home.talks:
+        both: list[dict[str, str]] = [
+            next(home.who[name].intervals(at, at), {}) if name in home.who else {}
+            for name in (row['resident'], row['to'])
+            for at in (float(row['start']), float(row['end']) - 0.01)]
+        rooms = {one.get('room', '') for one in both}
+        findings.say('people talk with each other', row['resident'] != row['to']
+                     and len(rooms) == 1 and '' not in rooms
+                     and all(one.get('posture') in ('stand', 'sit') for one in both),
+                     f'{row["resident"]} to {row["to"]} at {row["start"]}')
 
 
 def _turns(findings: Findings, home: Written) -> None:

@@ -7,6 +7,7 @@ from typing import Any
 
 from angen_apps.data.written import Findings, Written
 from angen_apps.plan.polygons import contains
+from angen_tools.common.geometry import local
 from angen_tools.common.home import Room
 
 FASTER = 1.35  # times the speed of a profile that a person may reach
@@ -66,7 +67,8 @@ def _times(findings: Findings, home: Written) -> None:
 
 def _walls(findings: Findings, home: Written) -> None:
     """No resident exceeds its speed, or changes rooms except through a door or opening."""
-    speeds = {r['name']: r['speed'] for r in home.layout['residents']}
+    speeds = home.speeds
+    porches = _porches(home.layout)
     last: dict[str, tuple[float, float, float, int]] = {}
     usual: dict[str, list[float]] = {name: [] for name in home.names}
     for row in home.track:
@@ -84,8 +86,9 @@ def _walls(findings: Findings, home: Written) -> None:
         rooms = [_room(home.layout, *before[1:]), _room(home.layout, x, y, storey)]
         if rooms[0] != rooms[1]:
             near = any(_through(door, before[1:3], (x, y)) for door in home.layout['doors']) or (
+                '' in rooms and not porches.isdisjoint(rooms)) or (
                 '' in rooms and any(_boards(landing, before[1:3], (x, y))
-                                    for landing in home.layout['landings']
+                                    for landing in home.layout.get('landings', [])
                                     if landing['storey'] == storey))
             findings.say('no resident crossed a wall', near,
                          f'{who} at {time}: from {rooms[0]} at {before[1]} {before[2]} to '
@@ -103,20 +106,25 @@ def _room(layout: Any, x: float, y: float, storey: int) -> str:
                  and not any(contains(hole, x, y) for hole in room.get('holes', ()))), '')
 
 
+def _porches(layout: Any) -> set[str]:
+    """Landings outside of a door of the home, without walls."""
+    landings = {room['name'] for room in layout['rooms'] if room['use'] == 'landing'}
+    return {name for door in layout['doors']
+            if door['kind'] != 'window' and set(door['rooms']) - landings
+            for name in landings.intersection(door['rooms'])}
+
+
 def _boards(landing: Any, *step: tuple[float, float]) -> bool:
     """Whether a step is between a landing and its cabin, which is in no room."""
     x, y, _, yaw = landing['pose']
-    return all(-SLACK <= math.cos(yaw) * (a - x) + math.sin(yaw) * (b - y) <= CABIN
-               and abs(math.cos(yaw) * (b - y) - math.sin(yaw) * (a - x)) <= LEAVES
-               for a, b in step)
+    return all(-SLACK <= ahead <= CABIN and abs(aside) <= LEAVES
+               for ahead, aside in (local((x, y), yaw, at) for at in step))
 
 
 def _through(door: Any, start: tuple[float, float], end: tuple[float, float]) -> bool:
     """Whether a step leads through a door or opening, or begins or ends close before it."""
     x, y, _, yaw = door['pose']
-    (u0, v0), (u1, v1) = ((math.cos(yaw) * (a - x) + math.sin(yaw) * (b - y),
-                           math.cos(yaw) * (b - y) - math.sin(yaw) * (a - x))
-                          for a, b in (start, end))
+    (u0, v0), (u1, v1) = (local((x, y), yaw, at) for at in (start, end))
     share = min(max(v0 / (v0 - v1), 0.0), 1.0) if v0 != v1 else 0.5  # share of the step
     return (door['kind'] != 'window' and abs(u0 + share * (u1 - u0)) <= door['width'] / 2 + 0.05
             and abs(v0 + share * (v1 - v0)) <= SLACK)

@@ -10,6 +10,7 @@ from angen_apps.data.recorder import DEGREES, VALUES, WATTS
 from angen_apps.data.whereabouts import WALKS, Whereabouts
 from angen_apps.data.written import Findings, Written
 from angen_apps.residents.activities import activities
+from angen_tools.common.geometry import local
 
 # m from the middle of a cell to one who moves there, from a door or front to one who opens or
 # shuts it, and from a seat or mat to one on it
@@ -22,6 +23,7 @@ SHUTS = 31.0  # s that it takes to open or shut a door, at most
 STRAIGHT, BELOW = 1.2, 1.0  # m of a walk through a room, and from its sensor
 PLACED = ('cell_', 'area_')  # sensors whose places are known
 FRONT, FULL = 0.9, 5.0  # m between a thing and its front; s of its use from which that opens
+BELL = 2.5  # m between a doorbell and one who rings
 MAT = 0.7  # m between a mat and a person on it
 SITS = (3.0, 1.0)  # s after the begin and before the end of sitting, when the seat is pressed
 LAGS = 2.5  # s between a load and the report of its plug
@@ -40,6 +42,7 @@ def check(findings: Findings, home: Written) -> None:
     _should(findings, home, shares)
     _seats(findings, home)
     _doors(findings, home)
+    _bells(findings, home)
     _fronts(findings, home)
     _plugs(findings, home)
     _runs(findings, home)
@@ -220,13 +223,12 @@ def _doors(findings: Findings, home: Written) -> None:
 
 
 def _crossings(home: Written, door: Any) -> Iterator[tuple[str, float]]:
-    x, y, z, yaw = door['pose']
-    c, s = math.cos(yaw), math.sin(yaw)
+    x, y, _, yaw = door['pose']
     storeys = {home.rooms[room]['storey'] for room in door['rooms'] if room in home.rooms}
     for name, one in home.who.items():
         last = (math.nan, math.nan)
         for time, (px, py, storey) in zip(one.times, one.places):
-            now = c * (px - x) + s * (py - y), c * (py - y) - s * (px - x)
+            now = local((x, y), yaw, (px, py))
             if storey in storeys and last[1] * now[1] < 0 and name in home.people \
                     and max(abs(last[0]), abs(now[0])) < door['width'] / 2 \
                     and max(abs(last[1]), abs(now[1])) < 1.0:
@@ -234,10 +236,25 @@ def _crossings(home: Written, door: Any) -> Iterator[tuple[str, float]]:
             last = now
 
 
+def _bells(findings: Findings, home: Written) -> None:
+    """Who rings is at the bell, or a resident answers the door then."""
+    for time, row in zip(home.times, home.events):
+        if row['kind'] != 'bell' or row['sensor'] not in home.sensors:
+            continue
+        sensor, guest = home.sensors[row['sensor']], home.who.get(row['resident'])
+        fine = any(math.dist((sensor['x'], sensor['y']), place[:2]) < BELL
+                   for place in guest.between(time - EARLY, time + LATE)) if guest else any(
+            interval['activity'] == 'answer_door' for one in home.who.values()
+            for interval in one.intervals(time, time + LATE))
+        findings.say('a bell rings for who comes', fine,
+                     f'{row["time"]} {row["sensor"]} by {row["resident"] or "a visitor"}')
+
+
 def _fronts(findings: Findings, home: Written) -> None:
     """Who takes something out of a thing opens its front."""
+    doors = {door['name'] for door in home.layout['doors']}
     fronts = [s for s in home.layout['sensors'] if s['kind'] == 'door'
-              and s['id'] not in home.faulty]
+              and s['id'] not in home.faulty and s['name'].removesuffix('_contact') not in doors]
     for row in home.truth:
         activity, thing = activities().get(row['activity']), home.things.get(row['thing'])
         if activity is None or thing is None or row['phase'] != 'does' or row['note'] \
@@ -245,8 +262,8 @@ def _fronts(findings: Findings, home: Written) -> None:
                 or row['resident'] not in home.people \
                 or thing['type'] not in activity.opened:
             continue
-        near = [s for s in fronts if math.dist((s['x'], s['y']), (thing['x'], thing['y'])) < FRONT
-                and not s['name'].endswith('_contact')]
+        near = [s for s in fronts if s['room'] == thing['room'] and math.dist(
+            (s['x'], s['y']), (thing['x'], thing['y'])) < FRONT]
         begin = float(row['start'])
         if near:
             findings.say('who uses a thing opens it', any(
@@ -332,9 +349,10 @@ def _runs(findings: Findings, home: Written) -> None:
             if kind == 'stove' else [f'appliance/{name}' for name, thing in home.things.items()
                                      if thing['type'] == 'tv' and f'appliance/{name}' in home.loads]
         if kind and devices and end - start > FULL and not row['note']:
-            middle = start + min(FULL, (end - start) / 2)
+            brief = end - start < 2 * FULL  # the last of cooking, in which the stove is put out
+            at = start if brief else start + FULL
             findings.say('what is used is on', any(
-                home.watts(device, middle) > IDLE for device in devices),
+                home.watts(device, at) > IDLE for device in devices),
                 f'{row["resident"]} at {row["start"]}: {row["activity"]} without {kind}')
     for device, (times, watts) in home.loads.items():
         if device.startswith('stove/'):

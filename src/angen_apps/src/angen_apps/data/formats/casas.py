@@ -13,6 +13,7 @@ from angen_tools.common.files import writing
 
 TYPES = {'motion': 'Control4-Motion', 'area': 'Control4-MotionArea', 'door': 'Control4-Door',
          'item': 'Control4-Item', 'power': 'Control4-Plug', 'mains': 'Control4-Power',
+         'bell': 'Control4-Button',
          'temperature': 'Control4-Temperature', 'light': 'Control4-LightSensor'}
 ENTER = 'Enter_Home'
 ENTERING = 60.0  # s: the longest time in which a resident comes home
