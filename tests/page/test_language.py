@@ -9,12 +9,14 @@ from typing import Any
 
 import pytest
 
+from angen_apps.data.checks.places import PHASES
 from angen_apps.edit.catalog import MORE, SENSORS
 from angen_apps.plan.furnished import PIECES
 from angen_apps.plan.names import USES
 from angen_apps.residents.activities import activities
 from angen_apps.residents.profiles import names
 from angen_apps.web.command import described_kinds
+from angen_apps.web.day import HAPPENED, WORDS
 from angen_apps.web.guard import REASONS
 
 PAGE = Path(__file__).resolve().parents[2] / 'src/angen_apps/page'
@@ -33,6 +35,8 @@ ROOMS = ('hall', 'entrance', 'livingroom', 'bedroom', 'workroom', 'stairs')  # o
 COSTS = ('process', 'physics', 'devices', 'sensors', 'commands', 'snapshots', 'publishing')
 NONE = 'none'  # an empty list
 MARKS = ('robot', 'sensor')  # of a plan
+OF_DAYS = ('door', 'item', 'power')  # sensors of a day that have events
+SOURCES = ('world', 'bell', 'resident', *OF_DAYS)  # of events, beside kinds
 
 
 class Texts(HTMLParser):
@@ -80,6 +84,20 @@ def catalog() -> set[str]:
     return found - {''}
 
 
+def events() -> set[str]:
+    """Words of all events of the simulator, by its source, and of a generated day."""
+    sources = ''.join(path.read_text() for path in (PAGE.parents[1] / 'angen_sim').rglob('*.[ch]*'))
+    said = re.findall(r'\bevent(?: = |\()((?:(?!, "|;)[\s\S])*)|'  # the first argument
+                      r'(?:\.events\(|IdChanges \w+\{|Events\[\] = )([^;)}]*)|'
+                      r'(?:"world", )+("[^"]*")|world_event\(([^;)]*)|'
+                      r'\bsay\(([^;]*), reading\)', sources)
+    found = {word for texts in said for text in texts
+             for word in re.findall(r'"([a-z_]+(?: [a-z]+)*)"', text)} - {'world'}
+    assert len(found) > 50
+    found |= {HAPPENED.get(word, word) for kind in OF_DAYS for word in WORDS[kind]}
+    return found | set(PHASES) | {'rang'}
+
+
 def in_context() -> set[str]:
     """Words of states, each with its kind: texts that a language may have."""
     return {f'{name}: {word.lower()}' for name, kind in described_kinds().items()
@@ -91,7 +109,8 @@ def texts() -> set[str]:
     page = Texts()
     for name in PAGES:
         page.feed((PAGE / name).read_text())
-    found = (page.found - NAMES) | catalog()
+    found = (page.found - NAMES) | catalog() | {words(name) for name in SOURCES} | {
+        f'event: {word}' for word in events()}
     for path in (PAGE / 'js').glob('*.js'):
         found.update(CALL.findall(path.read_text()))
     return found

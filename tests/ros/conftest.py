@@ -32,6 +32,12 @@ def angen(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFac
 
 
 @pytest.fixture
+def paused(angen: Angen) -> Iterator[None]:
+    with angen.paused():
+        yield
+
+
+@pytest.fixture
 def cli(angen: Angen) -> Cli:
     return Cli(angen.master)
 

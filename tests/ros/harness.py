@@ -277,6 +277,39 @@ class Angen:
         publisher.publish(message)
         time.sleep(0.1)
 
+    def spawn(self, name: str, xml: str, x: float = 0.0, y: float = 0.0, z: float = 0.0,
+              on: str = "") -> None:
+        """Add a model at a place, or a sensor on a link."""
+        from angen_msgs.srv import Spawn
+        from geometry_msgs.msg import Point, Pose
+        answer = self.call("/angen/spawn", Spawn, name=name, xml=xml, on=on,
+                           pose=Pose(position=Point(x, y, z)))
+        assert answer.success, answer.message
+
+    def delete(self, *names: str) -> None:
+        from angen_msgs.srv import Delete
+        for name in names:
+            assert self.call("/angen/delete", Delete, name=name).success, name
+
+    def command(self, target: str, text: str) -> None:
+        from angen_msgs.srv import SendCommand
+        answer = self.call("/angen/command", SendCommand, target=target, text=text)
+        assert answer.success, answer.message
+
+    def names(self, kind: str = "") -> list[str]:
+        """Names of all entities, or of those of a kind."""
+        from angen_msgs.srv import List
+        return [entity.name for entity in self.call("/angen/list", List, kind=kind).entities]
+
+    @contextmanager
+    def paused(self) -> Iterator[None]:
+        from std_srvs.srv import Empty
+        self.call("/gazebo/pause_physics", Empty)
+        try:
+            yield
+        finally:
+            self.call("/gazebo/unpause_physics", Empty)
+
     def wait(self, topic: str, kind: type, accept: Callable[[Any], bool] = lambda _: True,
              timeout: float = 30.0) -> Any:
         """Subscribe and return the first message that `accept` accepts."""

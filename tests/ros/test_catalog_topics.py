@@ -7,8 +7,7 @@ import math
 import pytest
 from angen_msgs.msg import Command, DoorState, PlugMsg, PressureMsg, Reading, ReedMsg, RfidMsg, \
     RssiMsg
-from angen_msgs.srv import Delete, List, Spawn
-from geometry_msgs.msg import Pose
+from angen_msgs.srv import List
 from harness import Angen
 from sensor_msgs.msg import BatteryState, Range, RelativeHumidity, Temperature
 from std_msgs.msg import String
@@ -22,15 +21,10 @@ def spawned(angen: Angen):
     names: list[str] = []
 
     def spawn(xml: str, name: str, z: float, x: float = 0.0) -> None:
-        pose = Pose()
-        pose.position.x, pose.position.y, pose.position.z = HERE[0] + x, HERE[1], z
-        pose.orientation.w = 1.0
-        answer = angen.call("/angen/spawn", Spawn, name=name, xml=xml, pose=pose)
-        assert answer.success, answer.message
+        angen.spawn(name, xml, HERE[0] + x, HERE[1], z)
         names.append(name)
     yield spawn
-    for name in names:
-        assert angen.call("/angen/delete", Delete, name=name).success
+    angen.delete(*names)
 
 
 @pytest.mark.parametrize("model, kind, message", [

@@ -14,7 +14,6 @@ import pytest
 from angen_msgs.srv import Delete, List, Step
 from harness import Angen, Cli, Master, open_terminal, own_terminal
 from gazebo_msgs.msg import ContactsState
-from std_srvs.srv import Empty
 
 
 @pytest.fixture
@@ -151,13 +150,10 @@ def test_an_elevator_that_is_not_there(cli: Cli) -> None:
 def test_what_an_accepted_command_waits_for(cli: Cli, angen: Angen, spawned: list[str]) -> None:
     spawned.append('cli_lift')
     cli.does('spawn', 'model', 'model://elevator', 'cli_lift', '--pose', '-9 -9 0.3')
-    angen.call('/gazebo/pause_physics', Empty)
-    try:
+    with angen.paused():
         angen.call('/angen/step', Step, ticks=6000)
         assert cli.does('set', 'elevator', 'cli_lift', '1').endswith(
             'Floor 1 is executed when the simulation is no longer paused')
-    finally:
-        angen.call('/gazebo/unpause_physics', Empty)
     assert cli.does('set', 'elevator', 'cli_lift', '0').endswith('; Floor 0 is executed next')
     assert 'Floor0 to Floor1' in cli.fails('set', 'elevator', 'cli_lift', '2')
 
@@ -198,16 +194,13 @@ def test_the_table_can_be_filtered(cli: Cli) -> None:
 
 def test_a_table_that_lacks_a_reading_ends_with_1(cli: Cli, angen: Angen, spawned: list[str]
                                                   ) -> None:
-    angen.call('/gazebo/pause_physics', Empty)
-    try:
+    with angen.paused():
         spawned.append('cli_silent')
         cli.does('spawn', 'humidity', 'cli_silent', '--pose', '0 0 1')
         done = cli.run('watch', '--once', 'cli_silent')
         assert done.returncode == 1 and 'humidity  cli_silent  -' in done.stdout
         assert done.stderr == ('angen: no reading of humidity cli_silent: '
                                'the simulation is paused\n')
-    finally:
-        angen.call('/gazebo/unpause_physics', Empty)
     assert 'cli_silent' in cli.does('watch', '--once', 'cli_silent')
 
 
@@ -246,7 +239,9 @@ def test_a_live_table_ends_by_a_key_and_cleans_the_terminal(cli: Cli, key: bytes
     while row not in shown:
         shown += os.read(ours, 4096)
     os.write(ours, key)
-    assert watching.wait(30) == 0
+    code = watching.wait(30)
+    os.set_blocking(ours, False)
+    assert code == 0, os.read(ours, 1 << 16)
     assert termios.tcgetattr(theirs) == before
     os.close(theirs)
     os.close(ours)

@@ -9,7 +9,7 @@ import pytest
 import rospy
 from angen_apps.controls.offers import SEND
 from angen_msgs.msg import DoorState, Home as HomeMessage, LampState
-from angen_msgs.srv import Delete, List, SendCommand, Spawn
+from angen_msgs.srv import List
 from geometry_msgs.msg import Point, Pose, PoseStamped, Twist
 from gazebo_msgs.msg import ModelState
 from gazebo_msgs.srv import SetModelState
@@ -125,15 +125,13 @@ def test_the_menu_follows_a_robot_to_another_floor(home: Angen, markers: Inbox) 
     upper = rooms(home, 1)
     state = ModelState('turtlebot', Pose(position=Point(5.3, 2.0, 4.001)), Twist(), 'world')
     home.call('/gazebo/set_model_state', SetModelState, model_state=state)
-    home.call('/angen/command', SendCommand, target='elevator/all', text='Floor1')
+    home.command('elevator/all', 'Floor1')
     until(lambda: sendable(marker(markers, 'drive/turtlebot')) == upper, 'the rooms of floor 1')
 
 
 def test_markers_come_and_go_with_models(home: Angen, markers: Inbox) -> None:
     with Inbox(f'{TOPIC}/update', InteractiveMarkerUpdate) as updates:
-        answer = home.call('/angen/spawn', Spawn, name='attic_lamp0', xml='model://ceiling_lamp',
-                           pose=Pose(position=Point(3, 3, 2.5)))
-        assert answer.success, answer.message
+        home.spawn('attic_lamp0', 'model://ceiling_lamp', 3, 3, 2.5)
         updates.wait(lambda m: any(one.name == 'lamp/attic0' for one in m.markers), 'its marker')
-        home.call('/angen/delete', Delete, name='attic_lamp0')
+        home.delete('attic_lamp0')
         updates.wait(lambda m: 'lamp/attic0' in m.erases, 'its end')

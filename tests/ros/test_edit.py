@@ -303,29 +303,21 @@ def test_two_windows_are_told(editor: Editor) -> None:
     page.until('return angen.kept && !angen.conflict')
 
 
-def test_simulate_shows_the_home_live(editor: Editor) -> None:
+@pytest.mark.parametrize('button, ready, script, shown', [
+    ('#simulate', '!!angen.home.scene', 'angen.home.rooms.map((room) => room.name).sort()',
+     ['bedroom0', 'kitchen0', 'livingroom0']),
+    ('#a-day', '!!angen.home.status?.replay',
+     'angen.home.entities.filter((e) => e.kind === "person").length', 2)])
+def test_the_home_is_shown_live_or_for_a_day(editor: Editor, button: str, ready: str, script: str,
+                                             shown: object) -> None:
     page = editor.page
     drawing = page.driver.current_window_handle
-    page.press('#simulate')
-    until(lambda: len(page.driver.window_handles) == 2, 'a window of the home', LIMIT)
+    page.press(button)
+    until(lambda: len(page.driver.window_handles) == 2, 'another window', LIMIT)
     page.driver.switch_to.window(next(
         each for each in page.driver.window_handles if each != drawing))
-    page.until('return window.angen?.home?.entities?.length > 0 && !!angen.home.scene')
-    assert page.run('return angen.home.rooms.map((room) => room.name).sort()') == [
-        'bedroom0', 'kitchen0', 'livingroom0']
-    page.driver.close()
-    page.driver.switch_to.window(drawing)
-
-
-def test_a_day_of_these_people_is_played(editor: Editor) -> None:
-    page = editor.page
-    drawing = page.driver.current_window_handle
-    page.press('#a-day')
-    until(lambda: len(page.driver.window_handles) == 2, 'a window of the player', LIMIT)
-    page.driver.switch_to.window(next(
-        each for each in page.driver.window_handles if each != drawing))
-    page.until('return !!window.angen?.home?.status?.replay && angen.home.entities.length > 0')
-    assert page.run('return angen.home.entities.filter((e) => e.kind === "person").length') == 2
+    page.until(f'return window.angen?.home?.entities?.length > 0 && {ready}')
+    assert page.run(f'return {script}') == shown
     page.driver.close()
     page.driver.switch_to.window(drawing)
 

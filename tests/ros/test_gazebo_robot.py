@@ -8,7 +8,7 @@ from typing import Any, Iterator
 
 import pytest
 from harness import Angen, Inbox, Master, end, until
-from angen_msgs.srv import Delete, List, Spawn
+from angen_msgs.srv import List, Spawn
 from geometry_msgs.msg import Pose, Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, JointState, LaserScan
@@ -192,4 +192,4 @@ def test_a_second_one_in_a_namespace_is_apart(server: Angen) -> None:
     with Inbox('/odom', Odometry) as first:
         server.wait('/tb3_0/odom', Odometry, lambda m: m.pose.pose.position.y > 1.9)
         assert all(m.pose.pose.position.y < 1.0 for m in first.messages)
-    assert server.call('/angen/delete', Delete, name='second').success
+    server.delete('second')

@@ -4,9 +4,8 @@ from __future__ import annotations
 from pathlib import Path
 import angen as simulator
 from angen_msgs.msg import Home as HomeMessage
-from angen_msgs.srv import Delete, List, Spawn
+from angen_msgs.srv import List
 from angen_tools.common.home import Home
-from geometry_msgs.msg import Pose
 from harness import Angen, Inbox
 
 ROOM = """<sdf version="1.6"><model name="shed"><static>true</static><link name="l"/>
@@ -31,15 +30,13 @@ def test_the_message_is_the_home_of_the_world(home: Angen) -> None:
 
 
 def test_it_changes_with_spawn_and_delete(home: Angen) -> None:
-    pose = Pose()
-    pose.position.x = 30.0
     with Inbox('/angen/home', HomeMessage) as inbox:
         inbox.wait(lambda message: all(r.name != 'shed' for r in message.rooms), 'no shed')
-        assert home.call('/angen/spawn', Spawn, name='shed', xml=ROOM, pose=pose).success
+        home.spawn('shed', ROOM, 30.0)
         message = inbox.wait(lambda m: any(r.name == 'shed' for r in m.rooms), 'the shed')
         shed = next(room for room in message.rooms if room.name == 'shed')
         assert [point.x for point in shed.polygon.points] == [30, 32, 32, 30]
-        assert home.call('/angen/delete', Delete, name='shed').success
+        home.delete('shed')
         inbox.wait(lambda message: all(r.name != 'shed' for r in message.rooms), 'its end')
 
 

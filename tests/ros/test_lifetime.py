@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import fcntl
+import os
 import signal
 import subprocess
 import time
 from pathlib import Path
 
 import pytest
+from angen_tools.common.port import free_port
 from harness import WORLD, Master, end, node_binary, own_node, until, world_file
 
 
@@ -63,6 +65,21 @@ def test_interrupt_ends_it(tmp_path: Path) -> None:
         node.process.send_signal(signal.SIGINT)
         assert node.process.wait(20) == 0
         assert not node.master.topics()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_while_it_waits_for_a_master(tmp_path: Path, number: int) -> None:
+    uri = f"http://127.0.0.1:{free_port()}"
+    node = subprocess.Popen([str(node_binary()), str(world_file(WORLD, tmp_path))], text=True,
+                            stderr=subprocess.PIPE, env={**os.environ, "ROS_MASTER_URI": uri})
+    assert node.stderr is not None
+    try:
+        assert node.stderr.readline() == f"angen_node: waiting for the ROS master at {uri}\n"
+        node.send_signal(number)
+        assert node.wait(20) == 0
+    finally:
+        node.kill()
+        node.stderr.close()
 
 
 def test_a_second_node_of_the_name_leaves_the_first_alone(tmp_path: Path) -> None:

@@ -10,8 +10,6 @@ from pathlib import Path
 from typing import Iterator
 
 import pytest
-from angen_msgs.srv import Delete, SendCommand, Spawn
-from geometry_msgs.msg import Point, Pose
 from harness import ROOT, Angen, end, until
 from tests.angen_apps.mqtt.mosquitto import Client, Mosquitto
 from tests.angen_apps.mqtt.schema import errors
@@ -87,12 +85,6 @@ def house(angen: Angen, mosquitto: Mosquitto, client: Client,
     client.has(STATE, 'offline')
 
 
-def spawn(angen: Angen, name: str, model: str, *at: float) -> None:
-    answer = angen.call('/angen/spawn', Spawn, name=name, xml=f'model://{model}',
-                        pose=Pose(position=Point(*at)))
-    assert answer.success, answer.message
-
-
 def test_discovery(house: House, client: Client) -> None:
     configs = client.configs()
     assert [each for topic, config in configs.items() for each in errors(topic, config)] == []
@@ -135,16 +127,8 @@ def test_a_rejected_command_is_told(house: House, client: Client) -> None:
 def test_motion_is_seen_and_so_are_faults(house: House, client: Client, angen: Angen) -> None:
     client.has('angen/pir/eye/motion', 'OFF')
     for fault, state in ('false_alarm per_day=80000', 'ON'), ('Off', 'OFF'):
-        assert angen.call('/angen/command', SendCommand, target='fault/pir/eye', text=fault).success
+        angen.command('fault/pir/eye', fault)
         client.has('angen/pir/eye/motion', state)
-
-
-def test_things_come_and_go(house: House, client: Client, angen: Angen) -> None:
-    spawn(angen, 'spare_lamp0', 'ceiling_lamp', 2.0, -4.0, 2.5)
-    until(lambda: 'angen/lamp/spare0/state' in client.retained, 'the lamp is there')
-    assert angen.call('/angen/delete', Delete, name='spare_lamp0').success
-    until(lambda: not [topic for topic in list(client.retained) if '/spare' in topic
-                       or '_spare' in topic], 'all of the lamp is gone')
 
 
 def test_a_broker_that_restarts_gets_everything_again(house: House, client: Client,
@@ -161,11 +145,11 @@ def test_a_broker_that_restarts_gets_everything_again(house: House, client: Clie
 
 def test_the_will_of_a_killed_bridge_and_its_leftovers(house: House, client: Client, angen: Angen
                                                        ) -> None:
-    spawn(angen, 'old_lamp0', 'ceiling_lamp', 3.0, -4.0, 2.5)
+    angen.spawn('old_lamp0', 'model://ceiling_lamp', 3.0, -4.0, 2.5)
     until(lambda: 'angen/lamp/old0/state' in client.retained, 'the lamp is there')
     house.bridge.kill()
     client.has(STATE, 'offline')
-    assert angen.call('/angen/delete', Delete, name='old_lamp0').success
+    angen.delete('old_lamp0')
     for topic, payload in OTHERS.items():
         client.send(topic, payload, retain=True)
     house.start()
@@ -209,18 +193,3 @@ def test_a_flood_is_survived_and_the_last_command_holds(house: House, client: Cl
     assert house.bridge.memory() < before + 50.0
     assert len(house.bridge.lines()) < 15, house.bridge.lines()
     assert not [line for line in house.bridge.lines() if len(line) > 600 or 'Traceback' in line]
-
-
-def test_its_cost_is_its_own(house: House, client: Client) -> None:
-    """A paused simulation sends nothing but its own time and speed."""
-    client.send('angen/simulation/simulation/paused/set', 'ON')
-    client.has('angen/simulation/simulation/paused', 'ON')
-    client.send('fence', '1')
-    client.gets('fence')
-    seen = len(client.received)
-    client.send('angen/bridge/hello', 'probe')
-    client.gets('angen/bridge/hello', lambda text: text.startswith('probe '))
-    assert [each for each in client.received[seen:] if '/simulation/' not in each[0]
-            and '/hello' not in each[0]] == []
-    client.send('angen/simulation/simulation/paused/set', 'OFF')
-    client.has('angen/simulation/simulation/paused', 'OFF')

@@ -12,8 +12,7 @@ import roslaunch
 import rospy
 import tf2_ros
 from angen_msgs.msg import DoorState
-from angen_msgs.srv import Spawn
-from geometry_msgs.msg import Pose, PoseStamped, TransformStamped
+from geometry_msgs.msg import PoseStamped, TransformStamped
 from harness import WORLD, Angen, Inbox, Master, end, until, world_file
 from nav_msgs.msg import OccupancyGrid, Path as Plan
 from tf2_msgs.msg import TFMessage
@@ -90,11 +89,7 @@ def test_a_door_on_the_path_opens_and_no_other_one(site: Angen) -> None:
             assert {m.mode for m in states.messages} == {DoorState.CLOSED}
             site.send('/test_plan', through)
             states.wait(lambda m: m.mode == DoorState.OPEN, 'the door opens')
-        pose = Pose()
-        pose.position.y, pose.position.z = 6.0, 0.02
-        done = site.call('/angen/spawn', Spawn, name='kitchen_door0', pose=pose,
-                         xml='model://kitchen_door')
-        assert done.success, done.message
+        site.spawn('kitchen_door0', 'model://kitchen_door', 0.0, 6.0, 0.02)
         for each in through.poses:
             each.pose.position.x, each.pose.position.y = each.pose.position.x - 0.6, 5.55
         site.send('/test_plan', through)

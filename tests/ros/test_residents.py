@@ -10,7 +10,6 @@ from typing import Iterator
 import pytest
 from angen_apps.plan.apartment import apartment
 from angen_apps.plan.writer import write_world
-from angen_msgs.srv import List
 from gazebo_msgs.srv import GetModelState
 from harness import ROOT, Angen, Inbox, Master, end
 from std_msgs.msg import String
@@ -56,7 +55,7 @@ def test_a_resident_is_where_the_truth_says(lived) -> None:
     assert state.success
     at = state.pose.position
     assert math.dist((at.x, at.y), (row['x'], row['y'])) < 1.5  # she may have stepped on
-    walkers = [e.name for e in angen.call('/angen/list', List, kind='person').entities]
+    walkers = angen.names('person')
     assert 'tom' in walkers
 
 

@@ -8,8 +8,6 @@ from typing import Callable, Iterator
 
 import pytest
 import rospy
-from angen_msgs.srv import Delete, Spawn
-from geometry_msgs.msg import Pose
 from harness import Angen, Inbox, end, until
 from rmf_door_msgs.msg import DoorMode, DoorRequest, DoorState
 from rmf_lift_msgs.msg import LiftRequest, LiftState
@@ -30,10 +28,8 @@ def rmf(angen: Angen, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path
                                    stderr=out)
     try:
         until(lambda: 'serving' in log.read_text(), 'the node serves')
-        pose = Pose()
-        pose.position.x, pose.position.z = -6.0, 0.3  # its cabin's floor is below its origin
-        spawned = angen.call('/angen/spawn', Spawn, name='lift', xml='model://elevator', pose=pose)
-        assert spawned.success, spawned.message
+        # its cabin's floor is below its origin
+        angen.spawn('lift', 'model://elevator', -6.0, 0.0, 0.3)
         yield log
     finally:
         code = end(process)
@@ -143,7 +139,7 @@ def test_a_reset_ends_sessions(angen: Angen, lifts: Inbox) -> None:
 
 
 def test_what_is_deleted_is_silent(angen: Angen, lifts: Inbox) -> None:
-    assert angen.call('/angen/delete', Delete, name='lift').success
+    angen.delete('lift')
     time.sleep(0.5)
     seen, now = len(lifts.messages), rospy.get_time()
     until(lambda: rospy.get_time() > now + 3.0, 'time advances')

@@ -7,10 +7,9 @@ from typing import Any, Iterator
 
 import pytest
 from harness import Angen, Inbox, Master, until
-from angen_msgs.srv import Spawn
 from gazebo_msgs.msg import ContactsState
 from gazebo_msgs.srv import GetJointProperties
-from geometry_msgs.msg import Pose, Vector3Stamped, Wrench, WrenchStamped
+from geometry_msgs.msg import Vector3Stamped, Wrench, WrenchStamped
 from sensor_msgs.msg import (CameraInfo, Image, Imu, JointState, NavSatFix, PointCloud, PointCloud2,
                              Range)
 from std_msgs.msg import Float64
@@ -101,11 +100,8 @@ ROBOT = f"""<robot name="bot">{link('body', 0.3, 20.0)}{arm('left', 0.3)}
 def bot(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
         ) -> Iterator[Angen]:
     """The node with the world, and the robot in it."""
-    pose = Pose()
-    pose.position.z = 0.15
     with master.serving(WORLD, tmp_path_factory.mktemp('robots')) as angen:
-        done = angen.call('/angen/spawn', Spawn, name='bot', xml=ROBOT, pose=pose)
-        assert done.success, done.message
+        angen.spawn('bot', ROBOT, z=0.15)
         yield angen
 
 

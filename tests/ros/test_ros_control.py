@@ -13,7 +13,6 @@ from typing import Iterator
 
 import pytest
 import rospy
-from angen_msgs.srv import Delete, Spawn
 from gazebo_msgs.srv import GetJointProperties
 from harness import ROOT, TREE, Angen, Master, until, without_sanitizer
 from std_msgs.msg import Float64
@@ -36,8 +35,7 @@ def arm(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFacto
     master.environment['ANGEN_PLUGIN_PATH'] = str(LIBRARIES)
     with master.serving(WORLD, tmp_path_factory.mktemp('arm')) as angen:
         master.environment = before
-        done = angen.call('/angen/spawn', Spawn, name='arm', xml=ARM)
-        assert done.success, done.message
+        angen.spawn('arm', ARM)
         yield angen
 
 
@@ -66,13 +64,13 @@ def test_a_service_that_waits_for_an_update_does_not_keep_the_model(arm: Angen) 
     waiting.start()
     waiting.join(0.5)
     assert waiting.is_alive(), 'it waits'
-    assert arm.call('/angen/delete', Delete, name='arm').success
+    arm.delete('arm')
     waiting.join(10.0)
     assert not waiting.is_alive()
     until(lambda: '/arm/controller_manager/switch' not in
           [name for name, _ in arm.master.api.getSystemState('/test')[2][2]], 'it is unregistered')
     arm.call('/gazebo/unpause_physics', Empty)
-    assert arm.call('/angen/spawn', Spawn, name='arm', xml=ARM).success
+    arm.spawn('arm', ARM)
     arm.send('/arm/controller_manager/reach', Float64(-0.3))
     until(lambda: reached(arm, 'turn', -0.3), 'another of its name', 20.0)
 

@@ -6,9 +6,7 @@ from typing import Any
 
 import pytest
 from angen_msgs.msg import DoorState, Scene, SceneChanges, Summary
-from angen_msgs.srv import Delete, SendCommand, Spawn
 from gazebo_msgs.msg import LinkStates
-from geometry_msgs.msg import Point, Pose
 from harness import WORLD, Angen, Inbox, until
 from std_srvs.srv import Empty
 
@@ -42,16 +40,11 @@ def scene_now() -> Any:
         return inbox.wait(lambda _: True, 'a scene')
 
 
-def command(angen: Angen, target: str, text: str) -> None:
-    answer = angen.call('/angen/command', SendCommand, target=target, text=text)
-    assert answer.success, answer.message
-
-
 def test_poses_are_those_of_link_states(angen: Angen) -> None:
     followed = Followed(scene_now())
     with Inbox(CHANGES, SceneChanges) as inbox:
         inbox.wait(lambda _: True, 'all poses')
-        command(angen, 'door/all', 'Open')
+        angen.command('door/all', 'Open')
         angen.wait('/angen/door/bathroom0', DoorState, lambda state: state.position < -0.5)
         angen.call('/gazebo/pause_physics', Empty)  # a door is between shut and open
         with Inbox('/gazebo/link_states', LinkStates) as states:
@@ -69,7 +62,7 @@ def test_poses_are_those_of_link_states(angen: Angen) -> None:
         angen.call('/gazebo/unpause_physics', Empty)
     begun = Followed(followed.scene)
     assert any(math.dist(a, b) > 0.05 for a, b in zip(begun.poses, followed.poses))
-    command(angen, 'door/all', 'Close')
+    angen.command('door/all', 'Close')
 
 
 def test_levels_are_those_of_lamps(angen: Angen) -> None:
@@ -77,13 +70,13 @@ def test_levels_are_those_of_lamps(angen: Angen) -> None:
     lamp = next(light for light in followed.scene.lights if light.model)
     with Inbox(CHANGES, SceneChanges) as inbox:
         inbox.wait(lambda _: True, 'all levels')
-        command(angen, 'lamp/all', 'Dim 40')
+        angen.command('lamp/all', 'Dim 40')
 
         def is_dimmed() -> bool:
             followed.take(list(inbox.messages))
             return abs(followed.levels.get(lamp.name, 0.0) - 0.4) < 1e-6
         until(is_dimmed, 'the level')
-    command(angen, 'lamp/all', 'Off')
+    angen.command('lamp/all', 'Off')
 
 
 def test_python_draws_what_the_topic_has(angen: Angen) -> None:
@@ -105,9 +98,7 @@ def test_another_scene_comes_when_models_do(angen: Angen) -> None:
     with Inbox(SCENE, Scene) as scenes, Inbox(CHANGES, SceneChanges) as changes:
         before = scenes.wait(lambda _: True, 'a scene')
         changes.wait(lambda _: True, 'its poses')
-        answer = angen.call('/angen/spawn', Spawn, name='seen_pir', xml='model://pir',
-                            pose=Pose(position=Point(1.0, 1.0, 2.0)))
-        assert answer.success, answer.message
+        angen.spawn('seen_pir', 'model://pir', 1.0, 1.0, 2.0)
         after = scenes.wait(lambda scene: any(link.model == 'seen_pir' for link in scene.links),
                             'the scene with it')
         assert after.revision != before.revision
@@ -115,13 +106,13 @@ def test_another_scene_comes_when_models_do(angen: Angen) -> None:
         complete = changes.wait(lambda message: message.revision == after.revision, 'its poses')
         moving = {i for i, link in enumerate(after.links) if link.moves}
         assert set(complete.links) == moving and len(complete.lights) == len(after.lights)
-        angen.call('/angen/delete', Delete, name='seen_pir')
+        angen.delete('seen_pir')
         scenes.wait(lambda scene: scene.revision > after.revision and not any(
             link.model == 'seen_pir' for link in scene.links), 'the scene without it')
 
 
 def test_a_summary_has_the_numbers_of_its_words(angen: Angen) -> None:
-    command(angen, 'lamp/all', 'Dim 40')
+    angen.command('lamp/all', 'Dim 40')
     with Inbox('/angen/summary', Summary) as inbox:
         entry = until(lambda: next(
             (e for message in list(inbox.messages) for e in message.entries
@@ -132,4 +123,4 @@ def test_a_summary_has_the_numbers_of_its_words(angen: Angen) -> None:
     values = dict(zip(names, entry.values))
     assert values['on'] == 1.0 and values['level'] == pytest.approx(40.0)
     assert f"{values['luminous_flux']:.0f} lm" in entry.text
-    command(angen, 'lamp/all', 'Off')
+    angen.command('lamp/all', 'Off')

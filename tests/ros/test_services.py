@@ -9,7 +9,7 @@ from angen_msgs.msg import PirMsg, Stats
 from angen_msgs.srv import Delete, List, Save, Spawn, Step
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from harness import Angen, Inbox, RawText, until
-from geometry_msgs.msg import Pose, Twist
+from geometry_msgs.msg import Point, Pose, Quaternion, Twist
 from nav_msgs.msg import Odometry
 from rosgraph import Master, MasterException
 from rosgraph_msgs.msg import Clock
@@ -23,51 +23,30 @@ SENSOR = """<sensor name="beam" type="ray"><update_rate>10</update_rate>
   <plugin name="pir" filename="libpir_controller.so"/></sensor>"""
 
 
-def at(x: float, y: float, z: float) -> Pose:
-    pose = Pose()
-    pose.position.x, pose.position.y, pose.position.z = x, y, z
-    return pose
-
-
-def names(angen: Angen, kind: str = "") -> list[str]:
-    return [entity.name for entity in angen.call("/angen/list", List, kind=kind).entities]
-
-
-@pytest.fixture
-def paused(angen: Angen):
-    angen.call("/gazebo/pause_physics", Empty)
-    yield
-    angen.call("/gazebo/unpause_physics", Empty)
-
-
 def test_a_spawned_sensor_speaks_and_a_deleted_one_is_gone(angen: Angen) -> None:
-    answer = angen.call("/angen/spawn", Spawn, name="p1", xml=PIR, pose=at(1, 1, 1))
-    assert answer.success, answer.message
+    angen.spawn("p1", PIR, 1, 1, 1)
     assert angen.master.topics()["/angen/pir/p1"] == "angen_msgs/PirMsg"
     message = angen.wait("/angen/pir/p1", PirMsg)
     assert message.header.frame_id == "p1" and message.threshold > 0
-    assert angen.call("/angen/delete", Delete, name="p1").success
+    angen.delete("p1")
     assert "/angen/pir/p1" not in angen.master.topics()
-    assert "p1" not in names(angen)
+    assert "p1" not in angen.names()
 
 
 def test_a_sensor_on_a_link(angen: Angen) -> None:
-    answer = angen.call("/angen/spawn", Spawn, name="p2", xml=SENSOR,
-                        on="turtlebot::base_footprint", pose=at(0, 0, 0.5))
-    assert answer.success, answer.message
+    angen.spawn("p2", SENSOR, 0, 0, 0.5, on="turtlebot::base_footprint")
     angen.wait("/angen/pir/p2", PirMsg)
     entity, = [e for e in angen.call("/angen/list", List, kind="pir").entities if e.name == "p2"]
     assert entity.model == "turtlebot" and entity.topic == "/angen/pir/p2"
     assert abs(entity.pose.position.z - 0.5) < 0.05
     assert "p2" in angen.call("/angen/save", Save).xml
-    assert angen.call("/angen/delete", Delete, name="p2").success
+    angen.delete("p2")
 
 
 def test_what_cannot_be_spawned_is_explained(angen: Angen) -> None:
-    before = names(angen)
-    nan = at(math.nan, 0, 0)
-    stretched = at(0, 0, 0)
-    stretched.orientation.w = 3.0
+    before = angen.names()
+    nan = Pose(position=Point(x=math.nan))
+    stretched = Pose(orientation=Quaternion(w=3.0))
     wrong = [
         (dict(name="", xml=PIR), "empty"),
         (dict(name="eye", xml=PIR), "eye"),
@@ -85,7 +64,7 @@ def test_what_cannot_be_spawned_is_explained(angen: Angen) -> None:
     for fields, part in wrong:
         answer = angen.call("/angen/spawn", Spawn, **fields)
         assert not answer.success and answer.message and part in answer.message, (fields, answer)
-    assert names(angen) == before
+    assert angen.names() == before
 
 
 def test_what_cannot_be_deleted_is_explained(angen: Angen) -> None:
@@ -159,9 +138,9 @@ def test_list_tells_kinds_topics_and_types(angen: Angen) -> None:
     for entity in entities.values():
         if entity.topic:
             assert published[entity.topic] == entity.type, entity
-    assert names(angen) == sorted(names(angen))
-    assert names(angen, "lamp") == ["kitchen0"]
-    assert names(angen, "unicorn") == []
+    assert angen.names() == sorted(angen.names())
+    assert angen.names("lamp") == ["kitchen0"]
+    assert angen.names("unicorn") == []
 
 
 def test_ready_says_that_everything_is_there(angen: Angen) -> None:
@@ -180,19 +159,17 @@ def test_diagnostics_warn_of_a_sensor_with_a_fault(angen: Angen) -> None:
         values = {v.key: v.value for v in status(before, "time").values}
         assert float(values["simulated time (s)"]) > 0 and values["requested rate"] == "1"
         broken = SENSOR.replace('so"/>', 'so"><fault>stuck from=0.5 lasts=1000</fault></plugin>')
-        answer = angen.call("/angen/spawn", Spawn, name="broken", xml=broken,
-                            on="turtlebot::base_footprint", pose=at(0, 0, 0.5))
-        assert answer.success, answer.message
+        angen.spawn("broken", broken, 0, 0, 0.5, on="turtlebot::base_footprint")
         after = inbox.wait(lambda m: status(m, "sensors").level == DiagnosticStatus.WARN,
                            "a warning", 20)
     told = {v.key: v.value for v in status(after, "sensors").values}
     assert told["broken"] == "stuck, pir: begins"
-    assert angen.call("/angen/delete", Delete, name="broken").success
+    angen.delete("broken")
 
 
 def test_stats_count(angen: Angen) -> None:
     def count(*kinds: str) -> int:
-        return sum(len(names(angen, kind)) for kind in kinds)
+        return sum(len(angen.names(kind)) for kind in kinds)
 
     stats = angen.wait("/angen/stats", Stats)
     assert stats.step == 0.001

@@ -20,5 +20,5 @@ def test_a_thousand_cycles_leave_nothing_behind(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     with (tmp_path / 'soak.csv').open() as file:
         rows = list(csv.DictReader(file))
-    assert int(rows[-1]['cycle']) == CYCLES
+    assert int(rows[-1]['cycle']) in (CYCLES, 2 * CYCLES)  # twice, if memory seemed to grow
     assert all(float(row['rss_mb']) > 1 and int(row['descriptors']) > 10 for row in rows)

@@ -7,20 +7,13 @@ from pathlib import Path
 from typing import Any
 
 from angen_msgs.msg import DoorState, Stats
-from angen_msgs.srv import Delete, Spawn
-from geometry_msgs.msg import Point, Pose, Quaternion
 from harness import Angen, Inbox, until
 from lxml import etree
 from std_msgs.msg import String
-from std_srvs.srv import Empty
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 WORLDS = Path(__file__).resolve().parents[2] / "worlds"
-
-
-def at(x: float, y: float, z: float) -> Pose:
-    return Pose(Point(x, y, z), Quaternion(0.0, 0.0, 0.0, 1.0))
 
 
 def keyed(arrays: list[Any]) -> dict[tuple[str, int], Marker]:
@@ -82,12 +75,11 @@ def test_a_spawn_sends_what_it_adds_and_no_more(angen: Angen) -> None:
         until(lambda: inbox.messages, "the whole world")
         whole = keyed(inbox.messages).keys()
         before = len(inbox.messages)
-        assert angen.call("/angen/spawn", Spawn, name="newcomer", xml="model://pir",
-                          pose=at(0.0, 3.0, 2.0)).success
+        angen.spawn("newcomer", "model://pir", 0.0, 3.0, 2.0)
         until(lambda: len(keyed(inbox.messages)) > len(whole), "its markers")
         again = keyed(inbox.messages[before:]).keys() & whole
         assert not {key for key in again if "rays" not in key[0]}
-        assert angen.call("/angen/delete", Delete, name="newcomer").success
+        angen.delete("newcomer")
 
 
 def test_frames_are_sent_again_only_with_a_new_one(angen: Angen) -> None:
@@ -99,30 +91,28 @@ def test_frames_are_sent_again_only_with_a_new_one(angen: Angen) -> None:
         frames = children(until(lambda: inbox.messages, "frames")[-1])
         for name in ("one", "two", "three"):
             sent = len(inbox.messages)
-            assert angen.call("/angen/spawn", Spawn, name=name, xml="model://pir").success
+            angen.spawn(name, "model://pir")
             assert name in children(until(lambda: inbox.messages[sent:], "its frame")[0])
             frames |= {name}
             until(lambda: children(inbox.messages[-1]) >= frames, "all of them")
             assert len(inbox.messages) <= sent + 2  # its own, then all
-            assert angen.call("/angen/delete", Delete, name=name).success
+            angen.delete(name)
             frames -= {name}
-        assert angen.call("/gazebo/pause_physics", Empty) is not None  # the world's time is paused
-        for name in ("four", "five"):
-            assert angen.call("/angen/spawn", Spawn, name=name, xml="model://pir").success
-        until(lambda: children(inbox.messages[-1]) >= frames | {"four", "five"}, "all in a pause")
-        for name in ("four", "five"):
-            assert angen.call("/angen/delete", Delete, name=name).success
-        assert angen.call("/gazebo/unpause_physics", Empty) is not None
+        with angen.paused():  # the world's time
+            for name in ("four", "five"):
+                angen.spawn(name, "model://pir")
+            until(lambda: children(inbox.messages[-1]) >= frames | {"four", "five"},
+                  "all in a pause")
+            angen.delete("four", "five")
         sent, began = len(inbox.messages), time.monotonic()
         for i in range(20):
-            assert angen.call("/angen/spawn", Spawn, name=f"more_{i}", xml="model://pir").success
+            angen.spawn(f"more_{i}", "model://pir")
         more = {f"more_{i}" for i in range(20)}
         until(lambda: children(inbox.messages[-1]) >= frames | more, "all of many")
         assert set().union(*map(children, inbox.messages[sent:])) >= more
         whole = [m for m in inbox.messages[sent:] if children(m) >= frames]
         assert len(whole) <= 2 + time.monotonic() - began
-        for name in more:
-            assert angen.call("/angen/delete", Delete, name=name).success
+        angen.delete(*more)
 
 
 def box(name: str, middle: str, size: str) -> str:
@@ -144,7 +134,7 @@ def test_a_lit_lamp_lights_the_room_around_it(angen: Angen) -> None:
 
     with Inbox("/angen/markers", MarkerArray) as inbox:
         until(lambda: inbox.messages, "the whole world")
-        assert angen.call("/angen/spawn", Spawn, name="house", xml=house).success
+        angen.spawn("house", house)
         until(lambda: "hall" in {m.text for m in keyed(list(inbox.messages)).values()}, "its label")
         assert not lit(inbox)
         angen.send("/gazebo/Light_controller", String("Dim, kitchen0, 10"))
@@ -155,7 +145,7 @@ def test_a_lit_lamp_lights_the_room_around_it(angen: Angen) -> None:
         assert groups >= {"lit rooms south 0", "lit rooms west 0"}  # on outermost walls
         angen.send("/gazebo/Light_controller", String("Off, kitchen0"))
         until(lambda: not lit(inbox), "no light")
-        assert angen.call("/angen/delete", Delete, name="house").success
+        angen.delete("house")
         until(lambda: "hall" not in {m.text for m in keyed(list(inbox.messages)).values()},
               "no hall")
 
@@ -168,15 +158,13 @@ def test_rays_change_groups_while_a_sensor_fires(angen: Angen) -> None:
             '<collision name="c"><geometry><box><size>0.1 1 1</size></box></geometry></collision>'
             '</link></model></sdf>')
     with Inbox("/angen/markers", MarkerArray) as inbox:
-        assert angen.call("/angen/spawn", Spawn, name="beam", xml="model://optical_switch",
-                          pose=at(-20.0, -20.0, 5.0)).success
+        angen.spawn("beam", "model://optical_switch", -20.0, -20.0, 5.0)
         until(lambda: of_beams(inbox) == {"idle switch beams 0"}, "rays of a sensor at rest")
-        assert angen.call("/angen/spawn", Spawn, name="wall", xml=wall,
-                          pose=at(-19.75, -20.0, 5.0)).success
+        angen.spawn("wall", wall, -19.75, -20.0, 5.0)
         until(lambda: of_beams(inbox) == {"switch beams 0"}, "rays of a sensor that fires")
-        assert angen.call("/angen/delete", Delete, name="wall").success
+        angen.delete("wall")
         until(lambda: of_beams(inbox) == {"idle switch beams 0"}, "rays of a sensor at rest")
-        assert angen.call("/angen/delete", Delete, name="beam").success
+        angen.delete("beam")
         until(lambda: not of_beams(inbox), "no rays")
 
 
@@ -195,10 +183,9 @@ def test_rays_are_blue_or_in_the_color_that_is_given(angen: Angen) -> None:
                 f'filename="liboptical_switch_controller.so">{given}</plugin></sensor></link>'
                 '</model></sdf>')
         with Inbox("/angen/markers", MarkerArray) as inbox:
-            assert angen.call("/angen/spawn", Spawn, name="tinted", xml=beam,
-                              pose=at(-20.0, -20.0, 5.0)).success
+            angen.spawn("tinted", beam, -20.0, -20.0, 5.0)
             assert until(lambda: color_of(inbox), "the beam's color") == expected
-            assert angen.call("/angen/delete", Delete, name="tinted").success
+            angen.delete("tinted")
             until(lambda: color_of(inbox) is None, "no rays")
 
 
@@ -208,10 +195,10 @@ def test_no_transform_goes_out_twice_with_one_stamp(angen: Angen) -> None:
         until(lambda: moving.messages, "frames")
         for i in range(3):
             name = f"walker{i}"
-            assert angen.call("/angen/spawn", Spawn, name=name, xml="model://bathroom_door").success
+            angen.spawn(name, "model://bathroom_door")
             until(lambda: any(t.child_frame_id.startswith(name) for m in list(moving.messages)
                               for t in m.transforms), "the frames of the spawned model")
-            assert angen.call("/angen/delete", Delete, name=name).success
+            angen.delete(name)
         sent = [(t.child_frame_id, t.header.stamp) for m in list(moving.messages)
                 for t in m.transforms]
     assert len(sent) == len(set(sent))

@@ -6,10 +6,10 @@ import math
 import struct
 
 import pytest
-from angen_msgs.srv import Delete, List, Spawn
+from angen_msgs.srv import List
 from harness import Angen, Inbox, until
 from gazebo_msgs.msg import ContactsState
-from geometry_msgs.msg import Pose, Twist, Vector3
+from geometry_msgs.msg import Twist, Vector3
 from sensor_msgs.msg import CameraInfo, Image, JointState, LaserScan, PointCloud2
 
 SHAPE = "<geometry><box><size>0.1 4 2</size></box></geometry>"
@@ -20,20 +20,12 @@ WALL = f"""<model name="wall"><static>true</static><link name="link">
 LENS_X = 0.13     # of the camera in the robot, m
 
 
-def at(x: float, y: float, z: float) -> Pose:
-    pose = Pose()
-    pose.position.x, pose.position.y, pose.position.z = x, y, z
-    pose.orientation.w = 1.0
-    return pose
-
-
 @pytest.fixture(scope="module")
 def wall(angen: Angen):
     """A wall 1.95 m before the robot's origin."""
-    answer = angen.call("/angen/spawn", Spawn, name="wall", xml=WALL, pose=at(7, 5, 1))
-    assert answer.success, answer.message
+    angen.spawn("wall", WALL, 7, 5, 1)
     yield
-    angen.call("/angen/delete", Delete, name="wall")
+    angen.delete("wall")
 
 
 def test_the_scan_is_published_with_and_without_the_robots_name(angen: Angen, wall: None) -> None:
@@ -94,11 +86,10 @@ def test_wheels_turn_as_fast_as_the_robot_drives(angen: Angen) -> None:
 
 
 def test_a_room_camera_is_a_model_of_its_own(angen: Angen, wall: None) -> None:
-    answer = angen.call("/angen/spawn", Spawn, name="c1", xml="model://camera", pose=at(6, 5, 1))
-    assert answer.success, answer.message
+    angen.spawn("c1", "model://camera", 6, 5, 1)
     entity, = angen.call("/angen/list", List, kind="camera").entities[:1]
     assert (entity.name, entity.topic) == ("c1", "/angen/camera/c1/image_raw")
     image = angen.wait("/angen/camera/c1/image_raw", Image)
     assert image.header.frame_id == "c1_optical_frame" and len(image.data) == 320 * 240 * 3
-    assert angen.call("/angen/delete", Delete, name="c1").success
+    angen.delete("c1")
     until(lambda: "/angen/camera/c1/image_raw" not in angen.master.topics(), "its topic ends")

@@ -7,12 +7,12 @@ import struct
 import threading
 import time
 import xmlrpc.client
-from typing import Any, Iterator
+from typing import Any
 from urllib.parse import urlparse
 
 import pytest
 from angen_msgs.msg import Command, Event
-from angen_msgs.srv import Delete, List, SendCommand, Spawn, Step
+from angen_msgs.srv import List, SendCommand, Spawn, Step
 from harness import Angen, Inbox, until, without_sanitizer
 from std_srvs.srv import Empty
 
@@ -23,13 +23,6 @@ PIR_ON = """<model name="m"><static>true</static><link name="l">
   <range><min>0.05</min><max>6</max></range></ray>
   <plugin name="pir" filename="libpir_controller.so"><topicName>TOPIC</topicName></plugin></sensor>
   </link></model>"""
-
-
-@pytest.fixture
-def paused(angen: Angen) -> Iterator[None]:
-    angen.call("/gazebo/pause_physics", Empty)
-    yield
-    angen.call("/gazebo/unpause_physics", Empty)
 
 
 def in_threads(angen: Angen, count: int) -> tuple[list[Any], list[threading.Thread]]:
@@ -141,16 +134,14 @@ def test_a_slow_subscriber_of_events_holds_little(angen: Angen) -> None:
 @pytest.mark.parametrize("topic", ["/clock", "/tf", "/angen/events", "/angen/door/bathroom0",
                                    "/cmd_vel", "/gazebo/Door_controller"])
 def test_a_topic_that_carries_something_else_is_rejected(angen: Angen, topic: str) -> None:
-    before = [e.name for e in angen.call("/angen/list", List, kind="").entities]
+    before = angen.names()
     xml = PIR_ON.replace("TOPIC", topic)
     answer = angen.call("/angen/spawn", Spawn, name="loud", xml=xml)
     assert not answer.success and topic in answer.message and "<topicName>" in answer.message
-    assert [e.name for e in angen.call("/angen/list", List, kind="").entities] == before
+    assert angen.names() == before
 
 
 def test_a_topic_of_the_same_type_can_be_shared(angen: Angen) -> None:
     xml = PIR_ON.replace("TOPIC", "/angen/pir/eye")
-    answer = angen.call("/angen/spawn", Spawn, name="second", xml=xml)
-    assert answer.success, answer.message
-
-    assert angen.call("/angen/delete", Delete, name="second").success
+    angen.spawn("second", xml)
+    angen.delete("second")

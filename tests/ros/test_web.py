@@ -11,13 +11,11 @@ from typing import Iterator
 
 import numpy as np
 import pytest
-from angen_msgs.msg import DoorState, LampState, Stats
-from angen_msgs.srv import Delete, Spawn
+from angen_msgs.msg import DoorState, LampState
 from browser import LIMIT, Page, Server
-from geometry_msgs.msg import Point, Pose, Twist, Vector3
+from geometry_msgs.msg import Twist, Vector3
 from harness import Angen, Cli, Inbox, Master, end, publisher_of
 from selenium.webdriver.common.action_chains import ActionChains
-from std_srvs.srv import Empty
 
 LONG = 'x' * 200
 WORLD = f'''<?xml version="1.0"?>
@@ -126,18 +124,6 @@ def test_light_is_seen_in_its_sensors_plot(home: Angen, page: Page) -> None:
     assert not page.run('return angen.view.glows.meshes.get("hall0").visible')
 
 
-def test_the_clock_pauses_and_continues(home: Angen, page: Page) -> None:
-    with Inbox('/angen/stats', Stats) as stats:
-        for paused in (True, False):
-            page.press('#play', '❚❚' if paused else '▶')
-            stats.wait(lambda message: message.paused is paused, f'paused: {paused}', LIMIT)
-            page.until('return angen.home.stats.paused === arguments[0]', paused)
-            seen = page.text('#clock time')
-            if not paused:
-                page.until('return document.querySelector("#clock time").textContent '
-                           '!== arguments[0]', seen)
-
-
 def test_an_order_waits_for_a_connection_that_comes_back(home: Angen, page: Page) -> None:
     answer = page.driver.execute_async_script('''angen.home.connection.socket.close();
         angen.home.order({do: "command", target: "lamp/kitchen0", text: "On"}).then(
@@ -146,10 +132,7 @@ def test_an_order_waits_for_a_connection_that_comes_back(home: Angen, page: Page
 
 
 def test_hostile_names_are_text(home: Angen, page: Page) -> None:
-    answer = home.call('/angen/spawn', Spawn, name=HOSTILE, xml='model://pir',
-                       pose=Pose(position=Point(1.0, -1.0, 2.0)))
-    if not answer.success:
-        pytest.fail(f'the simulator rejects the name: {answer.message}')
+    home.spawn(HOSTILE, 'model://pir', 1.0, -1.0, 2.0)
     page.until('return angen.home.entities.some((e) => e.name === arguments[0])', HOSTILE)
     page.run('angen.panels.open("sensors")')
     page.until('return document.querySelector("#panel").textContent.includes(arguments[0])',
@@ -161,7 +144,7 @@ def test_hostile_names_are_text(home: Angen, page: Page) -> None:
     for room in page.run('return angen.home.rooms.map((room) => room.name)'):
         assert room.rstrip('0').replace('_', ' ').strip().lower() in shown.replace('_', ' ').lower()
     assert page.run('return document.querySelectorAll("img[src=x]").length') == 0
-    home.call('/angen/delete', Delete, name=HOSTILE)
+    home.delete(HOSTILE)
 
 
 def test_robot_is_driven_and_stops_without_the_page(home: Angen, page: Page) -> None:
@@ -265,9 +248,8 @@ def test_a_film_needs_a_building_that_runs(home: Angen, tmp_path: Path) -> None:
     path = str(tmp_path / 'a.mp4')
     with Master(tmp_path) as alone:
         assert 'no simulator runs' in Cli(alone).fails('web', '--video', path)
-    home.call('/gazebo/pause_physics', Empty)
-    assert 'paused' in Cli(home.master).fails('web', '--video', path)
-    home.call('/gazebo/unpause_physics', Empty)
+    with home.paused():
+        assert 'paused' in Cli(home.master).fails('web', '--video', path)
 
 
 def test_strangers_are_rejected(home: Angen, server: Server, tmp_path: Path) -> None:
@@ -289,6 +271,5 @@ def test_the_page_survives_its_node(home: Angen, page: Page, tmp_path: Path) -> 
     home.process = home.master.node(tmp_path / 'home.world', tmp_path / 'log')
     page.until('return document.querySelector("#status").textContent === "Live"')
     page.until('return [...angen.home.rows.values()].some((row) => row.kind === "door")')
-    home.call('/gazebo/pause_physics', Empty)
-    page.until('return angen.home.stats.paused')
-    home.call('/gazebo/unpause_physics', Empty)
+    with home.paused():
+        page.until('return angen.home.stats.paused')

@@ -42,9 +42,9 @@ EVENTS = '''time,sensor,kind,room,value,resident,activity,cause
 2026-03-21 00:01:45.000000,D001,door,bathroom0,CLOSE,anna,wash,hand
 2026-03-21 00:05:00.000000,T001,temperature,bathroom0,19.5,,,air
 '''
-SENSORS = [{'id': 'D001', 'kind': 'door', 'name': 'bathroom0_contact', 'room': 'bathroom0'},
-           {'id': 'T001', 'kind': 'temperature', 'name': 'bathroom0_temperature',
-            'room': 'bathroom0'}]
+PLACE = {'room': 'bathroom0', 'x': 5.0, 'y': 7.0, 'z': 2.0}
+SENSORS = [{'id': 'D001', 'kind': 'door', 'name': 'bathroom0_contact', **PLACE},
+           {'id': 'T001', 'kind': 'temperature', 'name': 'bathroom0_temperature', **PLACE}]
 
 
 @pytest.fixture
@@ -55,11 +55,12 @@ def day(tmp_path: Path) -> Path:
         with gzip.open(folder / f'{name}.csv.gz', 'wt', encoding='utf-8') as file:
             file.write(text)
     (folder / 'layout.json').write_text(json.dumps({
-        'start': '2026-03-21T00:00:00', 'days': 1, 'sensors': SENSORS,
+        'start': '2026-03-21T00:00:00', 'days': 1, 'sensors': SENSORS, 'rooms': [], 'doors': [],
+        'things': [],
         'residents': [{'name': name, 'profile': 'worker', 'speed': 1.0}
                       for name in ('anna', 'bert')]}))
     (folder / 'home.json').write_text(json.dumps({'settings': {
-        'world': '', 'seed': 1, 'own_sensors': False, 'light': False}}))
+        'world': '', 'seed': 1, 'own_sensors': False, 'light': False, 'formats': []}, 'files': {}}))
     return folder
 
 

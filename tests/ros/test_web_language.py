@@ -64,6 +64,20 @@ def test_all_is_german(german: Page) -> None:
     german.press('#dialog .main')
 
 
+def test_events_are_german(german: Page) -> None:
+    german.press('#tab-events')
+    german.run('angen.home.take({events: [[1, "door", "hall", "opened", "signal 0.5 m"], '
+               '[2, "accelerometer", "tag", "put_down", ""]]})')
+    search = 'document.querySelector("#panel input[type=search]")'
+    for word, text in (('tür geöffnet', 'hall Tür geöffnet Signal 0,5 m'),
+                       ('put_down', 'tag Beschleunigung abgesetzt')):
+        german.run(f'{search}.value = arguments[0]; {search}.dispatchEvent(new Event("input"))',
+                   word)
+        german.until('return [...document.querySelectorAll("#panel .events li")].some('
+                     '(one) => one.textContent.includes(arguments[0]))', text)
+    german.press('#tab-rooms')
+
+
 def test_a_lamp_is_switched_and_read_in_german(german: Page) -> None:
     german.run('angen.show(angen.home.entities.find((e) => e.kind === "lamp"))')
     german.press('#card [data-verb="On"]')

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 from actionlib_msgs.msg import GoalID, GoalStatus, GoalStatusArray
-from angen_msgs.srv import SendCommand
 from browser import LIMIT, Page
 from gazebo_msgs.srv import GetModelState
 from geometry_msgs.msg import PoseStamped
@@ -148,7 +147,7 @@ def test_taps_on_doors_hit_doors(home: Angen, page: Page, kind: str) -> None:
     rng = random.Random(kind)
     hits: Counter[str] = Counter()
     for state in ('Close', 'Open'):
-        home.call('/angen/command', SendCommand, target='door/all', text=state)
+        home.command('door/all', state)
         page.until('''return angen.home.entities.filter((e) => e.kind === "door"
             && angen.home.row(e).text.startsWith(arguments[0])).length > 7''', state.upper())
         home.call('/gazebo/pause_physics', Empty)
@@ -179,14 +178,18 @@ def test_what_is_near_a_tap_is_found_and_a_room_in_the_open(home: Angen, page: P
     page.until('return angen.home.stats.paused')
     resize(page, kind)
     page.run('angen.setStorey(0); angen.card.close()')
-    x, y = page.run(f'''{AT} const e = angen.home.entities.find((e) => e.kind === "lamp"
-        && e.name === "bedroom0"); return at(...angen.home.place(e).slice(0, 2))''')
+    lamp, (x, y) = page.run(f'''{AT} const {{home}} = angen;
+        const place = (e) => home.place(e).slice(0, 2);
+        const away = ([x, y], [u, v]) => Math.hypot(x - u, y - v);
+        const lamp = home.entities.find((e) => e.kind === "lamp" && e.name.endsWith("room0")
+            && home.movers.every((one) => away(place(one), place(e)) > 2));
+        return [lamp.name, at(...place(lamp))]''')
     found = []
     for away in (0, 15):
         tap(page, kind, [[x + away, y]])
         found.append(page.until('return document.querySelector("#card h2")?.textContent'))
         page.run('angen.card.close()')
-    assert found == ['bedroom0', 'bedroom0']
+    assert found == [lamp, lamp]
     free = page.run(f'''{AT} const pixel = (x, y) => at(x, y).map(Math.round);
         for (const r of angen.home.rooms.filter((r) => r.storey === 0))
         for (let x = r.polygon[0][0] - 6; x < r.polygon[0][0] + 6; x += 0.1)
@@ -206,6 +209,42 @@ PLACE = 'return [...angen.carry.pose(arguments[0])].slice(0, 2)'
 def place(home: Angen, model: str) -> tuple[float, float]:
     at = home.call('/gazebo/get_model_state', GetModelState, model_name=model).pose.position
     return at.x, at.y
+
+
+def pinch(page: Page, *steps: list[list[float]]) -> None:
+    """Two fingers, at these places one after the other."""
+    for i, places in enumerate([*steps, []]):
+        page.driver.execute_cdp_cmd('Input.dispatchTouchEvent', {
+            'type': 'touchMove' if 0 < i < len(steps) else 'touchEnd' if i else 'touchStart',
+            'touchPoints': [{'x': x, 'y': y, 'id': n} for n, (x, y) in enumerate(places)]})
+
+
+@pytest.mark.parametrize('kind', SIZES)
+def test_the_plan_is_zoomed_and_moved(page: Page, kind: str) -> None:
+    resize(page, kind)
+    page.run('angen.setStorey(0); angen.card.close()')
+    names = 'return [...document.querySelectorAll("#plan svg > text")].length'
+    count = page.run(names)
+    x, y = map(round, page.run(f'{AT} return at(8.4, 6.4)'))  # far from the robot
+    place = page.run('return angen.plan.ground(...arguments).slice(0, 2)', x, y)
+    where = f'{AT} return at({place[0]}, {place[1]})'
+    if kind == POINTER_MOUSE:
+        for _ in range(3):
+            page.driver.execute_cdp_cmd('Input.dispatchMouseEvent', {
+                'type': 'mouseWheel', 'x': x, 'y': y, 'deltaX': 0, 'deltaY': -200})
+    else:
+        pinch(page, *([[x, y - far], [x, y + far]] for far in (20, 40, 60, 90)))
+    page.until('return angen.plan.zoom.times > 4 && !angen.plan.stale')
+    assert page.run(where) == pytest.approx([x, y], abs=1.0)
+    drag(page, kind, [x, y], [x - 60, y + 40])
+    assert page.run(where) == pytest.approx([x - 60, y + 40], abs=1.0)
+    assert page.run('return document.querySelector("#card").hidden')
+    tap(page, kind, [page.run(where)])
+    page.until('return angen.card.shown?.room?.name === "workroom0"')
+    page.run('angen.card.close(); document.activeElement.blur()')
+    ActionChains(page.driver, duration=0).send_keys('h').perform()
+    page.until('return angen.plan.zoom.times === 1 && !angen.plan.stale')
+    assert page.run(where) == pytest.approx([x, y], abs=1.0) and page.run(names) == count
 
 
 @pytest.mark.parametrize('kind, by', [(POINTER_MOUSE, (1.0, 0.8)), (POINTER_TOUCH, (-0.6, 0.4))])

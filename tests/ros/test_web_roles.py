@@ -9,7 +9,6 @@ from urllib.parse import urlsplit
 
 import pytest
 from angen_msgs.msg import DoorState
-from angen_msgs.srv import List
 from browser import LIMIT, Page, Server
 from harness import Angen, Inbox
 
@@ -75,14 +74,14 @@ def test_who_may_look_changes_nothing(angen: Angen, links: dict[str, str], page:
     assert BUILDING - {'spawn', 'step'} <= found.keys() | {'rate', 'pause'}
     for name, states in found.items():
         assert states == {(True, 'This link only shows the home.')}, name
-    before = [e.name for e in angen.call('/angen/list', List, kind='').entities]
+    before = angen.names()
     with Inbox('/angen/door/bathroom0', DoorState) as states:
         for what in (*SENDS, *CHANGES):
             answer = order(page, what)
             assert (answer['ok'], answer['text']) == (False, 'this link only shows the home'), what
         time.sleep(1.0)  # for an order that were executed after all
         assert states.wait(lambda _: True, 'the door', LIMIT).mode == DoorState.CLOSED
-    assert [e.name for e in angen.call('/angen/list', List, kind='').entities] == before
+    assert angen.names() == before
     page.until('return !angen.home.stats.paused && angen.home.stats.time > 0')
     page.run('angen.setView("plan")')
     page.until('return angen.home.rows.size > 3')  # it shows what happens

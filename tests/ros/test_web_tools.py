@@ -9,10 +9,9 @@ from pathlib import Path
 
 import pytest
 from angen_msgs.msg import Stats
-from angen_msgs.srv import Delete, Spawn
 from browser import LIMIT, Page
 from gazebo_msgs.srv import GetPhysicsProperties
-from geometry_msgs.msg import Point, Pose, PoseStamped, Twist
+from geometry_msgs.msg import PoseStamped, Twist
 from harness import Angen, Inbox, publisher_of, until
 from PIL import Image
 from selenium.webdriver.common.action_chains import ActionChains
@@ -151,16 +150,14 @@ def test_pictures_and_videos_are_saved(page: Page, tmp_path_factory: pytest.Temp
 
 
 def test_a_switch_knows_its_state_by_the_words_of_the_kind(home: Angen, page: Page) -> None:
-    answer = home.call('/angen/spawn', Spawn, name='beacon', xml='model://radio_beacon',
-                       pose=Pose(position=Point(3.5, 4.5, 1.0)))
-    assert answer.success, answer.message
+    home.spawn('beacon', 'model://radio_beacon', 3.5, 4.5, 1.0)
     toggle = '''return [...document.querySelectorAll("#panel .thing, #card .thing")].find(
         (e) => e.textContent.includes("beacon_transmitter"))?.lastChild'''
     page.press('#tab-rooms')
     for word in ('Off', 'On'):  # it sends at first
         button = page.until(f'{toggle}?.textContent === "{word}" && ({toggle[7:]})')
         page.run('arguments[0].click()', button)
-    home.call('/angen/delete', Delete, name='beacon')
+    home.delete('beacon')
 
 
 def test_a_person_is_sent_where_one_clicks(home: Angen, page: Page) -> None:
@@ -317,15 +314,13 @@ def test_another_scene_leaves_the_clock_and_the_events(home: Angen, page: Page) 
     page.until('return angen.home.stats.paused && angen.home.events.length > 0')
     before = page.run('return [angen.home.scene.number, angen.home.stats.time, '
                       'angen.home.events.length]')
-    answer = home.call('/angen/spawn', Spawn, name='new_beacon', xml='model://radio_beacon',
-                       pose=Pose(position=Point(3.5, 4.5, 1.0)))
-    assert answer.success, answer.message
+    home.spawn('new_beacon', 'model://radio_beacon', 3.5, 4.5, 1.0)
     page.until('return angen.home.scene.number > arguments[0]', before[0])
     assert page.run('return angen.home.stats.time') == before[1]
     assert page.run('return angen.home.events.length') >= before[2]
     page.press('#play', '▶')
     page.until('return !angen.home.stats.paused')
-    home.call('/angen/delete', Delete, name='new_beacon')
+    home.delete('new_beacon')
 
 
 def test_the_clock_steps_changes_its_rate_and_resets(home: Angen, page: Page) -> None:
@@ -350,13 +345,3 @@ def test_the_clock_steps_changes_its_rate_and_resets(home: Angen, page: Page) ->
         late = stats.messages[-1].sim_time.to_sec()
         page.press('#clock button', 'Reset')
         stats.wait(lambda message: message.sim_time.to_sec() < late, 'a reset', LIMIT)
-
-
-def test_the_changed_world_is_saved(page: Page, tmp_path_factory: pytest.TempPathFactory) -> None:
-    page.press('#tab-sensors')
-    page.run('''[...document.querySelectorAll("#panel button")].find(
-        (e) => e.textContent === "Save world").click()''')  # the list may be made again
-    folder = tmp_path_factory.getbasetemp()
-    saved = until(lambda: next((path for path in folder.glob('saved*.world')
-                                if path.stat().st_size), None), 'a saved world', LIMIT)
-    assert '</sdf>' in saved.read_text() and 'turtlebot' in saved.read_text()

@@ -5,9 +5,7 @@ from pathlib import Path
 from typing import Iterator
 
 import pytest
-from angen_msgs.srv import Spawn
 from browser import Page, Server
-from geometry_msgs.msg import Point, Pose
 from harness import ROOT, Angen, Master, end
 from selenium.webdriver.common.action_chains import ActionChains
 
@@ -91,9 +89,7 @@ def test_many_lamps_are_drawn_by_few_triangles_and_the_view_stays(
         assert 0 < page.run('return angen.view.renderer.info.render.triangles') < MOST
         page.run('angen.view.viewpoint.camera.position.z += 5')
         camera = page.run('return angen.view.viewpoint.camera.position.toArray()')
-        answer = node.call('/angen/spawn', Spawn, name='eye', xml='model://pir',
-                           pose=Pose(position=Point(1.0, 1.0, 2.0)))
-        assert answer.success
+        node.spawn('eye', 'model://pir', 1.0, 1.0, 2.0)
         page.until('return angen.view.shapes.parts.length === angen.home.scene.links.length && '
                    'angen.home.linksOf("eye").length > 0 && !angen.view.viewpoint.goal')
         assert page.run('return angen.view.viewpoint.camera.position.toArray()') == pytest.approx(

@@ -1,5 +1,5 @@
 /** What pointers, keys and tools do on the sheet on which a home is drawn. */
-import { svg } from './dom.js';
+import { ARROWS, svg } from './dom.js';
 import { DOORWAY, GRID, STEP, along, directionOf, distance, gridded, itemOf, keysOf, lengthOf, liftOf, moved, normal, onWall, openingOf, placeOn, placesOf, roomWalls, snapped, stretched, turnedDoor, wallAt, wallOf } from './drawing.js';
 import { t } from './lang.js';
 import { BODY, MOUSE, SIGN, SPOT, Sheet } from './sheet.js';
@@ -317,7 +317,7 @@ export class Board extends Sheet {
   key(key) {
     const { tool } = this;
     if (tool.name === 'select') return false;
-    const way = /** @type {any} */ ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] })[key];
+    const way = ARROWS[key];
     if (way) {
       this.at = [gridded(this.at[0] + way[0] * GRID), gridded(this.at[1] + way[1] * GRID)];
       this.inside = true;
@@ -364,8 +364,9 @@ export class Board extends Sheet {
     const [w, h] = [width / this.scale, height / this.scale];
     this.root.setAttribute('viewBox', `${this.middle[0] - w / 2} ${-this.middle[1] - h / 2} ${w} ${h}`);
     const storey = this.preview ? editor.previewed(this.preview) : editor.storey, chosen = new Set(this.preview ? [] : editor.selection);
+    const [rooms, names] = this.rooms(storey);
     this.handles = [];
-    this.root.replaceChildren(this.grid(w, h), ...this.below(storey), ...this.rooms(storey), ...this.cover(), ...this.lifts(storey, chosen), ...this.walls(storey, chosen), ...this.things(storey, chosen), ...this.marks(storey, chosen), ...this.tooled(), ...this.frame(), ...this.grips());
+    this.root.replaceChildren(this.grid(w, h), ...this.below(storey), ...rooms, ...this.picture(storey), ...this.cover(), ...this.lifts(storey, chosen), ...this.walls(storey, chosen), ...this.things(storey, chosen), ...names, ...this.marks(storey, chosen), ...this.tooled(), ...this.frame(), ...this.grips());
     editor.tryOut(this.aimed());
   }
 

@@ -62,7 +62,7 @@ export class Card {
     }
     const beside = home.ofModel(entity.model).filter((e) => e !== entity).slice(0, 12);
     if (beside.length) parts.push(el('h3', {}, t('Of the same model')), ...beside.map((e) => thingRow(home, e, () => this.show(e))));
-    this.open(entity.name, [words(entity.kind), rooms, t(kind?.doc ?? '')].filter(Boolean), parts);
+    this.open(entity.name, [home.isRobot(entity) ? t('Robot') : words(entity.kind), rooms, t(kind?.doc ?? '')].filter(Boolean), parts);
     this.refresh();
   }
 

@@ -1,14 +1,12 @@
 /** Sensors and furniture that one carries to another place in the running home: by a drag, or by keys. */
 import { denied } from './access.js';
-import { by, el, isForOthers, limit, svg } from './dom.js';
+import { ARROWS, by, el, isForOthers, limit, svg } from './dom.js';
 import { yawOf } from './fields.js';
 import { t } from './lang.js';
 
 const REACH = 22, CLICK = 6; // px around a press, of a press that is none
 const FIXED = new Set(['door', 'window', 'elevator', 'person']); // kinds whose models stay
 const STEP = 0.1, TURN = Math.PI / 12; // m, rad, of a key
-/** @type {Record<string, number[]>} */
-const ARROWS = { ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowLeft: [-1, 0], ArrowDown: [0, -1] };
 
 export class Carry {
   /** @param {import('./home.js').Home} home @param {any} page */
@@ -47,15 +45,20 @@ export class Carry {
   /** @param {string} model @returns {number[]} x y z and quaternion */
   pose(model) { return Array.from(this.home.pose(this.home.linksOf(model)[0])); }
 
+  /** @param {string} model @returns {number[][][]} the corners of its parts from above */
+  outlines(model) {
+    const { home, page: { plan } } = this, links = home.linksOf(model);
+    return home.scene.shapes.filter((/** @type {any} */ shape) => links.includes(shape.link)).map((/** @type {any} */ shape) => plan.corners(plan.boxOf(shape)));
+  }
+
   /** @param {number[]} point @param {number} reach m @param {number} number of the floor @returns {string | undefined} the model that is nearest, sensors first */
   near([x, y], reach, number) {
-    const { home, page: { plan } } = this;
+    const { home } = this;
     let best, least = Infinity;
     for (const model of this.models()) {
       const [mx, my, mz] = this.pose(model);
       if (home.storeyAt(mz) !== number) continue;
-      const boxes = home.scene.shapes.filter((/** @type {any} */ shape) => home.linksOf(model).includes(shape.link)).map((/** @type {any} */ shape) => plan.corners(plan.boxOf(shape)));
-      const xs = boxes.flat().map((/** @type {number[]} */ [cx]) => cx).concat(mx), ys = boxes.flat().map((/** @type {number[]} */ [, cy]) => cy).concat(my);
+      const corners = this.outlines(model).flat(), xs = corners.map(([cx]) => cx).concat(mx), ys = corners.map(([, cy]) => cy).concat(my);
       const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
       const far = Math.hypot(Math.max(left - x, 0, x - right), Math.max(low - y, 0, y - high)), cost = far + 0.1 * (right - left) * (high - low);
       if (far <= reach && cost < least) { least = cost; best = model; }
@@ -112,13 +115,17 @@ export class Carry {
   /** Shows where it would be. */
   mark() {
     const { held, page: { plan, goal } } = this;
-    this.arrow?.remove();
+    plan.carried?.remove();
+    plan.carried = null;
     if (!held) { goal.put(null); return; }
     const [x, y, z] = [held.pose[0] + held.dx, held.pose[1] + held.dy, held.pose[2]], yaw = yawOf(held.pose) + held.turn;
     if (plan.hidden) goal.put([x, y, goal.floorAt([x, y, z]), yaw]);
     else {
-      this.arrow = svg('path', { class: 'goal', d: 'M.3 0L0 .2L-.2 .2L-.2 -.2L0 -.2Z', transform: `translate(${x} ${-y}) rotate(${(-yaw * 180) / Math.PI})` });
-      plan.root.append(this.arrow);
+      const degrees = (/** @type {number} */ angle) => (-angle * 180) / Math.PI, at = [held.pose[0], -held.pose[1]];
+      const outline = this.outlines(held.model).map(([a, b, c, d]) => `M${[a, b, d, c].map(([u, v]) => `${u} ${-v}`).join('L')}Z`).join('');
+      plan.carried = svg('g', { class: 'goal', transform: `translate(${held.dx} ${-held.dy}) rotate(${degrees(held.turn)} ${at.join(' ')})` }, svg('path', { 'fill-opacity': 0.3, d: outline }),
+        svg('path', { d: 'M.3 0L0 .2L-.2 .2L-.2 -.2L0 -.2Z', transform: `translate(${at.join(' ')}) rotate(${degrees(yawOf(held.pose))})` }));
+      plan.root.append(plan.carried);
     }
   }
 

@@ -54,6 +54,9 @@ export const isNarrow = () => matchMedia('(max-width: 820px)').matches;
 /** @param {KeyboardEvent} e @returns {boolean} whether a key is the browser's, or one of a field in which one types */
 export const isForOthers = (e) => e.ctrlKey || e.metaKey || e.altKey || /^(INPUT|SELECT|TEXTAREA)$/.test(/** @type {any} */ (e.target).tagName ?? '');
 
+/** @type {Record<string, number[]>} x y of the keys that move something */
+export const ARROWS = { ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowLeft: [-1, 0], ArrowDown: [0, -1] };
+
 /** @param {string} text @param {boolean} [bad] */
 export function notice(text, bad = false) {
   const shown = el('div', { class: bad ? 'notice bad' : 'notice' }, text);

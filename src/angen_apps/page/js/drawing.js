@@ -3,12 +3,12 @@
 /**
  * @typedef {number[]} Point x y, m
  * @typedef {Record<string, any>} Item
- * @typedef {{plan: {name: string, storeys: Item[], lifts?: Item[]}, sensors: string}} Drawing
+ * @typedef {{plan: {name: string, start?: string, storeys: Item[], lifts?: Item[]}, sensors: string}} Drawing
  * @typedef {{storey?: number, change?: Record<string, Item | null>, add?: [string, Item][], home?: Record<string, any>, plan?: Record<string, any>}} Edit
  * Items by their keys, such as `walls/3`; null removes one. `home`: values of the drawing itself, `plan`: of its plan.
  */
 
-export const LISTS = ['rooms', 'labels', 'walls', 'openings', 'pieces', 'lamps', 'sensors', 'movers', 'lifts'];
+const LISTS = ['rooms', 'labels', 'walls', 'openings', 'pieces', 'lamps', 'sensors', 'movers', 'lifts'];
 export const GRID = 0.1; // m
 export const STEP = Math.PI / 12; // between the directions of walls
 export const HEIGHT = 2.5; // m of a floor's walls
@@ -20,7 +20,7 @@ const LEAF_THICK = 0.04, LAP = 0.03; // m of a leaf, and of one that slides befo
 const { PI, cos, sin, hypot, abs, round, min, max, atan2 } = Math;
 
 /** @returns {Drawing} an empty lot */
-export const empty = () => ({ plan: { name: 'home', storeys: [{ number: 0, name: 'Ground floor', elevation: 0, height: HEIGHT }] }, sensors: 'none' });
+export const empty = () => ({ plan: { name: 'home', start: '2026-03-23T07:00:00', storeys: [{ number: 0, name: 'Ground floor', elevation: 0, height: HEIGHT }] }, sensors: 'none' });
 
 /** @param {Drawing} drawing @param {Edit} edit @returns {Drawing} */
 export function apply(drawing, { storey = 0, change = {}, add = [], home = {}, plan = {} }) {
@@ -118,6 +118,12 @@ export function itemOf(storey, key) {
 /** @param {Item} storey @returns {string[]} the keys of all items but lifts that stay where they are */
 export const keysOf = (storey) => LISTS.flatMap((list) => (storey[list] ?? []).map((/** @type {Item} */ item, /** @type {number} */ i) => (list === 'lifts' && isBuilt({ storeys: [storey] }, item) ? '' : `${list}/${i}`))).filter(Boolean);
 
+/** @param {any} storey @param {any} room @returns {{key: string, label: any} | null} the label in a room */
+export function labelIn(storey, room) {
+  const index = (storey.labels ?? []).findIndex((/** @type {any} */ label) => within(room.polygon, [label.x, label.y]));
+  return index < 0 ? null : { key: `labels/${index}`, label: storey.labels[index] };
+}
+
 /** @param {number} value m @returns {number} to 0.1 mm */
 const exact = (value) => round(value * 1e4) / 1e4 + 0;
 /** @param {number} value m @returns {number} on the grid */
@@ -142,12 +148,6 @@ export function along(wall, [x, y]) {
 export function placeOn(wall, u, v = 0) {
   const yaw = directionOf(wall);
   return [wall.start[0] + u * cos(yaw) - v * sin(yaw), wall.start[1] + u * sin(yaw) + v * cos(yaw)];
-}
-
-/** @param {Item} wall @returns {Point[]} its corners */
-export function footprint(wall) {
-  const half = wall.thickness / 2, long = lengthOf(wall);
-  return [placeOn(wall, 0, -half), placeOn(wall, long, -half), placeOn(wall, long, half), placeOn(wall, 0, half)];
 }
 
 /** @param {Item} storey @param {Point} start @param {Point} end @param {number} thickness @returns {Item} */

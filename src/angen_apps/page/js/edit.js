@@ -3,8 +3,8 @@ import { Board } from './board.js';
 import { sentence } from './coverage.js';
 import { DayPlan } from './dayplan.js';
 import { by, el, notice, showDialog } from './dom.js';
-import { GRID, HEIGHT, History, apply, copied, empty, innerPoint, keysOf, middleOf, removed, shifted, storeyOf, turned, withFloor, within, withoutFloor } from './drawing.js';
-import { Form, floorName, labelIn } from './form.js';
+import { GRID, HEIGHT, History, apply, copied, empty, innerPoint, keysOf, labelIn, middleOf, removed, shifted, storeyOf, turned, withFloor, within, withoutFloor } from './drawing.js';
+import { Form, floorName } from './form.js';
 import { help, pressed } from './keys.js';
 import { t } from './lang.js';
 import { beginTheme, setTheme } from './settings.js';
@@ -101,6 +101,7 @@ export class Editor {
     this.shelf = new Shelf(this);
     this.form = new Form(this);
     this.dayPlan = new DayPlan(this);
+    if (given.behind) this.board.showBehind(given.behind);
     this.buildTools();
     if (this.closed) this.showClosed(given.reason);
     else if (this.dirty && draft) this.ask(t('The changes that were not saved are here again.'), [[t('Continue'), () => {}], [t('Show the saved home'), () => this.discard()]]);
@@ -465,9 +466,14 @@ export class Editor {
 
   buildTools() {
     const button = (/** @type {string} */ name, /** @type {string} */ sign, /** @type {string} */ text, /** @type {string} */ key) => el('button', { id: `tool-${name}`, type: 'button', 'aria-pressed': 'false', title: `${text} (${key})`, 'aria-label': text, onclick: () => { this.select([]); this.board.use({ name }); } }, sign, el('span', {}, text));
-    const several = el('button', { type: 'button', 'aria-pressed': 'false', title: t('Each press selects one more'), 'aria-label': t('Several'), onclick: () => { this.several = !this.several; several.setAttribute('aria-pressed', String(this.several)); } }, '☑', el('span', {}, t('Several')));
+    const toggle = (/** @type {string} */ sign, /** @type {string} */ text, /** @type {string} */ title, /** @type {boolean} */ on, /** @type {(on: boolean) => void} */ set) => {
+      const made = el('button', { type: 'button', 'aria-pressed': String(on), title, 'aria-label': text, onclick: () => { on = !on; made.setAttribute('aria-pressed', String(on)); set(on); } }, sign, el('span', {}, text));
+      return made;
+    };
+    const several = toggle('☑', t('Several'), t('Each press selects one more'), false, (on) => { this.several = on; });
+    const picture = this.given.behind ? [toggle('▦', t('Picture'), t('The picture from which it was read, behind the drawing'), true, (on) => { this.board.bare = !on; this.board.draw(); })] : [];
     this.thick = el('select', { 'aria-label': t('Thickness of walls'), onchange: () => { this.thickness = Number(this.thick.value); } }, ...[0.1, 0.15, 0.2, 0.3].map((value) => el('option', { value }, `${value * 100} cm`)));
-    by('tools').replaceChildren(...TOOLS.map(([name, sign, text, key]) => button(name, sign, text, key)), several, el('button', { type: 'button', title: t('The whole home (H)'), 'aria-label': t('The whole home'), onclick: () => this.board.whole() }, '⤢', el('span', {}, t('Whole'))), this.thick);
+    by('tools').replaceChildren(...TOOLS.map(([name, sign, text, key]) => button(name, sign, text, key)), several, el('button', { type: 'button', title: t('The whole home (H)'), 'aria-label': t('The whole home'), onclick: () => this.board.whole() }, '⤢', el('span', {}, t('Whole'))), ...picture, this.thick);
     by('tools').hidden = this.closed;
     this.showTool();
   }

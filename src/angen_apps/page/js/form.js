@@ -1,7 +1,7 @@
 /** The card of what is selected: its numbers and names, and what one can do with it. */
 import { sensorsAt } from './coverage.js';
 import { by, el, words } from './dom.js';
-import { itemOf, lengthOf, mirrored, normal, placeOn, stretched, swung, widened, within, withWalls } from './drawing.js';
+import { itemOf, lengthOf, mirrored, normal, placeOn, stretched, swung, widened, withWalls } from './drawing.js';
 import { numbers, t } from './lang.js';
 import { areaOf } from './sheet.js';
 
@@ -56,7 +56,7 @@ export class Form {
 
   /** @param {string} label @param {string} value @param {(value: string) => void} change @param {string} [hint] */
   text(label, value, change, hint = '') {
-    const field = el('input', { type: 'text', value, maxlength: 40, placeholder: hint, onchange: () => change(field.value.trim()) });
+    const field = el('input', { type: 'text', value, maxlength: 40, placeholder: hint, onchange: () => change(field.value.replace(/\s/g, ' ').replace(/\p{C}/gu, '').trim()) }); // signs that nobody sees are no name
     return el('label', { class: 'wide' }, label, field);
   }
 
@@ -112,9 +112,3 @@ export class Form {
 
 /** @param {any} storey @returns {string} */
 export const floorName = ({ name, number }) => (name ? t(name) : t('Floor {number}', { number }));
-
-/** @param {any} storey @param {any} room @returns {{key: string, label: any} | null} the label in a room */
-export function labelIn(storey, room) {
-  const index = (storey.labels ?? []).findIndex((/** @type {any} */ label) => within(room.polygon, [label.x, label.y]));
-  return index < 0 ? null : { key: `labels/${index}`, label: storey.labels[index] };
-}

@@ -1,7 +1,7 @@
 /** A robot's goal, as the 2D Nav Goal of rviz: a press gives the place, a drag the heading; keys move it too. */
 import * as THREE from '../vendor/three/three.module.min.js';
 import { denied } from './access.js';
-import { by, isForOthers, isNarrow } from './dom.js';
+import { ARROWS, by, isForOthers, isNarrow } from './dom.js';
 import { yawOf } from './fields.js';
 import { t } from './lang.js';
 
@@ -9,8 +9,6 @@ export const TURNS = 0.3; // m: a longer drag gives the heading too
 const STEP = 0.25, TURN = Math.PI / 12; // m, rad, of a key
 const CLICK = 6; // px: a shorter drag of a robot is a click
 const ABOVE = 0.03; // m over the floor
-/** @type {Record<string, number[]>} */
-const ARROWS = { ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowLeft: [-1, 0], ArrowDown: [0, -1] };
 
 export class Goal {
   /** @param {import('./home.js').Home} home @param {any} page */

@@ -1,5 +1,5 @@
 /** The keys of the page on which a home is drawn. */
-import { by } from './dom.js';
+import { ARROWS, by } from './dom.js';
 import { GRID, keysOf, moved } from './drawing.js';
 import { t } from './lang.js';
 import { showKeys } from './settings.js';
@@ -34,7 +34,7 @@ function plain(editor, e, key) {
     return true;
   }
   if (onBoard && board.key(e.key)) return true;
-  const way = /** @type {any} */ ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] })[e.key];
+  const way = ARROWS[e.key];
   if (way && onBoard) {
     const step = e.shiftKey ? FINE : GRID;
     if (editor.selection.length) editor.do(moved(editor.storey, editor.selection, way[0] * step, way[1] * step), editor.selection);
@@ -58,6 +58,6 @@ function next(editor, way) {
 /** Shows what keys and pointers do. */
 export function help() {
   showKeys([[t('Walls (W)'), t('press where they begin, then at each corner; type a length and Enter')], [t('Room (Q)'), t('press at two corners, or drag')], [t('Click'), t('selects; with Shift several; in a room: its name')], [t('Drag'), t('moves what is selected; on the ground selects all within')],
-    [t('Wheel, right button'), t('zooms, moves the sheet; on a phone two fingers')], [t('Arrows'), t('0.1 m, with Shift 0.01 m; with a tool: its place, Enter puts')], ['R, Shift+R', t('turns by 90°, by 15°; a door: hinge and side')], ['. ,', t('the next, the last thing')],
-    [t('Del'), t('removes it')], ['Ctrl+C X V D A', t('copy, cut, paste, twice, all')], ['Ctrl+Z Y', t('undo, redo')], ['Ctrl+S', t('saves')], [t('Esc'), t('ends a tool')], ['H, + −', t('the whole home, zoom')], ['C', t('what motion sensors see')], ['Alt', t('turns a sensor freely')]]);
+    [t('Wheel, right button'), t('zooms, moves the sheet; on a phone two fingers')], [t('Arrows'), t('0.1 m, with Shift 0.01 m; with a tool: its place, Enter puts')], [t('R, Shift+R'), t('turns by 90°, by 15°; a door: hinge and side')], ['. ,', t('the next, the last thing')],
+    [t('Del'), t('removes it')], [t('Ctrl+C X V D A'), t('copy, cut, paste, twice, all')], [t('Ctrl+Z Y'), t('undo, redo')], [t('Ctrl+S'), t('saves')], [t('Esc'), t('ends a tool')], ['H, + −', t('the whole home, zoom')], ['C', t('what motion sensors see')], ['Alt', t('turns a sensor freely')]]);
 }

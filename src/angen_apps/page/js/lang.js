@@ -42,6 +42,27 @@ export function state(text, kind) {
   }).replace(/(?<= · )\w+$/, (activity) => t(activity.replaceAll('_', ' '))));
 }
 
+/**
+ * A kind within a sentence, in which English writes it small.
+ * @param {string} kind
+ */
+export function noun(kind) {
+  const plain = kind.replaceAll('_', ' ');
+  return table[plain.slice(0, 1).toUpperCase() + plain.slice(1)] ?? plain;
+}
+
+/**
+ * An event's word, which may be another than that of a state.
+ * @param {string} word
+ */
+export const happened = (word) => table[`event: ${word}`] ?? word.replaceAll('_', ' ');
+
+/**
+ * An event's detail, such as "signal 0.5 m": a field, a number and its unit.
+ * @param {string} detail
+ */
+export const measured = (detail) => numbers(detail.replace(/^[a-z]+(?= -?\d)/, (field) => t(field)));
+
 /** @returns {{code: string, name: string, chosen: boolean}[]} the languages of this page, each by its own name */
 export const languages = () => given.map((code) => ({ code, name: new Intl.DisplayNames([code], { type: 'language' }).of(code) ?? code, chosen: code === language }));
 

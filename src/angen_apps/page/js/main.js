@@ -208,7 +208,8 @@ class Page {
   }
 
   whole() {
-    this.view?.look();
+    if (this.plan.hidden) this.view?.look();
+    else this.plan.zoom.whole();
   }
 
   // --- choosing

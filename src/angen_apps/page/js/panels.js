@@ -2,7 +2,7 @@
 import { denied } from './access.js';
 import { by, el, isNarrow, words } from './dom.js';
 import { thingRow } from './card.js';
-import { numbers, t } from './lang.js';
+import { happened, measured, noun, numbers, t } from './lang.js';
 import { Plots } from './plots.js';
 import { RobotPanel } from './robot.js';
 import { floorText, roomText } from './labels.js';
@@ -173,7 +173,7 @@ export class Panels {
     return [this.plots.element, el('div', { class: 'tools' }, this.filter,
       ...(home.status.replay ? [] : [el('button', { type: 'button', order: 'spawn', onclick: () => this.page.addSensor() }, t('Add a sensor …')),
         el('button', { type: 'button', order: 'save', onclick: () => this.page.save() }, t('Save world'))])),
-    el('table', {}, el('colgroup', {}, el('col', { style: 'width: 44px' }), el('col'), el('col', { style: 'width: 45%' })),
+    el('table', {}, el('colgroup', {}, el('col', { style: 'width: 44px' }), el('col'), el('col', { style: 'width: 38%' })),
       el('thead', {}, el('tr', {}, el('th', {}, el('span', { class: 'soft' }, t('Plot'))), el('th', {}, t('Name')), el('th', {}, t('Reading')))), this.table)];
   }
 
@@ -217,9 +217,10 @@ export class Panels {
 
   refreshEvents() {
     const word = this.eventFilter.value.trim().toLowerCase();
-    const shown = this.home.events.filter(([, ...texts]) => (this.small.checked || !SMALL.has(texts[2])) && (!word || texts.join(' ').toLowerCase().includes(word))).slice(-200).reverse();
+    const text = (/** @type {string[]} */ [kind, source, event, detail]) => `${source} ${noun(kind)} ${happened(event)} ${measured(detail)} ${detail} ${kind} ${event}`.toLowerCase();
+    const shown = this.home.events.filter(([, ...texts]) => (this.small.checked || !SMALL.has(texts[2])) && (!word || text(texts).includes(word))).slice(-200).reverse();
     this.list.replaceChildren(...shown.map(([time, kind, source, event, detail]) => el('li', {}, el('time', { class: 'soft number' }, this.home.clock(time)),
-      el('span', { class: event }, el('b', {}, source), ` ${kind} ${event}`, detail ? el('span', { class: 'soft' }, ` ${detail}`) : ''))));
+      el('span', { class: event }, el('b', {}, source), ` ${noun(kind)} ${happened(event)}`, detail ? el('span', { class: 'soft' }, ` ${measured(detail)}`) : ''))));
     if (!shown.length) this.list.append(el('li', {}, '', el('span', { class: 'soft' }, t('No events.'))));
   }
 

@@ -1,7 +1,10 @@
 /** Places of texts that do not cover each other. */
 import { inside, middleOf } from './home.js';
 
+export const LETTER = 0.66; // of a text's height: the width of a letter
+const LETTERS = 8; // of a room's name, at least
 const STEPS = 10; // places across a room that are tried for its name
+const TOUCH = 1e-6; // m by which boxes that touch may seem to cover each other
 
 /** Boxes that are taken: x y of the middle, half a width, half a height. */
 export class Taken {
@@ -12,7 +15,7 @@ export class Taken {
 
   /** @param {number[]} box @returns {number} how many it covers */
   covered([x, y, w, h]) {
-    return this.boxes.filter(([u, v, s, t]) => Math.abs(u - x) < w + s && Math.abs(v - y) < h + t).length;
+    return this.boxes.filter(([u, v, s, t]) => Math.abs(u - x) < w + s - TOUCH && Math.abs(v - y) < h + t - TOUCH).length;
   }
 
   /**
@@ -25,6 +28,12 @@ export class Taken {
     if (free) this.boxes.push([x + free[0], y + free[1], w, h]);
     return free;
   }
+}
+
+/** @param {string} text @param {number[][]} polygon of its room @param {number} wide m of a letter @param {string} [rest] after the text, if there is place @returns {string} as much as the room is wide */
+export function fitted(text, polygon, wide, rest = '') {
+  const xs = polygon.map(([x]) => x), most = Math.max(LETTERS, Math.floor((Math.max(...xs) - Math.min(...xs)) / wide));
+  return text.length > most ? `${text.slice(0, most - 1)}…` : text.length + rest.length > most ? text : text + rest;
 }
 
 /**
@@ -49,11 +58,11 @@ export function nameOf(polygon, w, h, taken) {
 }
 
 /**
- * Places for a label of a thing: above it, below, beside, then farther away.
+ * Places for a label of a thing: above it, below, beside, at its corners, then farther away.
  * @param {number} gap to the thing's middle @param {number} w half of its width @param {number} h half of its height
  * @returns {number[][]} shifts x y
  */
 export function around(gap, w, h) {
   const lines = [1, 2, 3, 4].map((line) => gap + h * (2 * line - 1));
-  return [[0, lines[0]], [0, -lines[0]], [gap + w, 0], [-gap - w, 0], ...lines.slice(1).flatMap((y) => [[0, y], [0, -y]])];
+  return [[0, lines[0]], [0, -lines[0]], [gap + w, 0], [-gap - w, 0], ...[w, -w].flatMap((x) => [[x, lines[0]], [x, -lines[0]]]), ...lines.slice(1).flatMap((y) => [[0, y], [0, -y]])];
 }

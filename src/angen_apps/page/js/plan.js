@@ -4,13 +4,13 @@ import { fieldShape, yawOf } from './fields.js';
 import { roomText } from './labels.js';
 import { state, t } from './lang.js';
 import { MOVES, scanPoints } from './overlays.js';
-import { Taken, around, nameOf } from './places.js';
+import { LETTER, Taken, around, fitted, nameOf } from './places.js';
 import { bytes } from './shapes.js';
 import { furniture, signOf } from './symbols.js';
+import { Zoom } from './zoom.js';
 
 const SHOWN = new Set(['lamp', 'door', 'window', 'elevator', 'stove', 'heater', 'appliance', 'cabinet']);
-const LETTER = 0.66; // of a text's height: the width of a letter
-const WIDER = 1.5, LETTERS = 8; // limits of a room's name: its width over that of the room, its letters
+const WIDER = 1.5; // a room's name over the room, at most
 const LEAST = 11, FACE = 6, DOT = 4; // px of a text's height, of the radius of a device's mark, of a sensor's
 const REACH = 22, LATER = 14; // px around a tap: half of a target; by which sensors, small and on doors, come after others
 const MARGIN = 0.6; // m around all that is shown
@@ -32,13 +32,15 @@ export class Plan {
     this.withFields = false;
     this.stale = true;
     this.goal = /** @type {number[] | null} */ (null);
-    this.scale = 1; // px of a meter
+    /** @type {any} the mark of a thing that one carries */
+    this.carried = null;
     this.text = 0; // m of height
     /** @type {number[][]} */
     this.names = []; // boxes of the rooms' names
     /** @type {boolean | undefined} as one has set it */
     this.legendOpen = undefined;
     this.element = by('plan');
+    this.zoom = new Zoom(this.element, () => this.root?.setAttribute('viewBox', this.zoom.box.join(' ')), () => { this.stale = true; this.draw(); });
     /** @type {Map<string, any>} */
     this.items = new Map();
     /** @type {Map<any, number[][]>} by entity: where its mark is, from one end to the other */
@@ -54,10 +56,14 @@ export class Plan {
 
   /** @param {number | null} storey */
   setStorey(storey) {
+    if (storey !== this.storey) this.zoom.times = 1;
     this.storey = storey;
     this.stale = true;
     this.draw();
   }
+
+  /** @returns {number} px of a meter */
+  get scale() { return this.zoom.scale; }
 
   number() {
     return this.storey ?? this.home.storeys[0]?.number ?? 0;
@@ -85,9 +91,9 @@ export class Plan {
     const xs = places.map(([x]) => x), ys = places.map(([, y]) => y), margin = rooms.length ? MARGIN : 2 * MARGIN; // leaves open
     const left = Math.min(...xs) - margin, top = -Math.max(...ys) - margin;
     const width = Math.max(...xs) + margin - left, height = -Math.min(...ys) + margin - top;
-    this.scale = Math.min(this.element.clientWidth / width, this.element.clientHeight / height) || 1;
-    this.text = Math.max(Math.min(0.42, width / 30), LEAST / this.scale);
-    this.root = svg('svg', { viewBox: `${left} ${top} ${width} ${height}`, role: 'group', 'aria-label': t('Plan of floor {number}', { number }) });
+    this.zoom.within([left, top, width, height]);
+    this.text = Math.max(Math.min(0.42, this.zoom.box[2] / 30), LEAST / this.scale);
+    this.root = svg('svg', { viewBox: this.zoom.box.join(' '), role: 'group', 'aria-label': t('Plan of floor {number}', { number }) });
     this.root.addEventListener('click', (/** @type {MouseEvent} */ e) => this.onPick(this.hit(e.clientX, e.clientY)));
     const path = (/** @type {number[][]} */ p) => `M${p.map(([x, y]) => `${x.toFixed(3)} ${(-y).toFixed(3)}`).join('L')}Z`;
     for (const room of rooms) {
@@ -112,6 +118,7 @@ export class Plan {
     this.root.append(this.scan);
     this.element.replaceChildren(this.root, this.legend(shown));
     this.showGoal(this.goal);
+    if (this.carried) this.root.append(this.carried);
     this.update();
   }
 
@@ -128,8 +135,7 @@ export class Plan {
     }
     const written = new Taken();
     for (const room of rooms) {
-      const xs = room.polygon.map((/** @type {number[]} */ [x]) => x), most = (WIDER * (Math.max(...xs) - Math.min(...xs))) / (LETTER * text);
-      const name = shortened(roomText(room), Math.max(LETTERS, Math.floor(most))), wide = (LETTER / 2) * text * name.length, [x, y] = nameOf(room.polygon, wide, text / 2, taken);
+      const name = fitted(roomText(room), room.polygon, (LETTER * text) / WIDER), wide = (LETTER / 2) * text * name.length, [x, y] = nameOf(room.polygon, wide, text / 2, taken);
       if (!written.put([x, y, wide, text / 2], [[0, 0]])) continue; // the room is smaller than its name
       this.root.append(svg('text', { x, y: -y + 0.35 * text, 'font-size': text }, name));
     }
@@ -397,9 +403,6 @@ function extents(corners) {
   corners.forEach((value, i) => { found[i % 3] = [Math.min(found[i % 3][0], value), Math.max(found[i % 3][1], value)]; });
   return found;
 }
-
-/** @param {string} text @param {number} most letters */
-const shortened = (text, most) => (text.length > most ? `${text.slice(0, most - 1)}…` : text);
 
 /** @param {number[]} point @param {number[]} line x y x y @returns {number} m between them */
 function away([x, y], [u, v, s, t]) {

@@ -1,18 +1,19 @@
 /** What the sheet shows of a home that is drawn, and where. */
 import { mapOf } from './coverage.js';
-import { by, svg } from './dom.js';
-import { distance, isBuilt, itemOf, keysOf, normal, placesOf } from './drawing.js';
+import { by, svg, words } from './dom.js';
+import { distance, isBuilt, itemOf, keysOf, labelIn, normal, placesOf } from './drawing.js';
 import { reach } from './fields.js';
 import { numbers } from './lang.js';
-import { Taken, nameOf } from './places.js';
+import { LETTER, Taken, fitted, nameOf } from './places.js';
 import { furniture, signOf } from './symbols.js';
 
 /** @typedef {import('./drawing.js').Item} Item @typedef {import('./drawing.js').Point} Point */
 
-export const FINGER = 22, MOUSE = 9; // px around a pointer
+const FINGER = 22; // px around a finger
+export const MOUSE = 9; // px around a mouse
 export const SIGN = 0.17, SPOT = 0.12, BODY = 0.22; // m of marks: half of a lamp, a sensor, a person
 const LEAST_MARK = 7; // px
-const LETTER = 0.66; // of a text's height: the width of a letter
+const THIN = 0.55; // of a text's height: the width of a letter of a room's name
 const FARTHEST = 8, LEAST = 4, MOST = 400; // m of the ground that an empty lot shows; px of a meter
 const MARGIN = 44, ABOVE = 76, BELOW = 72; // px around all, above, and below
 const { PI, cos, sin, min, max, abs, atan2 } = Math;
@@ -27,15 +28,32 @@ export class Sheet {
     this.middle = [4, 3];
     this.scale = 60; // px of a meter
     this.fingers = false; // whether one touches it
+    /** @type {any} */
+    this.behind = null;
+    this.bare = false; // without that picture
     /** @type {any} an edit that a drag would make */
     this.preview = null;
     /** @type {WeakMap<Item, {key: string, node: any}>} what was drawn of an item that is still the same */
     this.drawn = new WeakMap();
-    /** @type {any[]} */
-    this.named = []; // shapes and names of rooms
+    /** @type {any[][]} */
+    this.named = [[], []]; // shapes and names of rooms
   }
 
   draw() { }
+
+  /** @param {number} scale m of a pixel of the plan that was imported, which is shown behind the drawing */
+  showBehind(scale) {
+    const picture = new Image();
+    picture.onload = () => {
+      const [width, height] = [picture.naturalWidth * scale, picture.naturalHeight * scale];
+      this.behind = svg('image', { class: 'behind', href: picture.src, width, height, y: -height });
+      this.draw();
+    };
+    picture.src = '/behind';
+  }
+
+  /** @param {Item} storey @returns {any[]} that picture, on the ground floor */
+  picture(storey) { return this.behind && !this.bare && storey.number === 0 ? [this.behind] : []; }
 
   // --- places
 
@@ -92,22 +110,36 @@ export class Sheet {
     return svg('path', { class: 'grid', d });
   }
 
-  /** @param {Item} storey */
+  /** @param {Item} storey @returns {any[][]} the shapes of rooms, and their names */
   rooms(storey) {
     if (this.preview) return this.named; // they need not be placed again
     const text = max(0.2, 12 / this.scale), taken = new Taken(), path = (/** @type {Point[]} */ p) => `M${p.map(([x, y]) => `${x} ${-y}`).join('L')}Z`;
-    for (const item of ['pieces', 'lamps', 'sensors', 'movers'].flatMap((list) => storey[list] ?? [])) {
-      const [c, s] = [abs(cos(item.yaw ?? 0)), abs(sin(item.yaw ?? 0))], [deep, wide] = [item.depth ?? 0.5, item.width ?? 0.5];
-      taken.boxes.push([item.x, item.y, (c * deep + s * wide) / 2, (s * deep + c * wide) / 2]);
+    for (const { x, y, yaw = 0, depth, width } of storey.pieces ?? []) {
+      const [c, s] = [abs(cos(yaw)), abs(sin(yaw))];
+      taken.boxes.push([x, y, (c * depth + s * width) / 2, (s * depth + c * width) / 2]);
+    }
+    for (const list of ['lamps', 'sensors', 'movers']) {
+      for (const { x, y, name } of storey[list] ?? []) {
+        const half = this.half(list), own = this.small;
+        taken.boxes.push([x, y, half, half]);
+        if (list === 'movers') taken.boxes.push([x, y - half - 0.7 * own, (LETTER / 2) * own * name.length, 0.6 * own]);
+      }
     }
     for (const { x, y, width } of storey.openings ?? []) taken.boxes.push([x, y, width / 2, width / 2]);
-    this.named = this.editor.rooms.flatMap((room, i) => {
-      const name = `${room.name.replaceAll('_', ' ')} · ${numbers(areaOf(room.polygon).toFixed(1))} m²`, wide = (LETTER / 2) * text * name.length, [x, y] = nameOf(room.polygon, wide, text / 2, taken);
-      return [svg('path', { class: `room-shape${this.editor.room === i ? ' chosen' : ''}`, d: [room.polygon, ...room.holes].map(path).join(''), 'fill-rule': 'evenodd', 'stroke-width': 0 }),
-        svg('text', { class: 'room-name', x, y: -y + 0.35 * text, 'font-size': text }, name)];
-    });
+    const rooms = [...this.editor.rooms.entries()];
+    this.named = [rooms.map(([i, room]) => svg('path', { class: `room-shape${this.editor.room === i ? ' chosen' : ''}`, d: [room.polygon, ...room.holes].map(path).join(''), 'fill-rule': 'evenodd', 'stroke-width': 0 })),
+      rooms.map(([, room]) => {
+        const own = words(labelIn(storey, room)?.label.name || room.name), area = `\u200e · ${numbers(areaOf(room.polygon).toFixed(1))} m²`, name = fitted(own, room.polygon, 1.2 * THIN * text, area), wide = (THIN / 2) * text * name.length, [x, y] = nameOf(room.polygon, wide, text / 2, taken);
+        return svg('text', { class: 'room-name', x, y: -y + 0.35 * text, 'font-size': text }, name);
+      })];
     return this.named;
   }
+
+  /** @returns {number} m: the height of the names of people and robots */
+  get small() { return max(0.16, 11 / this.scale); }
+
+  /** @param {string} list @returns {number} m: half of the width of its marks */
+  half(list) { return max(LEAST_MARK / this.scale, list === 'sensors' ? SPOT : list === 'movers' ? BODY : SIGN); }
 
   /** @param {Item} storey @param {Set<string>} chosen */
   walls(storey, chosen) {
@@ -196,8 +228,8 @@ export class Sheet {
 
   /** @param {string} list @param {Item} item @param {boolean} chosen @param {string} [cls] */
   mark(list, item, chosen, cls = '') {
-    const sensor = list === 'sensors', mover = list === 'movers', size = max(LEAST_MARK / this.scale, sensor ? SPOT : mover ? BODY : SIGN), kind = mover ? item.kind : sensor ? 'sensor' : 'lamp';
-    const text = max(0.16, 11 / this.scale), turn = (-(item.yaw ?? 0) * 180) / PI;
+    const sensor = list === 'sensors', mover = list === 'movers', size = this.half(list), kind = mover ? item.kind : sensor ? 'sensor' : 'lamp';
+    const text = this.small, turn = (-(item.yaw ?? 0) * 180) / PI;
     return svg('g', { class: `item ${kind} ${chosen ? 'chosen' : ''} ${cls}`, transform: `translate(${item.x} ${-item.y})` },
       chosen ? svg('circle', { class: 'halo', r: size + 5 / this.scale }) : null, svg('g', { transform: `rotate(${turn})` }, ...signOf(kind, size, sensor, mover), sensor ? svg('path', { class: 'nose', d: `M${size} 0h${size}` }) : null),
       mover ? svg('text', { class: 'who', 'font-size': text, y: size + text }, item.name) : null);

@@ -1,14 +1,21 @@
-"""Clients of gazebo_ros's services spawn lights and read errors."""
+"""Clients of gazebo_ros spawn lights, read errors, and set parameters by dynamic_reconfigure."""
 
 from __future__ import annotations
+
+import math
+from typing import Any
 
 import pytest
 from angen_msgs.msg import LampState
 from angen_msgs.srv import List, SendCommand
+from dynamic_reconfigure.msg import (BoolParameter, Config, ConfigDescription, DoubleParameter,
+                                     StrParameter)
+from dynamic_reconfigure.srv import Reconfigure
 from gazebo_msgs.msg import ModelState
 from gazebo_scene import LAMP, SLIDE, Gazebo, at
 from geometry_msgs.msg import Vector3
 from harness import Angen
+from rospy import ServiceException
 from std_msgs.msg import ColorRGBA
 
 
@@ -82,7 +89,7 @@ def test_lines_of_a_namespaced_robot_are_those_of_its_text(gazebo: Gazebo) -> No
 
 def test_a_spawned_light_is_a_lamp(gazebo: Gazebo, angen: Angen) -> None:
     gazebo.spawn("bulb", LAMP, at(1, 0, 0))
-    assert angen.call("/angen/command", SendCommand, target="bulb", text="Dim 30").success
+    angen.command("bulb", "Dim 30")
     gazebo.step(50)
     state = angen.wait("/angen/lamp/bulb", LampState)
     assert (state.level, state.luminous_flux) == (30.0, 240.0)  # 800 lm at its brightest color
@@ -90,3 +97,38 @@ def test_a_spawned_light_is_a_lamp(gazebo: Gazebo, angen: Angen) -> None:
     assert (bulb.topic, bulb.model, bulb.pose.position.z) == ("/angen/lamp/bulb", "", 2.0)
     gazebo.call("delete_light", light_name="bulb")
     assert not angen.call("/angen/command", SendCommand, target="bulb", text="On").success
+
+
+def test_parameters_of_dynamic_reconfigure(gazebo: Gazebo, angen: Angen) -> None:
+    from dynamic_reconfigure.client import Client
+    described = angen.wait("/gazebo/parameter_descriptions", ConfigDescription)
+    names = [p.name for p in described.groups[0].parameters]
+    assert len(names) == 15 and names[0] == "time_step" and "max_contacts" in names
+    client = Client("/gazebo", timeout=20)
+    try:
+        changed = client.update_configuration({"gravity_x": 0.5, "sor_pgs_w": 1.25})
+        assert changed["gravity_x"] == 0.5 and changed["sor_pgs_w"] == 1.25
+        now = gazebo.call("get_physics_properties")
+        assert now.gravity.x == 0.5 and now.ode_config.sor_pgs_w == 1.25
+        update = angen.wait("/gazebo/parameter_updates", Config)
+        assert {d.name: d.value for d in update.doubles}["gravity_x"] == 0.5
+        client.update_configuration({"gravity_x": 0.0})
+    finally:
+        client.close()
+    assert gazebo.call("get_physics_properties").gravity.x == 0.0
+
+
+@pytest.mark.parametrize("nonsense, reason", [
+    ({"doubles": [DoubleParameter("gravity_w", 1.0)]},
+     "there is no parameter 'gravity_w' of type double"),
+    ({"bools": [BoolParameter("gravity_x", True)]},
+     "there is no parameter 'gravity_x' of type bool"),
+    ({"doubles": [DoubleParameter("gravity_y", 1.0), DoubleParameter("gravity_x", math.nan)]},
+     "the parameter gravity_x is not a number"),
+    ({"strs": [StrParameter("gravity_x", "up")]}, "there is no parameter 'gravity_x'")])
+def test_parameters_that_make_no_sense_are_rejected_with_the_reason(
+        gazebo: Gazebo, angen: Angen, nonsense: dict[str, Any], reason: str) -> None:
+    before = gazebo.call("get_physics_properties")
+    with pytest.raises(ServiceException, match=reason):
+        angen.call("/gazebo/set_parameters", Reconfigure, config=Config(**nonsense))
+    assert gazebo.call("get_physics_properties") == before
