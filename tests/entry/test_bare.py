@@ -69,7 +69,7 @@ def test_the_first_failure_ends_it_with_its_exit_code(checkout: Path) -> None:
 
 def test_dpkg_fails_while_something_is_compiled(checkout: Path, tmp_path: Path) -> None:
     bare(checkout, 'true')
-    settings = (checkout / 'build-bare/root/etc/dpkg/dpkg.cfg.d/angen').read_text().splitlines()
+    settings = (checkout / 'build-bare/root/etc/dpkg/dpkg.cfg.d/compiling').read_text().splitlines()
     hooks = dict(line.split('=', 1) for line in settings)
     assert set(hooks) == {'pre-invoke', 'post-invoke'}
     shutil.copy('/bin/sleep', tmp_path / 'ninja')

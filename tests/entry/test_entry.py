@@ -96,6 +96,13 @@ def test_no_arguments_print_the_usage(folder):
     assert './angen run' in result.stdout
 
 
+@pytest.mark.parametrize('command', ['build', 'docs', 'package', 'run', 'shell', 'test', 'wheel'])
+def test_help_of_a_command_builds_nothing(command):
+    usage = subprocess.run([ROOT / 'angen', 'help'], capture_output=True, text=True)
+    asked = subprocess.run([ROOT / 'angen', command, '--help'], capture_output=True, text=True)
+    assert (asked.returncode, asked.stdout, asked.stderr) == (0, usage.stdout, '')
+
+
 def test_both_helps_name_every_command():
     usage = subprocess.run([ROOT / 'angen', 'help'], capture_output=True, text=True)
     same = subprocess.run([ROOT / 'angen', '--help'], capture_output=True, text=True)

@@ -19,7 +19,9 @@ HIDE = ['unshare', '--map-root-user', '--mount', 'sh', '-c',
 
 @pytest.fixture(scope='module')
 def prefix(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """What `cmake --install` has installed."""
+    """What `cmake --install` has installed, or what stands in the folder $ANGEN_INSTALLED."""
+    if 'ANGEN_INSTALLED' in os.environ:
+        return Path(os.environ['ANGEN_INSTALLED'])
     folder = tmp_path_factory.mktemp('installed')
     subprocess.run(['cmake', '--install', ROOT / 'build'], check=True, stdout=subprocess.DEVNULL,
                    env=dict(os.environ, DESTDIR=str(folder)))
