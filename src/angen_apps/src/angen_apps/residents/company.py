@@ -22,7 +22,7 @@ BESIDE = (EAT, VISIT, TV)  # activities for which one takes a seat near to other
 LEFT_FOR_TV = ('relax', 'read', 'play')  # free time that one may spend before the TV with another
 # s between two bouts of movements; who sleeps turns 2.1 to 2.7 times an hour (De Koninck, Lorrain
 # and Gagnon, Sleep 15, 1992); the others are ours
-MOVES = {'sit': (40.0, 300.0), 'lie': (500.0, 3000.0), 'stand': (15.0, 90.0)}
+MOVES = {'sit': (25.0, 160.0), 'lie': (500.0, 3000.0), 'stand': (15.0, 90.0)}
 TURNED = 0.12  # rad from the way a seat faces: who turned on would hit what is beside
 TURNS = (-TURNED, 0.0, TURNED)
 LEANS = (-0.02, 0.1), (-0.02, 0.02)  # m ahead and aside, of who sits and reaches; ours
