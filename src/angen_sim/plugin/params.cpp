@@ -219,7 +219,12 @@ Nanoseconds Params::update_period() {
     throw error(path, "<" + path + "> is " + number_text(rate) +
                           " Hz, must be 0 or >= " + number_text(kSlowest));
   }
-  return from_seconds(1.0 / (rate > 0.0 ? rate : rate_));
+  const double hz = rate > 0.0 ? rate : rate_;
+  if (!(hz >= kSlowest && hz <= rates.max)) {
+    throw error(path, "the rate of its kind is " + number_text(hz) + " Hz, must be from " +
+                          number_text(kSlowest) + " to " + number_text(rates.max));
+  }
+  return from_seconds(1.0 / hz);
 }
 
 double Params::noise(const std::string& field, const std::string& unit, const std::string& doc,

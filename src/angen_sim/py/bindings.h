@@ -9,8 +9,16 @@
 #include "core/home.h"
 #include "plugin/library.h"
 #include "py/convert.h"
+#include "py/exclusive.h"
 #include "py/world.h"
 #include "sim/snapshot.h"
+
+namespace pybind11::detail {
+
+template <>
+class type_caster<angen::py::World> : public angen::py::ExclusiveCaster<angen::py::World> {};
+
+}  // namespace pybind11::detail
 
 namespace angen::py {
 

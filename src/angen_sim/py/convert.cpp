@@ -35,6 +35,14 @@ pyb::dict to_dict(const Reading& reading) {
 
 namespace {
 
+std::int64_t whole(const std::string& name, const pyb::handle& value) {
+  try {
+    return pyb::cast<std::int64_t>(value);
+  } catch (const pyb::cast_error&) {
+    throw Error("the field '" + name + "' is a whole number of more than 64 bits");
+  }
+}
+
 // A list of texts or of numbers.
 void set_list(const std::string& name, const pyb::handle& value, Reading& reading) {
   try {
@@ -58,11 +66,14 @@ void set_list(const std::string& name, const pyb::handle& value, Reading& readin
 
 void from_dict(const pyb::dict& values, Reading& reading) {
   for (const auto& [key, value] : values) {
+    if (!pyb::isinstance<pyb::str>(key)) {
+      throw Error("keys are str; " + pyb::cast<std::string>(pyb::repr(key)) + " is not");
+    }
     const auto name = pyb::cast<std::string>(key);
     if (pyb::isinstance<pyb::bool_>(value)) {
       reading.set(name.c_str(), pyb::cast<bool>(value));
     } else if (pyb::isinstance<pyb::int_>(value)) {
-      reading.set(name.c_str(), pyb::cast<std::int64_t>(value));
+      reading.set(name.c_str(), whole(name, value));
     } else if (pyb::isinstance<pyb::float_>(value)) {
       reading.set(name.c_str(), pyb::cast<double>(value));
     } else if (pyb::isinstance<pyb::str>(value)) {

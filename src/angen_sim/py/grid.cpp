@@ -1,6 +1,7 @@
 #include "home/grid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 #include "py/bindings.h"
@@ -19,6 +20,13 @@ Eigen::VectorXd cast_rays(const World& world, const Eigen::Ref<const Three>& ori
   if (directions.rows() != origins.rows() || (each != nullptr && each->size() != origins.rows())) {
     throw Error("as many directions and reaches as origins are needed");
   }
+  if (!origins.allFinite() || !directions.allFinite() ||
+      (directions.rowwise().norm().array() == 0.0).any()) {
+    throw Error("origins and directions are finite, and no direction is 0 0 0");
+  }
+  if (!(each != nullptr ? (each->array() >= 0.0).all() : std::get<double>(reach) >= 0.0)) {
+    throw Error("a reach is 0 m or more");
+  }
   std::vector<rays::Ray> rays;
   rays.reserve(static_cast<std::size_t>(origins.rows()));
   for (Eigen::Index i = 0; i < origins.rows(); ++i) {
@@ -26,6 +34,7 @@ Eigen::VectorXd cast_rays(const World& world, const Eigen::Ref<const Three>& ori
                     each ? (*each)[i] : std::get<double>(reach)});
   }
   const std::vector<rays::Hit> hits = [&] {
+    const Exclusive::Busy busy(world);
     const pyb::gil_scoped_release release;
     return world.cast(rays);
   }();
@@ -114,6 +123,7 @@ void bind_cells(pyb::module_& module) {
       .def(
           "cell",
           [](const Grid& g, double x, double y) {
+            if (!std::isfinite(x) || !std::isfinite(y)) throw Error("x and y are finite, in m");
             const auto [column, row] = g.cell({x, y});
             return std::pair(row, column);
           },

@@ -79,8 +79,9 @@ std::vector<Entity> entities(const World& world, const std::string& kind) {
 
 // In slices so that Ctrl-C ends a long run; until `take` returns true.
 template <class F>
-void advance(std::uint64_t ticks, F&& take) {
+void advance(const World& world, std::uint64_t ticks, F&& take) {
   constexpr std::uint64_t kSlice = 10000;
+  const Exclusive::Busy busy(world);
   bool stops = false;
   while (ticks > 0 && !stops) {
     const std::uint64_t slice = std::min(ticks, kSlice);
@@ -89,6 +90,7 @@ void advance(std::uint64_t ticks, F&& take) {
       stops = take(slice);
     }
     ticks -= slice;
+    if (interrupted().exchange(false)) PyErr_SetInterrupt();
     if (PyErr_CheckSignals() != 0) throw pyb::error_already_set();
   }
 }
@@ -139,16 +141,13 @@ void bind_world(pyb::module_& module) {
       .def(
           "step",
           [](World& w, std::uint64_t ticks) {
-            advance(ticks, [&](std::uint64_t n) {
-              w.step(n);
-              return false;
-            });
+            advance(w, ticks, [&](std::uint64_t n) { return w.step(n); });
           },
           pyb::arg("ticks") = 1, "Advances by ticks, each of them taken.")
       .def(
           "run",
           [](World& w, double seconds, bool long_steps, bool until_event) {
-            advance(w.ticks_in(seconds),
+            advance(w, w.ticks_in(seconds),
                     [&](std::uint64_t n) { return w.run(n, long_steps, until_event); });
           },
           pyb::arg("seconds"), pyb::arg("long_steps") = false, pyb::arg("until_event") = false,

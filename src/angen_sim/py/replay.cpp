@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "core/plugin_path.h"
 #include "py/bindings.h"
 #include "py/world.h"
@@ -7,7 +9,7 @@ namespace angen::py {
 namespace {
 
 // A replay with a view of its present world.
-class Replay : public record::Replay {
+class Replay : public record::Replay, public Exclusive {
  public:
   using record::Replay::Replay;
 
@@ -15,6 +17,7 @@ class Replay : public record::Replay {
     if (!present_) present_ = std::make_unique<World>(simulation());
     return *present_;
   }
+  World* shown() { return present_.get(); }
   void advance_to(Nanoseconds time) {
     const std::shared_ptr<const sim::Snapshot> made = advance(time);
     if (present_) present_->follow(made);
@@ -30,12 +33,16 @@ class Replay : public record::Replay {
 
 // Until the end, or `seconds` further; true while something is left.
 bool advance_replay(Replay& replay, double seconds) {
+  const Exclusive::Busy busy(replay);
+  std::optional<Exclusive::Busy> shown_busy;
+  if (const World* shown = replay.shown()) shown_busy.emplace(*shown);
   const Nanoseconds end = replay.simulation().snapshot()->time + duration(seconds);
   while (!replay.done() && replay.simulation().snapshot()->time < end) {
     {
       const pyb::gil_scoped_release release;
       replay.advance_to(end);
     }
+    if (interrupted().exchange(false)) PyErr_SetInterrupt();
     if (PyErr_CheckSignals() != 0) throw pyb::error_already_set();
   }
   return !replay.done();
@@ -47,6 +54,17 @@ double time_of_end(const record::Log& log) {
 }
 
 }  // namespace
+
+}  // namespace angen::py
+
+namespace pybind11::detail {
+
+template <>
+class type_caster<angen::py::Replay> : public angen::py::ExclusiveCaster<angen::py::Replay> {};
+
+}  // namespace pybind11::detail
+
+namespace angen::py {
 
 void bind_replay(pyb::module_& module, std::shared_ptr<Catalog> (*catalog)(bool any_path)) {
   pyb::class_<Replay>(module, "Replay", "A recorded run, run again; see docs/replay.md.")

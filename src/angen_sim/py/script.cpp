@@ -54,8 +54,8 @@ Plugins load_script(const std::string& file) {
   try {
     run_file(file);
   } catch (pyb::error_already_set& error) {
-    if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();
     problem = one_line(error);
+    if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();  // one_line would consume it
   }
   loading = now.outer;
   if (!problem.empty()) throw Error(problem);

@@ -1,14 +1,16 @@
-
 #include <algorithm>
 #include <map>
 #include <tuple>
 #include <utility>
 
+#include "core/limits.h"
 #include "core/named.h"
+#include "core/text.h"
 #include "plugin/outputs.h"
 #include "plugin/view.h"
 #include "plugin/wiring.h"
 #include "py/bindings.h"
+#include "py/lent.h"
 
 namespace angen::py {
 
@@ -34,21 +36,39 @@ class Held {
   pyb::object object_;
 };
 
-template <class T>
-pyb::object borrowed(const T& value) {
-  return pyb::cast(&value, pyb::return_value_policy::reference);
-}
-
-// An exception of a Python method becomes an Error, as of any plug-in.
+// An exception of a Python method becomes an Error, as of any plug-in. Ctrl-C is not the plug-in's:
+// the call is made again, and the run ends after this tick.
 template <class F>
 auto with_python(F&& call) {
   const pyb::gil_scoped_acquire gil;
-  try {
-    return call();
-  } catch (pyb::error_already_set& error) {
-    if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();  // raised when step() ends
-    throw Error(one_line(error));
+  for (bool is_first = true;; is_first = false) {
+    try {
+      return call();
+    } catch (pyb::error_already_set& error) {
+      const bool is_interrupt = error.matches(PyExc_KeyboardInterrupt);
+      if (is_interrupt) interrupted() = true;
+      if (!is_interrupt || !is_first) throw Error(one_line(error));
+    }
   }
+}
+
+// A value that a plug-in's class has; `rule` says what it must be.
+template <class T>
+T as(const pyb::object& value, const std::string& rule) {
+  try {
+    return pyb::cast<T>(value);
+  } catch (const pyb::cast_error&) {
+    throw Error(rule + "; it is " + printable(pyb::cast<std::string>(pyb::repr(value)), 100));
+  }
+}
+
+Reading& filled(const pyb::object& values, const std::string& method, Reading& reading) {
+  if (!pyb::isinstance<pyb::dict>(values)) {
+    throw Error(method + "() must return a dict; it is " +
+                printable(pyb::cast<std::string>(pyb::repr(values)), 100));
+  }
+  from_dict(values, reading);
+  return reading;
 }
 
 class PythonSensor : public Sensor {
@@ -56,18 +76,25 @@ class PythonSensor : public Sensor {
   explicit PythonSensor(pyb::object self) : self_(std::move(self)) {}
 
   void configure(Params& params, Wiring& wiring) override {
-    with_python([&] { self_.get().attr("configure")(borrowed(params), borrowed(wiring)); });
+    with_python([&] { self_.get().attr("configure")(Lent(params).get(), Lent(wiring).get()); });
   }
   Nanoseconds sample_period() const override {
-    return with_python(
-        [&] { return from_seconds(pyb::cast<double>(self_.get().attr("sample_period"))); });
+    return with_python([&] {
+      const std::string rule = "sample_period must be s from 0 to 1e9";
+      const auto seconds = as<double>(self_.get().attr("sample_period"), rule);
+      if (!(seconds >= 0.0 && seconds <= limits::kTime.most)) {
+        throw Error(rule + "; it is " + number_text(seconds));
+      }
+      return from_seconds(seconds);
+    });
   }
   void aim(const View& view, RayBatch& batch) override {
     with_python([&] {
-      const pyb::object rays = self_.get().attr("aim")(borrowed(view));
+      const pyb::object rays = self_.get().attr("aim")(Lent(view).get());
       if (rays.is_none()) return;
       // Rows of origin x y z, direction x y z, min and max range.
-      const auto rows = pyb::cast<Eigen::Matrix<double, Eigen::Dynamic, 8, Eigen::RowMajor>>(rays);
+      const auto rows = as<Eigen::Matrix<double, Eigen::Dynamic, 8, Eigen::RowMajor>>(
+          rays, "aim() must return None or (n, 8) numbers");
       for (Eigen::Index i = 0; i < rows.rows(); ++i) {
         batch.push_back({rows.block<1, 3>(i, 0).transpose(),
                          rows.block<1, 3>(i, 3).transpose().normalized(), rows(i, 6), rows(i, 7)});
@@ -80,8 +107,10 @@ class PythonSensor : public Sensor {
       for (std::size_t i = 0; i < hits.size(); ++i) {
         ranges[static_cast<Eigen::Index>(i)] = hits[i].range;
       }
-      from_dict(self_.get().attr("read")(borrowed(view), ranges, borrowed(rng)), reading);
-      const double until = pyb::cast<double>(self_.get().attr("idle_until")(borrowed(view)));
+      const Lent seen(view);
+      filled(self_.get().attr("read")(seen.get(), ranges, Lent(rng).get()), "read", reading);
+      const auto until = as<double>(self_.get().attr("idle_until")(seen.get()),
+                                    "idle_until() must return a time, s");
       idle_until_ = until < 1e9 ? from_seconds(until) : kForever;
     });
   }
@@ -97,20 +126,21 @@ class PythonDevice : public Device {
   explicit PythonDevice(pyb::object self) : self_(std::move(self)) {}
 
   void configure(Params& params, Wiring& wiring) override {
-    with_python([&] { self_.get().attr("configure")(borrowed(params), borrowed(wiring)); });
+    with_python([&] { self_.get().attr("configure")(Lent(params).get(), Lent(wiring).get()); });
   }
   Verdict command(const Command& command, const View& view) override {
     return with_python([&] {
       const pyb::object reason =
-          self_.get().attr("command")(command.text, command.values, borrowed(view));
-      return reason.is_none() ? Verdict::accept() : Verdict::reject(pyb::cast<std::string>(reason));
+          self_.get().attr("command")(command.text, command.values, Lent(view).get());
+      if (reason.is_none()) return Verdict::accept();
+      return Verdict::reject(as<std::string>(reason, "command() must return None or a str"));
     });
   }
   void update(const View& view, Outputs& outputs) override {
-    with_python([&] { self_.get().attr("update")(borrowed(view), borrowed(outputs)); });
+    with_python([&] { self_.get().attr("update")(Lent(view).get(), Lent(outputs).get()); });
   }
   void report(const View& view, Reading& state) const override {
-    with_python([&] { from_dict(self_.get().attr("report")(borrowed(view)), state); });
+    with_python([&] { filled(self_.get().attr("report")(Lent(view).get()), "report", state); });
   }
 
  private:
@@ -143,19 +173,20 @@ class PythonPlugin : public Plugin {
       : kind_(kind, ""), type_(std::move(type)), is_sensor_(is_sensor) {
     const pyb::object doc = type_.get().attr("__doc__");
     if (!doc.is_none()) kind_.doc = pyb::cast<std::string>(doc);
-    if (is_sensor_) kind_.rate(pyb::cast<double>(type_.get().attr("rate")));
-    const auto fields = pyb::cast<std::map<std::string, std::string>>(type_.get().attr("fields"));
+    if (is_sensor_) kind_.rate(as<double>(type_.get().attr("rate"), "rate must be a number, Hz"));
+    const auto fields = as<std::map<std::string, std::string>>(
+        type_.get().attr("fields"), "fields must be a dict such as {'range': 'number m'}");
     for (const auto& [name, declared] : fields)
       kind_.fields.push_back(declared_field(name, declared));
-    type_.get().attr("describe")(pyb::cast(&kind_, pyb::return_value_policy::reference));
+    type_.get().attr("describe")(Lent(kind_).get());
   }
 
   const Kind& kind() const override { return kind_; }
   bool serves(const ModelInfo& model) const override {
     if (is_sensor_) return false;
     return with_python([&] {
-      return pyb::cast<bool>(
-          type_.get().attr("serves")(model.name, names_in(model.joints), model.lights));
+      return as<bool>(type_.get().attr("serves")(model.name, names_in(model.joints), model.lights),
+                      "serves() must return True or False");
     });
   }
   std::unique_ptr<Device> make_device() const override {

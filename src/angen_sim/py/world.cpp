@@ -53,6 +53,11 @@ World::Brief brief(const Entry& entry, const Reading* reading, Nanoseconds stamp
 
 }  // namespace
 
+std::atomic<bool>& interrupted() {
+  static std::atomic<bool> is_interrupted{false};
+  return is_interrupted;
+}
+
 World::World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalog> catalog,
              const std::string& log, bool allow_paths)
     : paths_(search_paths(folder_of(path) + "/models", allow_paths)),
@@ -142,28 +147,31 @@ void World::close() {
   recorder_.reset();
 }
 
-void World::step(std::uint64_t ticks) {
-  require_open();
-  const std::future<sim::Outcome> done = simulation_.post(sim::Step{ticks});
-  for (std::uint64_t i = 0; i < ticks; ++i) take(simulation_.tick());
-  raise_failure();
-}
-
-bool World::run(std::uint64_t ticks, bool long_steps, bool until_event) {
+template <class Advance>
+bool World::advance(std::uint64_t ticks, bool until_event, Advance&& advance) {
   require_open();
   if (ticks == 0) return false;
-  if (long_steps && recorder_) throw Error("long steps cannot be recorded: a replay has none");
   const auto ticket = std::make_shared<sim::Ticket>();
   const std::future<sim::Outcome> done = simulation_.post(sim::Step{ticks}, ticket);
   const std::int64_t last = snapshot_->tick + static_cast<std::int64_t>(ticks);
   bool stops = false;
   while (snapshot_->tick < last && !stops) {
-    take(simulation_.leap(leap_limit(last * snapshot_->step), long_steps));
-    stops = until_event && !snapshot_->events.empty();
+    take(advance(last * snapshot_->step));
+    stops = (until_event && !snapshot_->events.empty()) || interrupted();
   }
   if (stops) ticket->withdraw();
   raise_failure();
   return stops;
+}
+
+bool World::step(std::uint64_t ticks) {
+  return advance(ticks, false, [&](Nanoseconds) { return simulation_.tick(); });
+}
+
+bool World::run(std::uint64_t ticks, bool long_steps, bool until_event) {
+  if (long_steps && recorder_) throw Error("long steps cannot be recorded: a replay has none");
+  return advance(ticks, until_event,
+                 [&](Nanoseconds end) { return simulation_.leap(leap_limit(end), long_steps); });
 }
 
 Nanoseconds World::leap_limit(Nanoseconds until) const {
@@ -186,6 +194,7 @@ std::uint64_t World::ticks_in(double seconds) const {
 // The world stays paused: a tick executes the actions that wait, and only step() moves time.
 void World::drain(sim::Action action) {
   require_open();
+  const Busy busy(*this);
   std::future<sim::Outcome> outcome = simulation_.post(std::move(action));
   take(simulation_.tick());
   const sim::Outcome result = outcome.get();
@@ -199,7 +208,12 @@ void World::command(const std::string& kind, const std::string& name, const std:
 
 void World::spawn(const std::string& what, const std::string& name, const std::vector<double>& pose,
                   const std::string& on) {
-  if (load::is_sensor(what)) {
+  const bool is_sensor = load::is_sensor(what);
+  if (!is_sensor && !on.empty()) {
+    throw Error("only a <sensor> can be put on a link (on='" + printable(on) +
+                "'), and this is a model");
+  }
+  if (is_sensor) {
     drain(sim::Attach{load::sensor(what, name, to_pose(pose)), on});
   } else {
     sim::Spawn spawn{load::model(what, name, to_pose(pose), paths_)};
@@ -224,6 +238,7 @@ sim::Motion World::motion(const std::string& entity) const {
 }
 
 void World::reset() {
+  const Busy busy(*this);
   drain(sim::Reset{});
   fingerprint_ = {};
   begin();

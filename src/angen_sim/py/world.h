@@ -1,11 +1,13 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "py/convert.h"
+#include "py/exclusive.h"
 #include "py/reading_log.h"
 #include "record/fingerprint.h"
 #include "record/recorder.h"
@@ -19,8 +21,12 @@ namespace angen::py {
 /// Converts seconds from Python; Error if they are negative, not finite, or beyond the limit.
 Nanoseconds duration(double seconds);
 
-/// A simulation as Python sees it: loads, steps, commands, reads. Not shared between threads.
-class World {
+/// Whether Ctrl-C has come in the code of a plug-in: step() and run() end, and their caller raises
+/// it.
+std::atomic<bool>& interrupted();
+
+/// A simulation as Python sees it: loads, steps, commands, reads.
+class World : public Exclusive {
  public:
   /// `log` names a file to record into, unless it is empty. With `allow_paths` documents may name
   /// files anywhere; the catalog knows which libraries.
@@ -36,10 +42,11 @@ class World {
   /// Continues a simulation that has run already, of a world whose models are found in `models`.
   World(std::unique_ptr<sim::Simulation> simulation, const std::string& models);
 
-  void step(std::uint64_t ticks);
+  /// Takes each tick. Returns whether it was interrupted.
+  bool step(std::uint64_t ticks);
   /// Runs ticks, leaping over those without a change; for `long_steps` see Simulation::leap.
   void run(std::uint64_t ticks) { run(ticks, false, false); }
-  /// Whether it has ended with an event, before `ticks`.
+  /// Whether it has ended with an event, or was interrupted, before `ticks`.
   bool run(std::uint64_t ticks, bool long_steps, bool until_event);
   std::uint64_t ticks_in(double seconds) const;
 
@@ -93,6 +100,9 @@ class World {
 
  private:
   void begin();
+  /// Takes ticks by advance(END) until there are none or, with `until_event`, one has an event.
+  template <class Advance>
+  bool advance(std::uint64_t ticks, bool until_event, Advance&& advance);
   Brief brief_sensor(std::size_t index) const;
   Brief brief_device(std::size_t index) const;
   void require_open() const;

@@ -389,7 +389,8 @@ std::string world_text(const std::string& path, bool allow_any) {
 }
 
 desc::World world(const std::string& path, bool allow_any) {
-  return world_from_text(read_file(path), path, paths_beside(path, allow_any));
+  const std::string text = read_file(path);
+  return world_from_text(text, path, paths_beside(path, allow_any));
 }
 
 }  // namespace angen::load
