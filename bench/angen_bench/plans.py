@@ -13,7 +13,7 @@ from angen_apps.imports.rmf import read_rmf
 from angen_apps.imports.sweethome import read_sweethome
 from angen_apps.plan.apartment import apartment
 from angen_apps.plan.model import Plan, Point
-from angen_apps.plan.polygons import area, rectangle
+from angen_apps.plan.polygons import area, hole
 from angen_apps.plan.walls import footprint
 from angen_tools.common.yaml_file import YamlFile
 
@@ -83,9 +83,7 @@ def scans(folder: Path) -> list[Case]:
         fill(list(footprint(wall)), 20)
     gaps = [opening for opening in storey.openings if opening.kind != 'window']
     for gap in gaps:
-        half = gap.width / 2
-        fill(list(rectangle(gap.x, gap.y, gap.yaw, (-half, gap.band[0] - 0.03),
-                            (half, gap.band[1] + 0.03))), 235)
+        fill(hole(gap, 0.0, 0.03), 235)
     rooms = [area(room.polygon) for room in storey.rooms if room.use != 'outdoor']
     cases = []
     for noise in NOISES:

@@ -13,10 +13,11 @@ import angen
 from angen_apps.plan.apartment import apartment
 from angen_apps.plan.furnished import furnish
 from angen_apps.plan.model import Piece, Plan, Room, Storey
-from angen_apps.plan.polygons import contains, overlap, rectangle
+from angen_apps.plan.polygons import overlap, rectangle
 from angen_apps.plan.tower import building
 from angen_apps.plan.writer import write_world
 from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import contains
 
 BATHROOM = {'toilet', 'sink', 'shower', 'washing_machine'}
 

@@ -16,10 +16,10 @@ from angen_apps.plan.drawing import Drawing, from_json
 from angen_apps.plan.finish import finish, stem
 from angen_apps.plan.lifts import with_shafts
 from angen_apps.plan.model import Plan, Room, Storey
-from angen_apps.plan.polygons import contains
 from angen_apps.plan.writer import world_of, write_world, written
 from angen_tools.common.catalog import angen_module, simulator
 from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import contains
 from angen_tools.world import sdf
 
 MODELS = ('pir', 'pir_casas', 'luminosity_sensor')  # sensors that rules place

@@ -9,6 +9,7 @@ import numpy as np
 from angen import Grid
 
 from angen_apps.go.guard import Guard
+from angen_apps.maps.cells import cell_of
 from angen_apps.maps.gridmap import OCCUPIED
 from angen_apps.robot.building import Start, Survey
 from angen_apps.robot.driver import Driver, Stuck
@@ -175,7 +176,7 @@ def with_points(grid: Grid, points: np.ndarray) -> Grid:
     """A map on which the cells at points (n, 2) are occupied."""
     cells = grid.cells.copy()
     for x, y in points:
-        row, column = grid.cell(x, y)
-        if 0 <= row < cells.shape[0] and 0 <= column < cells.shape[1]:
-            cells[row, column] = OCCUPIED
+        cell = cell_of(grid, (x, y))
+        if cell is not None:
+            cells[cell] = OCCUPIED
     return grid.with_cells(cells)

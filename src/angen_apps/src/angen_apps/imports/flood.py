@@ -8,9 +8,10 @@ from angen import Grid
 
 from angen_apps.plan.model import Point, Room, Storey
 from angen_apps.plan.names import use_of
-from angen_apps.plan.polygons import area, contains, rectangle
-from angen_apps.plan.slabs import CELL, filled, raster_of
+from angen_apps.plan.polygons import area, hole
+from angen_apps.plan.slabs import CELL, at_edge, filled, raster_of
 from angen_apps.plan.walls import footprint
+from angen_tools.common.geometry import contains
 
 LEAST = 0.8  # m2 of a room
 STRAIGHT = 0.055  # m between a polygon and the cells' edges
@@ -29,11 +30,8 @@ def rooms_of(storey: Storey, ceiling: float, labels: Sequence[tuple[Point, str]]
         return []
     walls = [_thick_enough(footprint(wall), wall.thickness) for wall in storey.walls]
     for opening in storey.openings:
-        half = opening.width / 2 + CLOSED
         low, high = opening.band
-        wider = max(0.0, 2 * CELL - (high - low)) / 2
-        walls.append(rectangle(opening.x, opening.y, opening.yaw, (-half, low - wider),
-                               (half, high + wider)))
+        walls.append(hole(opening, CLOSED, max(0.0, 2 * CELL - (high - low)) / 2))
     solid = filled(raster, walls)
     if known is not None:
         rows, columns = ((middles / known[1]).astype(int) for middles in (raster.y, raster.x))
@@ -43,8 +41,7 @@ def rooms_of(storey: Storey, ceiling: float, labels: Sequence[tuple[Point, str]]
     floor = storey.elevation
     rooms = []
     for outline, holes in _regions(raster.with_cells(np.where(solid, Grid.WALL, Grid.FREE))):
-        texts = [text for point, text in labels if contains(outline, *point)
-                 and not any(contains(hole, *point) for hole in holes)]
+        texts = [text for point, text in labels if contains(outline, *point, holes)]
         text = min(texts, key=lambda t: (len(t), t)) if texts else ''
         rooms.append(Room(text, use_of(text), outline, floor, ceiling, holes=holes))
     return rooms
@@ -67,8 +64,7 @@ def _regions(grid: Grid) -> list[tuple[Outline, tuple[Outline, ...]]]:
     """Outline and holes of the connected free cells that do not reach the edge, in the order of
     the scan."""
     sizes = grid.number_parts()
-    cells = grid.cells
-    outside = set(np.concatenate([cells[0], cells[-1], cells[:, 0], cells[:, -1]]).tolist())
+    outside = at_edge(grid)
     found = []
     for label, size in enumerate(sizes):
         if label in outside or size * CELL * CELL < LEAST:

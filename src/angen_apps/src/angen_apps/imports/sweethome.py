@@ -16,10 +16,10 @@ from angen_apps.imports.things import Entry, table, what_is
 from angen_apps.plan.finish import finish
 from angen_apps.plan.model import (Color, Lamp, Leaf, Opening, Piece, Plan, Room, Storey, Wall)
 from angen_apps.plan.names import slug
-from angen_apps.plan.polygons import center, cleaned, contains, crosses_itself, rectangle, split
+from angen_apps.plan.polygons import base, cleaned, crosses_itself, split
 from angen_apps.plan.walls import arc, cuts_wall
 from angen_tools.common.failure import Failure
-from angen_tools.common.geometry import turned
+from angen_tools.common.geometry import center, contains, turned
 
 FLUX = 1600.0  # lm of a light of full power; 0.5, the default, is a bulb of 800 lm
 DEFAULT_HEIGHT = 2.5  # m
@@ -317,11 +317,9 @@ class _Home:
 
     def _cut_floor(self, storey: Storey, piece: Piece) -> None:
         """A staircase passes the floor that is above the middle of its height."""
-        half = piece.depth / 2, piece.width / 2
-        corners = rectangle(piece.x, piece.y, piece.yaw, (-half[0], -half[1]), half)
         for other in self.storeys.values():
             if storey.elevation + 0.5 < other.elevation <= piece.z + piece.height:
-                other.cutouts.append(tuple(corners))
+                other.cutouts.append(tuple(base(piece)))
 
 
 def _sliding(width: float, v: float) -> tuple[Leaf, ...]:

@@ -7,7 +7,7 @@ from typing import Iterable
 
 import numpy as np
 
-from angen_apps.plan.polygons import in_room
+from angen_apps.plan.polygons import inside
 from angen_apps.robot.entities import Entity
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home, Room
@@ -49,7 +49,8 @@ class Site:
         height = room.floor + TAG_HEIGHT - sensor.place[2]
         ranges = np.sqrt((away ** 2).sum(axis=1) + height ** 2)
         ahead = away @ [math.cos(sensor.flat.yaw), math.sin(sensor.flat.yaw)] > 0.0
-        chosen = (np.abs(ranges - distance) < slack) & ahead & in_room(room, x.ravel(), y.ravel())
+        chosen = (np.abs(ranges - distance) < slack) & ahead & inside(
+            room.polygon, x.ravel(), y.ravel(), room.holes)
         return away[chosen] + sensor.place[:2]
 
 

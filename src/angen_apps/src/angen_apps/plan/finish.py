@@ -9,15 +9,16 @@ from typing import Callable, Sequence
 import numpy as np
 from angen import Grid
 
+from angen_apps.maps.cells import cell_of
 from angen_apps.plan.model import Lamp, Opening, Piece, Plan, Point, Room, Storey, Wall
 from angen_apps.plan.names import Names, slug, use_by_things, use_of
 from angen_apps.plan.nested import cut_out, holds
 from angen_apps.plan.passages import passages
-from angen_apps.plan.polygons import area, contains, overlap, rectangle
-from angen_apps.plan.slabs import CELL, filled, raster_of
+from angen_apps.plan.polygons import area, base, hole, overlap
+from angen_apps.plan.slabs import CELL, at_edge, filled, raster_of
 from angen_apps.plan.travel import sided
 from angen_apps.plan.walls import cuts_wall, direction, footprint
-from angen_tools.common.geometry import local, turned
+from angen_tools.common.geometry import contains, local, turned
 
 WHOLE = 0.9  # share of an opening's width and height: a piece that fills it closes it
 JAMB = 0.1  # m from an end of a doorway to a wall beside it
@@ -146,13 +147,11 @@ def _filled(opening: Opening, storey: Storey, plan: Plan) -> Opening:
     if opening.kind != 'opening':
         return opening
     half = WHOLE * opening.width / 2
-    across = rectangle(opening.x, opening.y, opening.yaw, (-half, opening.band[0]),
-                       (half, opening.band[1]))
+    across = hole(replace(opening, width=2 * half))
     middle = sum(opening.band) / 2
     ends = [opening.point(sign * half, middle) for sign in (-1, 0, 1)]
     for piece in storey.pieces:
-        outline = rectangle(piece.x, piece.y, piece.yaw, (-piece.depth / 2, -piece.width / 2),
-                            (piece.depth / 2, piece.width / 2))
+        outline = base(piece)
         tall = min(2.0, opening.top - opening.bottom)
         upright = piece.z < opening.bottom + 0.3 and piece.height > WHOLE * tall
         spans = overlap(across, outline) > 0 and all(
@@ -227,20 +226,15 @@ def _outside(storey: Storey) -> Callable[[Point], bool]:
                        or [(0.0, 0.0)])
     if raster is None:
         return lambda _: True
-    shut = [rectangle(opening.x, opening.y, opening.yaw,
-                      (-opening.width / 2 - JAMB, min(opening.band) - CELL),
-                      (opening.width / 2 + JAMB, max(opening.band) + CELL))
-            for opening in storey.openings]
+    shut = [hole(opening, JAMB, CELL) for opening in storey.openings]
     solid = filled(raster, [*(footprint(wall) for wall in storey.walls), *shut])
     grid = raster.with_cells(np.where(solid, Grid.WALL, Grid.FREE))
     grid.number_parts()
-    cells = grid.cells
-    around = set(np.concatenate([cells[0], cells[-1], cells[:, 0], cells[:, -1]]).tolist())
+    around = at_edge(grid)
 
     def is_outside(point: Point) -> bool:
-        row, column = grid.cell(*point)
-        rows, columns = cells.shape
-        return not (0 <= row < rows and 0 <= column < columns) or int(cells[row, column]) in around
+        cell = cell_of(grid, point)
+        return cell is None or int(grid.cells[cell]) in around
     return is_outside
 
 

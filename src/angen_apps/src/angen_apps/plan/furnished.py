@@ -13,7 +13,7 @@ from scipy.ndimage import distance_transform_edt, label
 from angen_apps.plan.finish import room_at, stem
 from angen_apps.plan.model import Opening, Piece, Plan, Room, Storey
 from angen_apps.plan.names import Names
-from angen_apps.plan.polygons import bounds, overlap, rectangle
+from angen_apps.plan.polygons import base, bounds, hole, overlap
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import turned
 
@@ -55,7 +55,6 @@ TRIES = 40  # arrangements of a room
 VARIANTS = 8  # plans of a seed
 SLEEPERS = 2  # by bedroom
 MOST_CHAIRS = 4
-Area = list[tuple[float, float]]
 
 
 def furnished(plan_of: Callable[[str], Plan], seed: int) -> Plan:
@@ -108,7 +107,7 @@ class _Floor:
 
     room: Room
     doors: list[tuple[float, float]]
-    kept_free: list[tuple[Area, float]]
+    kept_free: list[tuple[list[tuple[float, float]], float]]
     chairs: int
 
 
@@ -200,14 +199,7 @@ def _chair(x: float, y: float, yaw: float) -> Piece:
 def _kept_free(opening: Opening) -> list[tuple[float, float]]:
     """A rectangle on both sides of an opening that stays free."""
     reach = opening.width + 0.1 if opening.kind != 'window' else opening.width + 0.05
-    return rectangle(opening.x, opening.y, opening.yaw,
-                     (-opening.width / 2 - 0.1, opening.band[0] - reach),
-                     (opening.width / 2 + 0.1, opening.band[1] + reach))
-
-
-def _outline(piece: Piece, front: float = 0.0) -> Area:
-    return rectangle(piece.x, piece.y, piece.yaw, (-piece.depth / 2, -piece.width / 2),
-                     (piece.depth / 2 + front, piece.width / 2))
+    return hole(opening, 0.1, reach)
 
 
 def _front(piece: Piece) -> float:
@@ -219,14 +211,14 @@ def _fits(floor: _Floor, pieces: list[Piece], placed: list[Piece]) -> bool:
     """Whether pieces are within the room, clear of swings and of what is placed already."""
     west, south, east, north = bounds(floor.room.polygon)
     for piece in pieces:
-        outline = _outline(piece)
+        outline = base(piece)
         if any(not (west < x < east and south < y < north) for x, y in outline):
             return False
         if any(overlap(outline, area) > 0 for area, above in floor.kept_free
                if piece.height > above):
             return False
-        if any(overlap(_outline(piece, _front(piece)), _outline(other)) > -0.03
-               or overlap(outline, _outline(other, _front(other))) > -0.03 for other in placed):
+        if any(overlap(base(piece, _front(piece)), base(other)) > -0.03
+               or overlap(outline, base(other, _front(other))) > -0.03 for other in placed):
             return False
     return True
 

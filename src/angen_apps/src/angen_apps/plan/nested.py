@@ -8,8 +8,9 @@ from typing import Sequence
 import numpy as np
 
 from angen_apps.plan.model import Point, Room, Storey
-from angen_apps.plan.polygons import area, bounds, contains, inside
+from angen_apps.plan.polygons import area, bounds, inside
 from angen_apps.plan.walls import direction
+from angen_tools.common.geometry import contains, edges
 
 STEP = 0.1  # m between the places of an edge that are tried
 AT_WALL = 0.1  # m from a wall's face
@@ -20,8 +21,7 @@ LEVEL = 0.3  # m between floors of one level
 
 def holds(room: Room, point: Point) -> bool:
     """Whether a place is in a room and not in a hole of it."""
-    return contains(room.polygon, *point) and not any(
-        contains(hole, *point) for hole in room.holes)
+    return contains(room.polygon, *point, room.holes)
 
 
 def cut_out(storey: Storey) -> list[Room]:
@@ -42,16 +42,12 @@ def _is_within(room: Room, other: Room) -> bool:
     if (west < x0 or south < y0 or east > x1 or north > y1 or abs(room.floor - other.floor) > LEVEL
             or area(room.polygon) > SMALLER * area(other.polygon)):
         return False
-    x, y = _edge_places(room.polygon)
-    held = inside(other.polygon, x, y)
-    for hole in other.holes:
-        held &= ~inside(hole, x, y)
-    return bool(held.all())
+    return bool(inside(other.polygon, *_edge_places(room.polygon), other.holes).all())
 
 
 def _edge_places(polygon: Sequence[Point]) -> tuple[np.ndarray, np.ndarray]:
     places = []
-    for (ax, ay), (bx, by) in zip(polygon, [*polygon[1:], polygon[0]]):
+    for (ax, ay), (bx, by) in edges(polygon):
         count = ceil(hypot(bx - ax, by - ay) / STEP)
         places += [(ax + (bx - ax) * (i + 0.5) / count, ay + (by - ay) * (i + 0.5) / count)
                    for i in range(count)]

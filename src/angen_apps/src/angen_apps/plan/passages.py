@@ -9,7 +9,7 @@ from angen import Grid
 from scipy.ndimage import binary_dilation, label
 
 from angen_apps.plan.model import Opening, Storey
-from angen_apps.plan.polygons import rectangle
+from angen_apps.plan.polygons import hole
 from angen_apps.plan.slabs import CELL, filled, raster_of
 from angen_apps.plan.walls import footprint
 
@@ -44,10 +44,7 @@ def passages(storey: Storey) -> list[Opening]:
     if raster is None:
         return []
     solid = [footprint(wall) for wall in storey.walls if wall.top > storey.elevation + 0.3]
-    for opening in storey.openings:
-        half = opening.width / 2 + 0.05
-        solid.append(rectangle(opening.x, opening.y, opening.yaw, (-half, opening.band[0] - 0.1),
-                               (half, opening.band[1] + 0.1)))
+    solid += [hole(opening, 0.05, 0.1) for opening in storey.openings]
     blocked = filled(raster, solid)
     rooms = np.zeros(raster.cells.shape, int)
     for i, room in enumerate(storey.rooms, 1):

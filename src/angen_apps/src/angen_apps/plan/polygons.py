@@ -6,9 +6,8 @@ from typing import Iterable, Sequence
 
 import numpy as np
 
-from angen_apps.plan.model import Point
-from angen_tools.common.geometry import turned
-from angen_tools.common.home import Room
+from angen_apps.plan.model import Opening, Piece, Point
+from angen_tools.common.geometry import edges, turned
 
 NEAR = 0.002  # m between corners that are one
 
@@ -23,48 +22,20 @@ def signed_area(polygon: Sequence[Point]) -> float:
     return float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) / 2)
 
 
-def center(polygon: Sequence[Point]) -> Point:
-    """The center of mass of a polygon; the mean of its corners if it has no area."""
-    points = np.array(polygon, float)
-    after = np.roll(points, -1, axis=0)
-    cross = points[:, 0] * after[:, 1] - points[:, 1] * after[:, 0]
-    whole = cross.sum() / 2
-    if abs(whole) < 1e-9:
-        return float(points[:, 0].mean()), float(points[:, 1].mean())
-    x, y = ((points + after) * cross[:, None]).sum(axis=0) / (6 * whole)
-    return float(x), float(y)
-
-
-def contains(polygon: Sequence[Point], x: float, y: float) -> bool:
-    """Whether a point is inside, by the even-odd rule."""
-    found = False
-    x0, y0 = polygon[-1]
-    for x1, y1 in polygon:
-        if (y0 > y) != (y1 > y) and x < (x1 - x0) * (y - y0) / (y1 - y0) + x0:
-            found = not found
-        x0, y0 = x1, y1
-    return found
-
-
-def inside(polygon: Sequence[Point], x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Which points are inside, by the even-odd rule."""
+def inside(polygon: Sequence[Point], x: np.ndarray, y: np.ndarray,
+           holes: Sequence[Sequence[Point]] = ()) -> np.ndarray:
+    """As contains(), of many points."""
     (low_x, low_y), (high_x, high_y) = np.min(polygon, axis=0), np.max(polygon, axis=0)
     found = np.asarray((x >= low_x) & (x <= high_x) & (y >= low_y) & (y <= high_y))
     x, y = np.asarray(x)[found], np.asarray(y)[found]
     odd = np.zeros(np.shape(x), bool)
-    for (x0, y0), (x1, y1) in zip(polygon, [*polygon[1:], polygon[0]]):
+    for (x0, y0), (x1, y1) in edges(polygon):
         if y0 == y1:
             continue
         odd ^= ((y0 > y) != (y1 > y)) & (x < (x1 - x0) * (y - y0) / (y1 - y0) + x0)
     found[found] = odd
-    return found
-
-
-def in_room(room: Room, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """As room.contains, of many places."""
-    found = inside(room.polygon, x, y)
-    for hole in room.holes:
-        found &= ~inside(hole, x, y)
+    for each in holes:
+        found &= ~inside(each, x, y)
     return found
 
 
@@ -151,6 +122,28 @@ def rectangle(x: float, y: float, yaw: float, low: Point, high: Point) -> list[P
     """The corners of a rectangle given in a frame at x, y turned by yaw."""
     return [turned((x, y), yaw, u, v)
             for u, v in ((low[0], low[1]), (high[0], low[1]), high, (low[0], high[1]))]
+
+
+def hole(opening: Opening, longer: float = 0.0, deeper: float = 0.0) -> list[Point]:
+    """The corners of an opening seen from above, so much longer and deeper on both sides."""
+    half = opening.width / 2 + longer
+    low, high = opening.band
+    return rectangle(opening.x, opening.y, opening.yaw, (-half, low - deeper),
+                     (half, high + deeper))
+
+
+def base(piece: Piece, front: float = 0.0) -> list[Point]:
+    """The corners of a piece seen from above, so much longer at its front."""
+    half = piece.depth / 2, piece.width / 2
+    return rectangle(piece.x, piece.y, piece.yaw, (-half[0], -half[1]),
+                     (half[0] + front, half[1]))
+
+
+def to_segments(x: np.ndarray, y: np.ndarray, a: Point, b: Point) -> np.ndarray:
+    """As to_segment(), of many points."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    share = np.clip(((x - a[0]) * dx + (y - a[1]) * dy) / ((dx * dx + dy * dy) or 1.0), 0.0, 1.0)
+    return np.hypot(x - a[0] - share * dx, y - a[1] - share * dy)
 
 
 def reach_of(x: float, y: float, yaw: float, walls: np.ndarray, far: float) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from angen import Grid
 
 from angen_apps.plan.model import Plan, Point, Storey
-from angen_apps.plan.polygons import bounds, rectangle, rectangles
+from angen_apps.plan.polygons import bounds, hole, rectangles
 from angen_apps.plan.walls import footprint
 
 CELL = 0.05  # m
@@ -45,6 +45,12 @@ def filled(raster: Grid, polygons: Iterable[Sequence[Point]]) -> np.ndarray:
     for polygon in polygons:
         grid.fill(polygon, 1)
     return np.asarray(grid.cells > 0)
+
+
+def at_edge(grid: Grid) -> set[int]:
+    """The numbers of the cells along the edge of a grid."""
+    cells = grid.cells
+    return set(np.concatenate([cells[0], cells[-1], cells[:, 0], cells[:, -1]]).tolist())
 
 
 def _cover(raster: Grid, cells: np.ndarray, step: int = 1) -> list[Rectangle]:
@@ -128,10 +134,7 @@ def _cells(storey: Storey, holes: np.ndarray, raster: Grid
             taken |= cells
     solid: list[Sequence[Point]] = [footprint(wall) for wall in storey.walls
                                     if wall.bottom < storey.elevation + 0.1]
-    for opening in storey.openings:
-        half = opening.width / 2 + CELL
-        solid.append(rectangle(opening.x, opening.y, opening.yaw, (-half, opening.band[0] - CELL),
-                               (half, opening.band[1] + CELL)))
+    solid += [hole(opening, CELL, CELL) for opening in storey.openings]
     walls = filled(raster, solid)
     rest = walls & ~taken & ~holes
     if roofed:

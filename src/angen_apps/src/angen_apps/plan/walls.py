@@ -8,7 +8,7 @@ from typing import Callable, Iterable, Sequence
 import numpy as np
 
 from angen_apps.plan.model import Color, Opening, Point, Wall
-from angen_apps.plan.polygons import overlap, rectangle
+from angen_apps.plan.polygons import hole, overlap, rectangle
 from angen_tools.common.geometry import local, turned
 
 ALIGNED = 0.01  # m that a wall may deviate from the direction of others along its length
@@ -222,9 +222,7 @@ def cuts_wall(opening: Opening, wall: Wall) -> bool:
     away = abs((direction(wall) - opening.yaw + pi / 2) % pi - pi / 2)
     if away > SLOPE:
         return False
-    hole = rectangle(opening.x, opening.y, opening.yaw, (-opening.width / 2, opening.band[0]),
-                     (opening.width / 2, opening.band[1]))
-    return overlap(hole, footprint(wall)) > 0.005
+    return overlap(hole(opening), footprint(wall)) > 0.005
 
 
 def _cuts(wall: Wall, yaw: float, openings: Sequence[Opening]

@@ -9,8 +9,9 @@ import numpy as np
 from angen import Grid
 from scipy.ndimage import label
 
+from angen_apps.maps.cells import has, largest, nearest
 from angen_apps.maps.gridmap import FREE, make_map
-from angen_apps.plan.polygons import inside
+from angen_apps.plan.polygons import inside, to_segments
 from angen_apps.residents.fronts import Fronts
 from angen_apps.robot.doors import door_of
 from angen_apps.robot.planner import Door as Leaf, Point, distances
@@ -78,7 +79,8 @@ class Floors:
         beside = np.ones(passable.shape, bool)
         for door in (door for door in doors if door.kind == 'door'):
             leaf = self.leaves.get(door.name)
-            away = np.full(x.shape, BODY) if leaf is None else _away(leaf, x, y)
+            away = np.full(x.shape, BODY) if leaf is None else to_segments(
+                x, y, leaf.hinge, leaf.tip(leaf.open))
             past = beside if leaf is None else away >= BODY
             if not _passes(door, passable & past, x, y):
                 wide = np.minimum(clear, away)
@@ -104,10 +106,7 @@ class Floors:
 
     def is_free(self, point: Point, storey: int) -> bool:
         """Whether a person can stay there."""
-        row, column = self.grids[storey].cell(*point)
-        rows, columns = self.free[storey].shape
-        return (0 <= row < rows and 0 <= column < columns
-                and bool(self.free[storey][row, column]))
+        return has(self.grids[storey], self.free[storey], point)
 
     def around(self, point: Point, storey: int, *away: float) -> list[Point]:
         """Places that far (m) from one where people can stay."""
@@ -144,19 +143,8 @@ class Floors:
         found = None
         if leaf is not None:
             away = np.hypot(grid.x - leaf.hinge[0], grid.y[:, None] - leaf.hinge[1])
-            found = self._nearest(free & (away >= leaf.width + BODY), room.storey, (x, y), reach)
-        return found or self._nearest(free, room.storey, (x, y), reach)
-
-    def _nearest(self, free: np.ndarray, storey: int, point: Point, reach: float) -> Point | None:
-        """The point, if its cell is among these, or the middle of the nearest of them."""
-        grid = self.grids[storey]
-        rows, columns = np.nonzero(free)
-        away = np.hypot(grid.x[columns] - point[0], grid.y[rows] - point[1])
-        best = int(away.argmin()) if len(away) else -1
-        if best < 0 or away[best] > reach:
-            return None
-        cell = int(rows[best]), int(columns[best])
-        return point if grid.cell(*point) == cell else grid.point(*cell)
+            found = nearest(grid, free & (away >= leaf.width + BODY), (x, y), reach)
+        return found or nearest(grid, free, (x, y), reach)
 
     def floor_of(self, room: Room) -> np.ndarray:
         """The largest connected part (rows, columns) of a room's free cells: not one that a bed
@@ -205,7 +193,7 @@ class Floors:
         rooms = [self.home.room_at(*at, door.pose[2] + 0.1) for at in sides]
         for at, room in sorted(zip(sides, rooms), key=lambda side: side[1] is not None):
             if room is None or room.use in ('landing', 'outdoor'):
-                point = self._nearest(self.free[storey], storey, at, 0.7)
+                point = nearest(self.grids[storey], self.free[storey], at, 0.7)
                 if point:
                     return point, storey
         return None
@@ -214,12 +202,6 @@ class Floors:
         """The main entrance's door."""
         return next((door for door in self.home.doors if door.name == self.home.entrance
                      and door.kind in ('door', 'opening')), None)
-
-
-def largest(cells: np.ndarray) -> np.ndarray:
-    """The largest connected part."""
-    parts, count = label(cells, np.ones((3, 3), int))
-    return parts == 1 + int(np.argmax(np.bincount(parts.ravel())[1:])) if count else cells
 
 
 def _opened(world: Any, home: Home) -> dict[str, Leaf]:
@@ -246,13 +228,6 @@ def _opened(world: Any, home: Home) -> dict[str, Leaf]:
             turned = math.copysign(state['position'], state['opens'])
             leaves[name] = door_of(door, {**state, 'opens': turned})
     return leaves
-
-
-def _away(leaf: Leaf, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """The distances of places from an open leaf."""
-    (x0, y0), (x1, y1) = leaf.hinge, leaf.tip(leaf.open)
-    share = np.clip(((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / leaf.width ** 2, 0.0, 1.0)
-    return np.hypot(x - x0 - share * (x1 - x0), y - y0 - share * (y1 - y0))
 
 
 def _offsets(x: np.ndarray, y: np.ndarray, door: Door) -> tuple[np.ndarray, np.ndarray]:

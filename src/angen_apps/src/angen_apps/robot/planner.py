@@ -10,6 +10,7 @@ from scipy.ndimage import distance_transform_edt
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
+from angen_apps.maps import cells
 from angen_apps.maps.gridmap import FREE
 from angen_tools.common.geometry import to_segment
 
@@ -44,20 +45,11 @@ class Planner:
 
     def is_free(self, point: Point) -> bool:
         """Whether the robot fits there."""
-        row, column = self.grid.cell(*point)
-        rows, columns = self.passable.shape
-        return 0 <= row < rows and 0 <= column < columns and bool(self.passable[row, column])
+        return cells.has(self.grid, self.passable, point)
 
     def nearest(self, point: Point, reach: float) -> Point | None:
         """The point, or the nearest place within `reach` (m) where the robot fits."""
-        if self.is_free(point):
-            return point
-        rows, columns = np.nonzero(self.passable)
-        away = np.hypot(self.grid.x[columns] - point[0], self.grid.y[rows] - point[1])
-        best = int(away.argmin()) if len(away) else -1
-        if best < 0 or away[best] > reach:
-            return None
-        return self.grid.point(int(rows[best]), int(columns[best]))
+        return cells.nearest(self.grid, self.passable, point, reach)
 
     def costs(self, start: Point) -> np.ndarray:
         """The cost of the way from start to each cell (rows, columns), in m of open floor."""
@@ -70,10 +62,10 @@ class Planner:
         """Points from start to goal, about a cell apart; None if there is no way."""
         if not (self.is_free(start) and self.is_free(goal)):
             return None
-        cells = self._search(self.grid.cell(*start), self.grid.cell(*goal))
-        if cells is None:
+        found = self._search(self.grid.cell(*start), self.grid.cell(*goal))
+        if found is None:
             return None
-        points = [start, *(self.grid.point(*cell) for cell in cells[1:-1]), goal]
+        points = [start, *(self.grid.point(*cell) for cell in found[1:-1]), goal]
         return smooth(points)
 
     def _search(self, start: tuple[int, int], goal: tuple[int, int]
@@ -84,11 +76,11 @@ class Planner:
         came = dijkstra(self._graph, indices=first, return_predecessors=True)[1]
         if here != first and came[here] < 0:
             return None
-        cells = [goal]
+        found = [goal]
         while here != first:
             here = int(came[here])
-            cells.append(divmod(here, columns))
-        return cells[::-1]
+            found.append(divmod(here, columns))
+        return found[::-1]
 
 
 def step_costs(passable: np.ndarray, cost: np.ndarray) -> csr_matrix:

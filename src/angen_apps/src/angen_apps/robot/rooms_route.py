@@ -12,7 +12,7 @@ import numpy as np
 from lxml import etree
 
 from angen_apps.maps.gridmap import load_world
-from angen_apps.plan.polygons import in_room
+from angen_apps.plan.polygons import inside
 from angen_apps.robot.building import Survey
 from angen_apps.robot.entities import Entity, entities_of
 from angen_apps.robot.planner import Planner, Point, distances
@@ -180,7 +180,8 @@ class _Places:
 
     def of(self, room: Room, survey: Survey, floor: int, route: Route) -> Point | None:
         """The first one in a room."""
-        for i in np.nonzero(in_room(room, *self._at.T))[0]:
+        x, y = self._at.T
+        for i in np.nonzero(inside(room.polygon, x, y, room.holes))[0]:
             point = (float(self._at[i, 0]), float(self._at[i, 1]))
             if _keeps_off(point, survey, floor, route):
                 return point

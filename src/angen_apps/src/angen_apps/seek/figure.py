@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from angen_apps.maps.cells import cell_of
 from angen_apps.plan.draw import Scene, draw_storey, extent
 from angen_apps.seek.home import CELL, Home
 from angen_apps.seek.report import pairs
@@ -79,9 +80,9 @@ def _shade(ax: Any, home: Home, floor: int, belief: np.ndarray) -> Any:
     places = np.column_stack([other.x[fine[:, 1]], other.y[fine[:, 0]]])
     away, nearest = cKDTree(home.at[here]).query(places)
     for (x, y), cell in zip(places[away < 1.5 * CELL], here[nearest[away < 1.5 * CELL]]):
-        row, column = grid.cell(x, y)
-        if 0 <= row < squares.shape[0] and 0 <= column < squares.shape[1]:
-            squares[row, column] = 100 * belief[cell]
+        square = cell_of(grid, (x, y))
+        if square is not None:
+            squares[square] = 100 * belief[cell]
     return ax.imshow(squares, origin='lower', extent=grid.extent, cmap=_from_white(),
                      norm=PowerNorm(0.4, 0.0, 10.0), zorder=1.5)
 

@@ -9,15 +9,17 @@ import numpy as np
 from angen import Grid
 from scipy.ndimage import label
 
+from angen_apps.maps.cells import largest
 from angen_apps.maps.gridmap import FREE, load_world, make_map
 from angen_apps.maps.rays import sees
-from angen_apps.plan.polygons import in_room
+from angen_apps.plan.polygons import inside, to_segments
 from angen_apps.robot.building import Start, Survey, find_start
 from angen_apps.robot.entities import Entity
 from angen_apps.robot.planner import Door, Planner, Point, distances
 from angen_apps.robot.route_file import Route
 from angen_apps.robot.views import sensor_element, view_of
 from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import edges as edges_of
 from angen_tools.common.home import Home as DescribedHome
 from angen_tools.common.home import Room
 from angen_tools.world import sdf
@@ -139,7 +141,7 @@ class Rooms:
         for door in self._doors:
             found |= np.hypot(x - door.pose[0], y - door.pose[1]) < door.width / 2 + BODY
         for room in self._rooms:
-            found |= in_room(room, x, y)
+            found |= inside(room.polygon, x, y, room.holes)
         return found
 
     def at(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -148,7 +150,7 @@ class Rooms:
             return np.zeros(len(x), int)
         found = np.full(len(x), -1)
         for number, room in reversed(list(enumerate(self._rooms))):
-            found[in_room(room, x, y)] = number
+            found[inside(room.polygon, x, y, room.holes)] = number
         rest = found < 0
         away = np.array([_distance(room, x[rest], y[rest]) for room in self._rooms])
         found[rest] = away.argmin(axis=0)
@@ -159,10 +161,8 @@ def _distance(room: Room, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """As room.distance, of many places."""
     nearest = np.full(len(x), np.inf)
     for polygon in (room.polygon, *room.holes):
-        for (ax, ay), (bx, by) in zip(polygon, polygon[1:] + polygon[:1]):
-            dx, dy = bx - ax, by - ay
-            share = np.clip(((x - ax) * dx + (y - ay) * dy) / ((dx * dx + dy * dy) or 1.0), 0, 1)
-            nearest = np.minimum(nearest, np.hypot(x - ax - share * dx, y - ay - share * dy))
+        for a, b in edges_of(polygon):
+            nearest = np.minimum(nearest, to_segments(x, y, a, b))
     return nearest
 
 
@@ -177,20 +177,6 @@ def _reached(planner: Planner, at: Point | None, x: np.ndarray, y: np.ndarray) -
                      for place, low, size in zip((y, x), planner.grid.origin[::-1], parts.shape))
     row, column = planner.grid.cell(*start)
     return np.asarray(parts[rows, columns] == parts[row + 1, column + 1])
-
-
-def _largest(mask: np.ndarray, reached: np.ndarray) -> np.ndarray:
-    """The largest connected part of a mask that has one of these cells, if any has one: the rest
-    is niches and rooms that are out of reach."""
-    parts, count = label(mask, np.ones((3, 3)))
-    if not count:
-        return mask
-    sizes = np.bincount(parts.ravel())
-    sizes[0] = 0
-    known = np.intersect1d(parts[reached], np.nonzero(sizes)[0])
-    if len(known):
-        sizes[np.setdiff1d(np.arange(len(sizes)), known)] = 0
-    return np.asarray(parts == sizes.argmax())
 
 
 class _Cells:
@@ -213,7 +199,7 @@ class _Cells:
             for mask, which in zip(masks, (named[floor].hold(x, y), _reached(
                     planners[floor], starts.get(floor), x, y))):
                 mask[rows[which], columns[which]] = True
-            rows, columns = np.nonzero(_largest(*masks))
+            rows, columns = np.nonzero(largest(*masks))
             x, y = grid.x[columns], grid.y[rows]
             key = np.stack([np.floor(x / CELL), np.floor(y / CELL), named[floor].at(x, y)],
                            axis=1).astype(int)

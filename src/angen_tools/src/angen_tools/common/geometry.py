@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Sequence
 
 if TYPE_CHECKING:
     import numpy as np
@@ -40,6 +40,35 @@ def to_segment(point: Point, a: Point, b: Point) -> float:
     length = dx * dx + dy * dy
     share = min(max((x * dx + y * dy) / length, 0.0), 1.0) if length else 0.0
     return math.hypot(x - share * dx, y - share * dy)
+
+
+def edges(polygon: Sequence[Point]) -> list[tuple[Point, Point]]:
+    return list(zip(polygon, [*polygon[1:], polygon[0]]))
+
+
+def contains(polygon: Sequence[Point], x: float, y: float,
+             holes: Sequence[Sequence[Point]] = ()) -> bool:
+    """Whether a point is inside and in none of the holes, by the even-odd rule."""
+    found = False
+    for (x0, y0), (x1, y1) in edges(polygon):
+        if (y0 > y) != (y1 > y) and x < (x1 - x0) * (y - y0) / (y1 - y0) + x0:
+            found = not found
+    return found and not any(contains(hole, x, y) for hole in holes)
+
+
+def center(polygon: Sequence[Point]) -> Point:
+    """The centroid of a polygon; the mean of its corners if it has no area."""
+    x = y = twice = 0.0
+    x0, y0 = polygon[0]
+    for (ax, ay), (bx, by) in edges(polygon):
+        cross = (ax - x0) * (by - y0) - (bx - x0) * (ay - y0)
+        twice += cross
+        x += cross * (ax + bx - 2 * x0)
+        y += cross * (ay + by - 2 * y0)
+    if abs(twice) < 2e-9:
+        xs, ys = zip(*polygon)
+        return sum(xs) / len(xs), sum(ys) / len(ys)
+    return x0 + x / (3 * twice), y0 + y / (3 * twice)
 
 
 def yaw_of(q: Any) -> float:

@@ -10,7 +10,7 @@ from typing import Any, Mapping, get_args, get_origin, get_type_hints
 
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.clock import time_of_day
-from angen_tools.common.geometry import Point, to_segment
+from angen_tools.common.geometry import Point, center, contains, edges, to_segment
 from angen_tools.common.geometry import yaw as yaw_of
 
 IN_WALL = 0.1  # m: a thing in a wall, floor or ceiling is in the room
@@ -49,23 +49,16 @@ class Room:
     @property
     def center(self) -> Point:
         """The centroid of its polygon."""
-        x = y = twice = 0.0
-        (x0, y0) = self.polygon[0]
-        for (ax, ay), (bx, by) in _edges(self.polygon):
-            cross = (ax - x0) * (by - y0) - (bx - x0) * (ay - y0)
-            twice += cross
-            x += cross * (ax + bx - 2 * x0)
-            y += cross * (ay + by - 2 * y0)
-        return x0 + x / (3 * twice), y0 + y / (3 * twice)
+        return center(self.polygon)
 
     def contains(self, x: float, y: float) -> bool:
         """Whether a place is inside, at any height."""
-        return _inside(self.polygon, x, y) and not any(_inside(hole, x, y) for hole in self.holes)
+        return contains(self.polygon, x, y, self.holes)
 
     def distance(self, x: float, y: float) -> float:
         """To the nearest of its edges, from either side."""
         return min(to_segment((x, y), a, b) for polygon in (self.polygon, *self.holes)
-                   for a, b in _edges(polygon))
+                   for a, b in edges(polygon))
 
     def at_height(self, z: float) -> bool:
         return self.floor - IN_WALL <= z <= self.ceiling + IN_WALL
@@ -190,18 +183,6 @@ class Home:
         """The height of a storey's floor; 0 in a home without storeys."""
         storey = self.storey(number)
         return storey.elevation if storey else 0.0
-
-
-def _edges(polygon: list[Point]) -> list[tuple[Point, Point]]:
-    return list(zip(polygon, polygon[1:] + polygon[:1]))
-
-
-def _inside(polygon: list[Point], x: float, y: float) -> bool:
-    inside = False
-    for (ax, ay), (bx, by) in _edges(polygon):
-        if (ay > y) != (by > y) and x < ax + (y - ay) / (by - ay) * (bx - ax):
-            inside = not inside
-    return inside
 
 
 @cache

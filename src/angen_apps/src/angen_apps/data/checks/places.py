@@ -6,8 +6,7 @@ import math
 from typing import Any
 
 from angen_apps.data.written import Findings, Written
-from angen_apps.plan.polygons import contains
-from angen_tools.common.geometry import local
+from angen_tools.common.geometry import contains, local
 from angen_tools.common.home import Room
 
 FASTER = 1.35  # times the speed of a profile that a person may reach
@@ -102,8 +101,8 @@ def _walls(findings: Findings, home: Written) -> None:
 
 def _room(layout: Any, x: float, y: float, storey: int) -> str:
     return next((str(room['name']) for room in layout['rooms']
-                 if room['storey'] == storey and contains(room['polygon'], x, y)
-                 and not any(contains(hole, x, y) for hole in room.get('holes', ()))), '')
+                 if room['storey'] == storey
+                 and contains(room['polygon'], x, y, room.get('holes', ()))), '')
 
 
 def _porches(layout: Any) -> set[str]:
