@@ -58,7 +58,7 @@ class _Reader(YamlFile):
                 raise self.fail(node, f'the automation has no {one}')
         name = next((self.text(top[key], key) for key in ('alias', 'id') if key in top),
                     f'automation {number}')
-        mode = self.choice(top['mode'], 'mode', MODES) if 'mode' in top else MODES[0]
+        mode = top.of('mode', self.choice, MODES[0], MODES)
         return Automation(name, self._each(found['trigger'], self._trigger),
                           self._each(found['condition'], self._condition),
                           self._each(found['action'], self._action), mode,
@@ -219,7 +219,7 @@ class _Reader(YamlFile):
         attribute = self._attribute(parts, entities)
         found = StateCondition(entities, self._states(parts['state'], entities, attribute),
                                attribute, parts.of('for', self._seconds, 0.0))
-        if 'match' in parts and self.choice(parts['match'], 'match', ('all', 'any')) == 'any':
+        if parts.of('match', self.choice, 'all', ('all', 'any')) == 'any':
             return Logic('or', tuple(StateCondition((entity,), found.states, attribute, found.held)
                                      for entity in entities))
         return found
@@ -240,8 +240,7 @@ class _Reader(YamlFile):
     def _sun_condition(self, node: Any) -> Condition:
         parts = self._parts(node, 'a sun condition', ('condition', 'after', 'before',
                                                       'after_offset', 'before_offset'))
-        after, before = (self.choice(parts[key], key, SUN) if key in parts else ''
-                         for key in ('after', 'before'))
+        after, before = (parts.of(key, self.choice, '', SUN) for key in ('after', 'before'))
         return SunCondition(after, before, parts.of('after_offset', self._offset, 0.0),
                             parts.of('before_offset', self._offset, 0.0))
 
@@ -314,10 +313,8 @@ class _Reader(YamlFile):
 
     def _wait(self, node: Any, word: str) -> Action:
         parts = self._parts(node, word, (word, 'timeout', 'continue_on_timeout'))
-        goes_on = 'continue_on_timeout' not in parts or self.choice(
-            parts['continue_on_timeout'], 'continue_on_timeout', ('true', 'false')) == 'true'
         return Wait(self._each(parts[word], self._trigger), parts.of('timeout', self._seconds),
-                    goes_on)
+                    parts.of('continue_on_timeout', self.flag, True))
 
     def _if(self, node: Any, word: str) -> Action:
         parts = self._parts(node, 'if', ('if', 'then', 'else'), ('then',))

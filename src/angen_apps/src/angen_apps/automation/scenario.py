@@ -5,7 +5,6 @@ import datetime
 import math
 import re
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any, Callable
 
@@ -127,11 +126,10 @@ class _Reader(YamlFile):
         self._lasts, self._has_start = lasts, start is not None
         return Scenario(
             self.path, home if home == GENERATED else str(self._beside(home)), start, lasts,
-            int(self.number(top['seed'], 'seed', 0, 2**53)) if 'seed' in top else 1,
+            int(top.of('seed', self.number, 1, 0, 2**53)),
             tuple(str(self._beside(one)) if is_file(one) else one
                   for one in top.of('residents', self.texts, ())),
-            'lamps' in top and self.choice(top['lamps'], 'lamps', ('residents', 'automation')
-                                           ) == 'automation',
+            top.of('lamps', self.choice, '', ('residents', 'automation')) == 'automation',
             self._all(top, 'people', self._person), self._all(top, 'add', self._added),
             tuple((self.text(node, 'delete'), line_of(node))
                   for node in top.of('delete', self.list, ())),
@@ -182,8 +180,8 @@ class _Reader(YamlFile):
                              ('model', 'name'))
         if ('room' in parts) == ('pose' in parts):
             raise self.fail(node, 'an added model has a room or a pose')
-        pose = tuple(self.number(each, 'pose', -1e4, 1e4) for each in (
-            self._count(parts['pose'], 'pose', 6) if 'pose' in parts else ()))
+        pose = tuple(self.number(each, 'pose', -1e4, 1e4)
+                     for each in parts.of('pose', self._count, (), 6))
         return Added(self.text(parts['model'], 'model'), self.text(parts['name'], 'name'),
                      parts.of('room', self.text, ''), pose, line_of(node))
 
@@ -220,9 +218,9 @@ class _Reader(YamlFile):
         parts = self.entries(node, f'a {what}', ('run', 'answers', 'quiet', 'rate'), ('run',))
         return Program(
             self.text(parts['run'], 'run'), line_of(node),
-            parts.of('answers', partial(self.choice, choices=ANSWERS), Program.answers),
+            parts.of('answers', self.choice, Program.answers, ANSWERS),
             parts.of('quiet', self._duration, Program.quiet),
-            parts.of('rate', partial(self.number, low=0.01, high=1e6), Program.rate))
+            parts.of('rate', self.number, Program.rate, 0.01, 1e6))
 
     # --- expectations
 

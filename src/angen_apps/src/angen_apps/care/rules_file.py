@@ -1,7 +1,6 @@
 """Reads care rules from their YAML file; Failure has file, line, the error and its fix."""
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from typing import Any, Callable, Sequence
 
@@ -26,7 +25,7 @@ class _Reader(YamlFile):
 
     def rules(self) -> Rules:
         top = self.entries(self.root, 'a rules file', ('starts', 'signals', 'rules'), ('rules',))
-        starts = self.said(top['starts'], 'starts', time_of_day) if 'starts' in top else None
+        starts = top.of('starts', self.said, None, time_of_day)
         signals = {name: self._signal(name, node)
                    for name, node in top.of('signals', self.entries, Entries()).items()}
         rules: dict[str, Rule] = {}
@@ -74,9 +73,8 @@ class _Reader(YamlFile):
         if name == 'all':
             raise self.fail(parts['name'], "a rule cannot be called 'all', which acknowledges all")
         when = tuple(self._condition(each, signals) for each in self.list(parts['when'], 'when'))
-        product = 'and' in parts and self.choice(parts['and'], 'and', ('min', 'product')
-                                                 ) == 'product'
-        threshold = parts.of('threshold', partial(self.number, low=0.01, high=1.0), THRESHOLD)
+        product = parts.of('and', self.choice, 'min', ('min', 'product')) == 'product'
+        threshold = parts.of('threshold', self.number, THRESHOLD, 0.01, 1.0)
         return Rule(name, when, product, threshold, self.text(parts['reason'], 'reason'),
                     parts.of('at', self.text, ''), line_of(node))
 

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from angen_apps.data.site import Site
-from angen_apps.residents.activities import span
 from angen_tools.common.catalog import simulator
 from angen_tools.common.failure import Failure
 from angen_tools.common.yaml_file import YamlFile, line_of
@@ -60,10 +59,10 @@ def _fault(file: YamlFile, node: Any) -> Fault:
                 far = math.tau if key in PLACE[3:] else 100.0
                 words.append(f'{key}={file.number(entry[key], key, -far, far):g}')
         else:
-            least, most = span(file, entry[key], key)
+            least, most = file.span(entry[key], key)
             words.append(f'{key}={least:g}-{most:g}' if key == 'by' else f'{key}={least:g}')
-    sensors = file.text(entry['sensors'], 'sensors') if 'sensors' in entry else '*'
-    return Fault(sensors, ' '.join(words), f'{file.path}:{line_of(node)}')
+    return Fault(entry.of('sensors', file.text, '*'), ' '.join(words),
+                 f'{file.path}:{line_of(node)}')
 
 
 def give(site: Site, faults: list[Fault]) -> None:

@@ -24,7 +24,7 @@ from angen_apps.plan.polygons import area, bounds
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import turned
 from angen_tools.common.text_file import read_bytes
-from angen_tools.common.yaml_file import YamlFile
+from angen_tools.common.yaml_file import Entries, YamlFile
 
 HEIGHT = 2.5  # m
 FURNITURE = 0.4, 3.0  # m of the longer side: smaller things are text and pillars
@@ -70,7 +70,7 @@ def read_map(path: Path, with_doors: bool) -> Plan:
     file = YamlFile(path)
     if file.root is None or not hasattr(file.root, 'value'):
         raise file.fail(file.root, 'is not a map: it needs image, resolution and origin')
-    values = {key.value: node for key, node in file.root.value if hasattr(key, 'value')}
+    values = Entries((key.value, node) for key, node in file.root.value if hasattr(key, 'value'))
     for key in ('image', 'resolution', 'origin'):
         if key not in values:
             raise file.fail(file.root, f'has no {key}; a map needs image, resolution and origin')
@@ -80,18 +80,15 @@ def read_map(path: Path, with_doors: bool) -> Plan:
               for node in file.list(values['origin'], 'origin')]
     if len(origin) != 3:
         raise file.fail(values['origin'], 'origin must be [x, y, yaw]')
-    limit = file.number(values['occupied_thresh'], 'occupied_thresh', 0.0, 1.0) \
-        if 'occupied_thresh' in values else 0.65
-    negate = 'negate' in values and file.number(values['negate'], 'negate', 0, 1) == 1
-    mode = file.choice(values['mode'], 'mode', MODES) if 'mode' in values else MODES[0]
+    limit = values.of('occupied_thresh', file.number, 0.65, 0.0, 1.0)
+    mode = values.of('mode', file.choice, MODES[0], MODES)
     dark = darkness(picture)
-    if negate:
+    if values.of('negate', file.number, 0.0, 0, 1) == 1:
         dark = 1 - dark
     if mode == 'raw':  # a value is the occupancy in percent, above 100 it is unknown
         value = np.round(255 * (1 - dark))
         dark = np.where(value <= 100, value / 100, 0.0)
-    free = file.number(values['free_thresh'], 'free_thresh', 0.0, 1.0) \
-        if 'free_thresh' in values else 0.196
+    free = values.of('free_thresh', file.number, 0.196, 0.0, 1.0)
     across = max(1, round(SPECK / scale))
     unknown = binary_opening((dark >= free) & (dark <= limit), np.ones((across, across)))
     walls, known, place, remarks = _straight(path, dark, ~unknown, limit, scale,

@@ -21,7 +21,7 @@ from angen_apps.plan.walls import SLOPE, direction, footprint
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import local, turned
 from angen_tools.common.text_file import read_bytes
-from angen_tools.common.yaml_file import YamlFile, line_of
+from angen_tools.common.yaml_file import Entries, YamlFile, line_of
 
 THICK = 0.1  # m of a wall, as the editor builds it
 HEIGHT = 2.5  # m of a wall, unless the file says
@@ -40,7 +40,7 @@ class _Level:
     """A level's nodes, and its scale in m a pixel."""
 
     name: str
-    nodes: dict[str, Any]
+    nodes: Entries
     scale: float
     elevation: float
     points: list[tuple[float, float]]  # pixels
@@ -96,12 +96,12 @@ class _Building:
         self._report_unread()
         return finish(plan)
 
-    def _mapping(self, node: Any, what: str) -> dict[str, Any]:
+    def _mapping(self, node: Any, what: str) -> Entries:
         if not isinstance(node, yaml.MappingNode):
             raise self.file.fail(node, f'{what} must be a mapping')
         if len(node.value) > LIMIT:
             raise self.file.fail(node, f'{what} has more than {LIMIT} entries')
-        return {str(getattr(key, 'value', '')): value for key, value in node.value}
+        return Entries((str(getattr(key, 'value', '')), value) for key, value in node.value)
 
     def _list(self, node: Any, what: str) -> list[Any]:
         if node is None:
@@ -121,8 +121,7 @@ class _Building:
 
     def _level(self, name: str, node: Any) -> _Level:
         nodes = self._mapping(node, f'the level {name}')
-        elevation = self.file.number(nodes['elevation'], 'elevation', -200, 1000) \
-            if 'elevation' in nodes else 0.0
+        elevation = nodes.of('elevation', self.file.number, 0.0, -200, 1000)
         points, called = [], []
         for vertex in self._list(nodes.get('vertices'), 'vertices'):
             items = self._list(vertex, 'a vertex')
@@ -164,7 +163,7 @@ class _Building:
         return middle
 
     def _edge(self, level: _Level, node: Any, what: str
-              ) -> tuple[Point, Point, dict[str, Any]]:
+              ) -> tuple[Point, Point, Entries]:
         """Two vertices in pixels, and the properties of [from, to, {…}]."""
         items = self._list(node, what)
         if len(items) < 2:
@@ -175,7 +174,7 @@ class _Building:
             if index != int(index) or not level.points:
                 raise self.file.fail(item, f'a vertex of {what} must be a whole number')
             ends.append(level.points[int(index)])
-        values = self._mapping(items[2], f'properties of {what}') if len(items) > 2 else {}
+        values = self._mapping(items[2], f'properties of {what}') if len(items) > 2 else Entries()
         return ends[0], ends[1], values
 
     def _meters(self, level: _Level, point: Point) -> Point:
@@ -209,8 +208,8 @@ class _Building:
     def _doors(self, level: _Level, storey: Storey) -> None:
         for item in self._list(level.nodes.get('doors'), 'doors'):
             a, b, values = self._edge(level, item, 'a door')
-            texts = {key: self._typed(value, key) for key, value in values.items()}
-            kind = self.file.text(texts['type'], 'type') if 'type' in texts else 'hinged'
+            texts = Entries((key, self._typed(value, key)) for key, value in values.items())
+            kind = texts.of('type', self.file.text, 'hinged')
             start, end = self._meters(level, a), self._meters(level, b)
             width = hypot(end[0] - start[0], end[1] - start[1])
             if not 0.2 < width < 20:
@@ -227,13 +226,11 @@ class _Building:
                 level.elevation, level.elevation + DOOR_HEIGHT, (-THICK / 2, THICK / 2), leaves,
                 name=name, source=name))
 
-    def _leaves(self, item: Any, kind: str, width: float, texts: dict[str, Any]
+    def _leaves(self, item: Any, kind: str, width: float, texts: Entries
                 ) -> tuple[Leaf, ...]:
-        degrees = self.file.number(texts['motion_degrees'], 'motion_degrees', -360, 360) \
-            if 'motion_degrees' in texts else 90.0
-        way = self.file.number(texts['motion_direction'], 'motion_direction', -10, 10) \
-            if 'motion_direction' in texts else 1.0
-        at_end = 'motion_axis' in texts and self.file.text(texts['motion_axis'], '') == 'end'
+        degrees = texts.of('motion_degrees', self.file.number, 90.0, -360, 360)
+        way = texts.of('motion_direction', self.file.number, 1.0, -10, 10)
+        at_end = texts.of('motion_axis', self.file.text, '') == 'end'
         turn = (1 if way > 0 else -1) * min(abs(degrees), 170) * pi / 180
         half = width / 2
         if kind == 'hinged' and not at_end:
@@ -241,8 +238,7 @@ class _Building:
         if kind == 'hinged':
             return (Leaf((half - 0.005, 0.0), width - 0.01, pi, -turn),)
         if kind == 'double_hinged':
-            ratio = self.file.number(texts['right_left_ratio'], 'right_left_ratio', 0.05, 20) \
-                if 'right_left_ratio' in texts else 1.0
+            ratio = texts.of('right_left_ratio', self.file.number, 1.0, 0.05, 20)
             left = width / (1 + ratio)
             return (Leaf((-half + 0.005, 0.0), left - 0.01, 0.0, turn),
                     Leaf((half - 0.005, 0.0), width - left - 0.01, pi, -turn))
@@ -258,23 +254,20 @@ class _Building:
 
     def _lifts(self, plan: Plan, levels: list[_Level]) -> None:
         numbers = {level.name: i for i, level in enumerate(levels)}
-        for name, node in self._mapping(self.root['lifts'], 'lifts').items() \
-                if 'lifts' in self.root else ():
+        for name, node in self.root.of('lifts', self._mapping, {}).items():
             values = self._mapping(node, f'the lift {name}')
             number = {key: self.file.number(values[key], key, -1e6, 1e6)
                       for key in ('x', 'y', 'width', 'depth') if key in values}
             if len(number) < 4:
                 raise self.file.fail(node, f'the lift {name} needs x, y, width and depth')
-            yaw = self.file.number(values['yaw'], 'yaw', -100, 100) if 'yaw' in values else 0.0
-            reference = self.file.text(values['reference_floor_name'], '') \
-                if 'reference_floor_name' in values else levels[0].name
+            yaw = values.of('yaw', self.file.number, 0.0, -100, 100)
+            reference = values.of('reference_floor_name', self.file.text, levels[0].name)
             if reference not in numbers:
                 raise self.file.fail(node, f'the lift {name} refers to the level "{reference}", '
                                      'which is missing')
             stops = sorted(numbers[level] for level in self._stops(values, node, name)
                            if level in numbers)
-            doors = list(self._mapping(values['doors'], 'doors').values()) \
-                if 'doors' in values else []
+            doors = list(values.of('doors', self._mapping, {}).values())
             if len(stops) < 1 or not doors:
                 self.remarks.append(f'{self.path}:{line_of(node)}: the lift {name} has no stop or '
                                     'no door and is left out')
@@ -294,7 +287,7 @@ class _Building:
                     f'{lift.depth:g} m and doors')
             plan.lifts.append(fit)
 
-    def _stops(self, values: dict[str, Any], node: Any, name: str) -> list[str]:
+    def _stops(self, values: Entries, node: Any, name: str) -> list[str]:
         if 'level_doors' in values:
             return [level for level, doors in self._mapping(
                 values['level_doors'], 'level_doors').items() if self._list(doors, 'level_doors')]
@@ -306,8 +299,8 @@ class _Building:
         if not (LEAST_CABIN <= number['width'] <= 20 and LEAST_CABIN <= number['depth'] <= 20):
             raise self.file.fail(node, f'the lift {name} has a width or depth beyond 0.6 to 20 m')
         door = self._mapping(doors[0], 'a door of a lift')
-        u = self.file.number(door['x'], 'x', -50, 50) if 'x' in door else 0.0
-        v = self.file.number(door['y'], 'y', -50, 50) if 'y' in door else number['depth'] / 2
+        u = door.of('x', self.file.number, 0.0, -50, 50)
+        v = door.of('y', self.file.number, number['depth'] / 2, -50, 50)
         if len(doors) > 1:
             self.remarks.append(f'{self.path}:{line_of(node)}: the lift {name} has {len(doors)} '
                                 'doors; the first is built')
@@ -318,7 +311,7 @@ class _Building:
         else:
             heading = yaw + (0.0 if u > 0 else pi)
             wide, deep = number['depth'], number['width']
-        doorway = self.file.number(door['width'], 'width', 0.3, 20) if 'width' in door else 1.2
+        doorway = door.of('width', self.file.number, 1.2, 0.3, 20)
         return Lift(plain_name(name, 'lift'), x, y, heading, wide, deep, tuple(stops), doorway)
 
     def _report_unread(self) -> None:

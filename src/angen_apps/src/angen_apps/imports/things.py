@@ -41,11 +41,10 @@ def _entry(file: YamlFile, node: object) -> Entry:
         value = values.get(key)
         return str(value.value).strip() if value is not None else ''
 
-    shape = file.choice(values['shape'], 'shape', SHAPES) if 'shape' in values else 'box'
     unless = tuple(file.text(item, 'a name').lower()
-                   for item in file.list(values['unless'], 'unless')) if 'unless' in values else ()
-    return Entry(file.text(values['word'], 'word').lower(), word('thing'), word('model'), shape,
-                 unless)
+                   for item in values.of('unless', file.list, ()))
+    return Entry(file.text(values['word'], 'word').lower(), word('thing'), word('model'),
+                 values.of('shape', file.choice, 'box', SHAPES), unless)
 
 
 def what_is(entries: tuple[Entry, ...], catalog: str, name: str) -> Entry | None:

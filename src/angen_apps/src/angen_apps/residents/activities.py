@@ -1,13 +1,12 @@
 """The catalog of activities in activities.yaml."""
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from angen_tools.common.yaml_file import YamlFile, is_list, is_text
+from angen_tools.common.yaml_file import YamlFile
 
 USES = ('kitchen', 'bedroom', 'bathroom', 'living', 'hall', 'work', 'landing', 'outdoor', 'other')
 POSTURES = ('stand', 'sit', 'lie', 'roam')
@@ -15,8 +14,6 @@ FRIDGE = 'fridge'
 OPENS = (FRIDGE, 'wardrobe', 'entrance')
 RUNS = ('stove', 'tv', 'appliance')
 CATALOG = Path(__file__).with_name('activities.yaml')
-SPAN = re.compile(r'([0-9.]+)(?:-([0-9.]+))? ?(s|min|h)')
-UNITS = {'s': 1.0, 'min': 60.0, 'h': 3600.0}
 NOON, EVENING = 11, 16  # h, from which a second and a third label of meals hold
 
 
@@ -106,18 +103,16 @@ def _read(file: YamlFile, name: str, node: Any) -> Activity:
     labels = file.entries(entry['labels'], 'labels', ('casas', 'aras', 'kasteren', 'openshs'),
                           ('casas', 'aras', 'kasteren', 'openshs'))
     numbers = {key: tuple(int(file.number(part, key)) for part in
-                          (labels[key].value if is_list(labels[key]) else [labels[key]]))
+                          file.nodes(labels[key], key))
                for key in ('aras', 'kasteren')}
     return Activity(
         name, tuple(_step(file, step) for step in file.list(entry['steps'], 'steps')),
         file.text(labels['casas'], 'casas'), file.text(labels['openshs'], 'openshs'),
-        numbers['aras'], numbers['kasteren'], span(file, entry['lasts'], 'lasts'),
-        file.choice(entry['alone'], 'alone', USES) if 'alone' in entry else '',
-        'dark' in entry and file.choice(entry['dark'], 'dark', ('true', 'false')) == 'true',
+        numbers['aras'], numbers['kasteren'], file.span(entry['lasts'], 'lasts'),
+        entry.of('alone', file.choice, '', USES), entry.of('dark', file.flag, False),
         _visits(file, entry['visits']) if 'visits' in entry else None,
-        span(file, entry['moves'], 'moves') if 'moves' in entry else None,
-        file.number(entry['effort'], 'effort', -1.0, 1.0) if 'effort' in entry else 0.0,
-        file.number(entry['breaks'], 'breaks', 0.0, 60.0) if 'breaks' in entry else 0.0)
+        entry.of('moves', file.span), entry.of('effort', file.number, 0.0, -1.0, 1.0),
+        entry.of('breaks', file.number, 0.0, 0.0, 60.0))
 
 
 def _visits(file: YamlFile, node: Any) -> Visits:
@@ -125,32 +120,18 @@ def _visits(file: YamlFile, node: Any) -> Visits:
     entry = file.entries(node, 'visits', keys, keys)
     return Visits(tuple((what, file.number(weight, what, 0.0))
                         for what, weight in file.entries(entry['to'], 'to').items()),
-                  span(file, entry['every'], 'every'), span(file, entry['lasts'], 'lasts'))
-
-
-def span(file: YamlFile, node: Any, what: str) -> tuple[float, float]:
-    """Two durations as '10-35 min' or '8-9.5 h', in s."""
-    text = file.text(node, what)
-    found = SPAN.fullmatch(text)
-    if not found or not 0 < float(found[1]) <= float(found[2] or found[1]):
-        raise file.fail(node, f"{what} is '{text}', must be two times as 10-35 min or 8-9.5 h")
-    unit = UNITS[found[3]]
-    return unit * float(found[1]), unit * float(found[2] or found[1])
+                  file.span(entry['every'], 'every'), file.span(entry['lasts'], 'lasts'))
 
 
 def _step(file: YamlFile, node: Any) -> Step:
     entry = file.entries(node, 'a step', ('at', 'room', 'posture', 'share', 'minutes', 'opens',
                                           'runs'))
-    at: tuple[str, ...] = ()
-    if 'at' in entry:
-        nodes = [entry['at']] if is_text(entry['at']) else file.list(entry['at'], 'at')
-        at = tuple(file.text(part, 'at') for part in nodes)
+    at = entry.of('at', file.texts, ())
     if not at and 'room' not in entry:
         raise file.fail(node, 'a step needs at: a thing, or room: a use')
     return Step(
-        at, file.choice(entry['room'], 'room', USES) if 'room' in entry else '',
-        file.choice(entry['posture'], 'posture', POSTURES) if 'posture' in entry else 'stand',
-        file.number(entry['share'], 'share', 0.0, 1.0) if 'share' in entry else 1.0,
-        file.number(entry['minutes'], 'minutes', 0.01, 1440) if 'minutes' in entry else None,
-        file.choice(entry['opens'], 'opens', OPENS) if 'opens' in entry else '',
-        file.choice(entry['runs'], 'runs', RUNS) if 'runs' in entry else '')
+        at, entry.of('room', file.choice, '', USES),
+        entry.of('posture', file.choice, 'stand', POSTURES),
+        entry.of('share', file.number, 1.0, 0.0, 1.0),
+        entry.of('minutes', file.number, None, 0.01, 1440),
+        entry.of('opens', file.choice, '', OPENS), entry.of('runs', file.choice, '', RUNS))

@@ -31,11 +31,9 @@ def read_household(path: Path) -> tuple[list[tuple[str, Profile]], int, float]:
         text = file.text(node, name)
         beside = path.parent / text
         who.append((name, read(str(beside) if is_file(text) else text)))
-    seed = int(file.number(entry['seed'], 'seed', 0)) if 'seed' in entry else 1
-    starts = 7.0
-    if 'starts' in entry:
-        starts = file.number(entry['starts'], 'starts (hour of the day)', 0.0, 24.0)
-    return who, seed, 3600.0 * starts
+    starts = file.number(entry['starts'], 'starts (hour of the day)', 0.0, 24.0) \
+        if 'starts' in entry else 7.0
+    return who, int(entry.of('seed', file.number, 1, 0)), 3600.0 * starts
 
 
 def run(path: Path, file: str, strict: bool = False) -> None:

@@ -6,14 +6,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from angen_apps.residents.activities import Activity, activities, span
+from angen_apps.residents.activities import Activity, activities
+from angen_tools.common.clock import DAY
 from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import did_you_mean
-from angen_tools.common.yaml_file import YamlFile, is_text
+from angen_tools.common.yaml_file import Entries, YamlFile, is_text
 
 FOLDER = Path(__file__).with_name('profiles')
 MOST = 100  # residents of a home
-DAY = 86400.0  # s
 HOURS = re.compile(r'(\d{1,2}):(\d\d)-(\d{1,2}):(\d\d)')
 DAYS = ('all', 'weekday', 'weekend')
 BODIES = ('person', 'cat')
@@ -131,27 +131,22 @@ class _Reader:
     def profile(self, name: str) -> Profile:
         file = self.file
         entry = file.entries(file.root, 'a profile', KEYS, ('speed', 'wakes', 'sleeps'))
-        scheduled = tuple(self.scheduled(node) for node in
-                          (file.list(entry['scheduled'], 'scheduled')
-                           if 'scheduled' in entry else []))
+        scheduled = tuple(map(self.scheduled, entry.of('scheduled', file.list, ())))
         free = self.several(entry, 'free', self.free)
         needs = self.several(entry, 'needs', self.need)
         wakes, sleeps = (self.spans(entry[key], key) for key in ('wakes', 'sleeps'))
         made = Profile(
             name, file.number(entry['speed'], 'speed', 0.2, 2.0), wakes, sleeps, scheduled, free,
-            needs, file.choice(entry['body'], 'body', BODIES) if 'body' in entry else 'person',
-            'lives' not in entry or file.choice(entry['lives'], 'lives',
-                                                ('true', 'false')) == 'true',
-            **self.own(entry), skips=self.several(entry, 'skips', self.skip),
+            needs, entry.of('body', file.choice, 'person', BODIES),
+            entry.of('lives', file.flag, True), **self.own(entry),
+            skips=self.several(entry, 'skips', self.skip),
             does=frozenset([*free, *needs, *(name for part in scheduled for name in part.do)]))
         self.check_time(made, entry)
         return made
 
-    def several(self, entry: dict[str, Any], key: str, read: Any) -> dict[str, Any]:
-        if key not in entry:
-            return {}
+    def several(self, entry: Entries, key: str, read: Any) -> dict[str, Any]:
         found = {}
-        for name, node in self.file.entries(entry[key], key).items():
+        for name, node in entry.of(key, self.file.entries, Entries()).items():
             self.activity(name, node)
             found[name] = read(name, node)
         return found
@@ -166,25 +161,21 @@ class _Reader:
         file = self.file
         entry = file.entries(node, 'scheduled', ('do', 'at', 'days', 'chance', 'together', 'lasts'),
                              ('do', 'at'))
-        nodes = [entry['do']] if is_text(entry['do']) else file.list(entry['do'], 'do')
-        for part in nodes:
+        for part in file.nodes(entry['do'], 'do'):
             self.activity(file.text(part, 'do'), part)
         return Scheduled(
-            tuple(file.text(part, 'do') for part in nodes), self.hours(entry['at'], 'at'),
-            file.choice(entry['days'], 'days', DAYS) if 'days' in entry else 'all',
-            file.number(entry['chance'], 'chance', 0.0, 1.0) if 'chance' in entry else 1.0,
-            'together' in entry and file.choice(entry['together'], 'together',
-                                                ('true', 'false')) == 'true',
-            span(file, entry['lasts'], 'lasts') if 'lasts' in entry else None)
+            file.texts(entry['do'], 'do'), self.hours(entry['at'], 'at'),
+            entry.of('days', file.choice, 'all', DAYS),
+            entry.of('chance', file.number, 1.0, 0.0, 1.0),
+            entry.of('together', file.flag, False), entry.of('lasts', file.span))
 
     def free(self, name: str, node: Any) -> Free:
         file = self.file
         entry = file.entries(node, name, ('hours', 'lasts', 'per_day'), ('hours',))
         weights = sorted((float(hour), file.number(weight, 'a weight', 0.0))
                          for hour, weight in self.hourly(entry['hours']))
-        return Free(tuple(weights), span(file, entry['lasts'], 'lasts') if 'lasts' in entry
-                    else self.known[name].lasts,
-                    file.number(entry['per_day'], 'per_day', 0.0) if 'per_day' in entry else 99.0)
+        return Free(tuple(weights), entry.of('lasts', file.span, self.known[name].lasts),
+                    entry.of('per_day', file.number, 99.0, 0.0))
 
     def hourly(self, node: Any) -> list[tuple[float, Any]]:
         found = []
@@ -197,10 +188,8 @@ class _Reader:
     def need(self, name: str, node: Any) -> Need:
         file = self.file
         entry = file.entries(node, name, ('every', 'per_day', 'at_night'))
-        return Need(span(file, entry['every'], 'every') if 'every' in entry else None,
-                    file.number(entry['per_day'], 'per_day', 0, 50) if 'per_day' in entry else 0.0,
-                    file.number(entry['at_night'], 'at_night', 0, 9) if 'at_night' in entry
-                    else 0.0)
+        return Need(entry.of('every', file.span), entry.of('per_day', file.number, 0.0, 0, 50),
+                    entry.of('at_night', file.number, 0.0, 0, 9))
 
     def skip(self, name: str, node: Any) -> tuple[float, float]:
         return self.range(node, name, 1.0)
@@ -217,8 +206,7 @@ class _Reader:
             node = entry['varies']
             parts = dict.fromkeys(DAYS[1:], node) if is_text(node) \
                 else self.file.entries(node, 'varies', DAYS[1:], DAYS[1:])
-            found['varies'] = {day: span(self.file, part, 'varies')
-                               for day, part in parts.items()}
+            found['varies'] = {day: self.file.span(part, 'varies') for day, part in parts.items()}
         return found
 
     def range(self, node: Any, what: str, most: float) -> tuple[float, float]:

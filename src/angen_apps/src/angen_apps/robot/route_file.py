@@ -72,7 +72,7 @@ class _Reader(YamlFile):
         if 'waypoints' not in entries:
             raise self.fail(self.root, 'has no waypoints: give a list of {name, floor, at: [x, y]}')
         listed = self.list(entries['waypoints'], 'waypoints')
-        numbers = {key: self.number(entries[key], key, low, high) if key in entries else usual
+        numbers = {key: entries.of(key, self.number, usual, low, high)
                    for key, (low, high, usual) in NUMBERS.items()}
         return Route(self.path, [self._waypoint(node) for node in listed],
                      entries.of('robot', self.text, 'turtlebot'),

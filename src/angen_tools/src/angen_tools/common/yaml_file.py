@@ -2,25 +2,29 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 from typing import Any, Callable, Iterable, Sequence
 
 import yaml
 
+from angen_tools.common.clock import UNITS
 from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import did_you_mean
 from angen_tools.common.text_file import read_text, shortened
 
 DEEPEST = 100  # levels of lists in lists: the composer of libyaml calls itself for each
 MOST = 1_000_000  # nodes and ends of lists: the composer takes memory for each
+SPAN = re.compile(r'([0-9.]+)(?:-([0-9.]+))? ?(s|min|h)')
 
 
 class Entries(dict[str, Any]):
     """The nodes of a mapping by key."""
 
-    def of(self, key: str, read: Callable[[Any, str], Any], otherwise: Any = None) -> Any:
-        """What `read` makes of a node and its key; `otherwise` if the key is not there."""
-        return read(self[key], key) if key in self else otherwise
+    def of(self, key: str, read: Callable[..., Any], otherwise: Any = None, *limits: Any) -> Any:
+        """What `read` makes of a node, its key and `limits`; `otherwise` if the key is not there.
+        """
+        return read(self[key], key, *limits) if key in self else otherwise
 
 
 class YamlFile:
@@ -100,6 +104,19 @@ class YamlFile:
         if word not in choices:
             raise self.fail(node, f"{what} is '{shortened(word)}'; {did_you_mean(word, choices)}")
         return word
+
+    def flag(self, node: Any, what: str) -> bool:
+        """True or false."""
+        return self.choice(node, what, ('true', 'false')) == 'true'
+
+    def span(self, node: Any, what: str) -> tuple[float, float]:
+        """Two durations as '10-35 min' or '8-9.5 h', in s."""
+        text = self.text(node, what)
+        found = SPAN.fullmatch(text)
+        if not found or not 0 < float(found[1]) <= float(found[2] or found[1]):
+            raise self.fail(node, f"{what} is '{text}', must be two times as 10-35 min or 8-9.5 h")
+        unit = UNITS[found[3]]
+        return unit * float(found[1]), unit * float(found[2] or found[1])
 
     def number(self, node: Any, what: str, low: float = -math.inf, high: float = math.inf
                ) -> float:
