@@ -15,7 +15,7 @@ from angen_apps.automation.entities import Entities, Entity
 from angen_apps.automation.home import House
 from angen_apps.automation.scenario import Expectation, Scenario
 from angen_apps.automation.services import NOTES, order_of
-from angen_apps.residents.household import LATITUDE
+from angen_apps.residents.light import LATITUDE
 from angen_tools.common.catalog import kinds
 from angen_tools.common.failure import Failure, WrongWords
 from angen_tools.common.nearest import did_you_mean

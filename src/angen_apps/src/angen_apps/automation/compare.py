@@ -10,8 +10,7 @@ from angen_apps.automation.bench import Record
 from angen_apps.automation.claims import (ANYONE, Claim, Part, Spans, both, inverse, power_used,
                                           total, union)
 from angen_apps.automation.judge import FAILED, Verdict
-from angen_apps.residents.household import LATITUDE
-from angen_apps.residents.light import daylight
+from angen_apps.residents.light import in_room
 from angen_tools.common.clock import DAY
 from angen_tools.common.files import pyplot, save_figure
 
@@ -103,13 +102,9 @@ def _room(record: Record, lamp: str) -> Room:
 def _dark(record: Record, room: str) -> Spans:
     """When daylight is not enough; always in a room without a window."""
     end, home, start = record.lines.end, record.house.site.home, record.house.start
-    windows = [door for door in home.doors if door.kind == 'window']
-    if windows and not any(room in door.rooms for door in windows):
-        return [(0.0, end)]
-    latitude = LATITUDE if home.latitude is None else home.latitude
     since, steps = record.house.since, [STEP * i for i in range(math.ceil(end / STEP))]
     return union([[(time, min(time + STEP, end)) for time in steps
-                   if daylight(start.date(), since + time, latitude) < DARK]])
+                   if in_room(home, room, start.date(), since + time) < DARK]])
 
 
 def as_dict(scores: Sequence[Score], days: float) -> list[dict[str, Any]]:

@@ -16,6 +16,7 @@ from angen_apps.data.site import MAINS
 from angen_apps.data.shapes import DAYS
 from angen_apps.data.tables import EVENTS, TRUTH, Tables, layout_of, lines
 from angen_apps.residents.activities import activities
+from angen_tools.common.clock import DAY
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import pyplot, save_figure
 
@@ -50,7 +51,6 @@ NAMES = {**{activity.casas: name for name, activity in reversed(activities().ite
          'Master_Bathroom': 'toilet', 'Guest_Bathroom': 'toilet', 'Step_Out': 'leave',
          'Phone': 'phone', 'Groom': 'wash', 'Wash': 'wash', 'Toilet': 'toilet'}
 CASAS = 'casas.txt'
-DAY = 86400.0  # s
 BROKEN = 3600.0  # s that one is awake in the middle of a night, at most
 
 

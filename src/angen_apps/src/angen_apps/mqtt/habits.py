@@ -9,11 +9,11 @@ from angen_apps.mqtt.table import Component, Part
 from angen_apps.mqtt.things import Thing
 from angen_apps.mqtt.values import Value
 from angen_tools.common.catalog import kinds
+from angen_tools.common.clock import DAY
 from angen_tools.common.yaml_file import YamlFile
 
 SHOP = Path(__file__).with_name('profiles.yaml')
 KEYS = ('hold', 'delay', 'step', 'every', 'battery')
-DAY = 86400.0
 PERIOD = 6 * 3600.0  # s between two reports of a battery
 BATTERY = Component(
     'sensor', 'battery', 'Battery', {'device_class': 'battery', 'unit_of_measurement': '%',

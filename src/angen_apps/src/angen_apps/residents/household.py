@@ -8,16 +8,16 @@ import math
 from typing import Any, Callable, Iterator
 
 from angen_apps.residents.floors import Floors
-from angen_apps.residents.light import daylight
+from angen_apps.residents.light import in_room
 from angen_apps.residents.moods import Day
 from angen_apps.residents.places import Places
 from angen_apps.residents.simulator import Simulator
+from angen_tools.common.clock import DAY
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home
 
 Process = Iterator[float]  # yields when it continues, s
 LIT = 100.0  # lx of a lamp, in rooms without a sensor
-LATITUDE = 48.0  # degrees, of homes without a latitude of their own
 
 
 class Household:
@@ -52,7 +52,7 @@ class Household:
 
     def date(self, time: float) -> tuple[datetime.date, float]:
         """The day of a simulated time, and its seconds since midnight."""
-        days, seconds = divmod(time + self.since, 86400.0)
+        days, seconds = divmod(time + self.since, DAY)
         return self.first + datetime.timedelta(days=int(days)), seconds
 
     def day(self, number: int) -> Day:
@@ -132,9 +132,4 @@ class Household:
             if 'illuminance' in reading:
                 return float(reading['illuminance'])
         lit = any(self.simulator.state('lamp', lamp).get('on') for lamp in self.lamps.get(room, ()))
-        date, seconds = self.date(self.now)
-        windows = [d for d in self.home.doors if d.kind == 'window']
-        if windows and not any(room in d.rooms for d in windows):
-            return LIT if lit else 0.0
-        latitude = LATITUDE if self.home.latitude is None else self.home.latitude
-        return (LIT if lit else 0.0) + daylight(date, seconds, latitude)
+        return (LIT if lit else 0.0) + in_room(self.home, room, *self.date(self.now))

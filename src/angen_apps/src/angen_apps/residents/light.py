@@ -4,9 +4,23 @@ from __future__ import annotations
 import datetime
 import math
 
+from angen_tools.common.home import Home
 from angen_tools.common.sun import sun
 
+LATITUDE = 48.0  # degrees, of homes without a latitude of their own
 FACTOR = 0.015  # share of the light outside that comes to the eyes in a room with a window
+
+
+def latitude_of(home: Home) -> float:
+    return LATITUDE if home.latitude is None else home.latitude
+
+
+def in_room(home: Home, room: str, day: datetime.date, seconds: float) -> float:
+    """lx of daylight in a room; 0 in one without a window, where other rooms have some."""
+    windows = [door for door in home.doors if door.kind == 'window']
+    if windows and not any(room in door.rooms for door in windows):
+        return 0.0
+    return daylight(day, seconds, latitude_of(home))
 
 
 def daylight(day: datetime.date, seconds: float, latitude: float) -> float:

@@ -21,9 +21,9 @@ from angen_apps.web.played import Lined
 from angen_apps.web.rides import Cabin, Rider, cabins
 from angen_apps.web.store import summary
 from angen_tools.common.catalog import kinds, simulator
+from angen_tools.common.clock import DAY
 from angen_tools.common.failure import Failure
 
-DAY = 86400.0  # s
 STANDBY = 0.05  # share of the most W of an appliance: with less it is off
 LEAST = 1.0  # W of an appliance that is on: the maximum of an unused one is its standby power
 STARTS, OPENING = 1.0, 6.0  # s in which all sensors have measured; in which all leaves open

@@ -15,7 +15,7 @@ from angen_apps.web.chromium import Chromium, program
 from angen_apps.web.guard import Guard
 from angen_apps.web.played import Lined
 from angen_apps.web.server import Server, listen
-from angen_tools.common.clock import time_of_day
+from angen_tools.common.clock import DAY, time_of_day
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import check_output, writing
 from angen_tools.common.port import free_port
@@ -79,7 +79,7 @@ def begin_of(film: Film, line: dict[str, Any], home: dict[str, Any]) -> float:
     if isinstance(film.start, float):
         return film.start
     clock = str(home.get('start') or '').partition('T')[2][:8]
-    return (time_of_day(film.start) - (time_of_day(clock) if clock else 0.0)) % 86400.0
+    return (time_of_day(film.start) - (time_of_day(clock) if clock else 0.0)) % DAY
 
 
 @contextmanager

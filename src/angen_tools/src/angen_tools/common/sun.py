@@ -4,9 +4,10 @@ from __future__ import annotations
 import datetime
 import math
 
+from angen_tools.common.clock import DAY
+
 J2000 = datetime.datetime(2000, 1, 1, 12)
 CENTURY = 36525.0  # days
-DAY = 86400.0      # s
 
 
 def equatorial(moment: datetime.datetime) -> tuple[float, float]:
