@@ -16,6 +16,7 @@ from angen_apps.patrol.figure import draw
 from angen_apps.patrol.report import (Figures, Run, make_rows, measure, plans, summary, table_of,
                                       verdict, write_tables)
 from angen_apps.plan.draw import read_scene
+from angen_apps.robot.building import write_world
 from angen_apps.robot.entities import entities_of
 from angen_apps.robot.interface import BUMPER, bumper
 from angen_apps.robot.rooms_route import prepare
@@ -45,7 +46,7 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
     route, world, survey = prepare(route_file, world, out / 'logs')
     began = time.monotonic()
     own_world = out.absolute() / 'patrol.world'
-    scene.write_world(world, route.robot, seed, own_world)
+    write_world(world, route.robot, scene.start_offset(seed), own_world)
     with Sandbox((out / 'logs').absolute()) as sandbox:
         sandbox.node(own_world, 0.0, paused='true', seed=seed)
         stepped = Stepped()

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import random
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,14 +10,12 @@ from angen import Grid
 
 from angen_apps.maps.gridmap import load_world
 from angen_apps.patrol.sight import beam_angles, door_beside, outline
-from angen_apps.robot.building import Start, Survey, find_start, move_robot, remove_actors
+from angen_apps.robot.building import Start, Survey, find_start
 from angen_apps.robot.entities import Entity
 from angen_apps.robot.planner import Door, Planner
 from angen_apps.robot.route import Action, Router
 from angen_apps.robot.route_file import Route
-from angen_tools.common.files import write_text
 from angen_tools.common.home import Home
-from angen_tools.world import sdf
 
 START_PLACE, START_YAW = 0.1, 0.1  # m, rad: how far a start may lie from the world's own
 
@@ -28,14 +25,6 @@ def start_offset(seed: int) -> tuple[float, float, float]:
     chance = random.Random(seed)
     return (chance.uniform(-START_PLACE, START_PLACE), chance.uniform(-START_PLACE, START_PLACE),
             chance.uniform(-START_YAW, START_YAW))
-
-
-def write_world(world: Path, robot: str, seed: int, to: Path) -> None:
-    """Writes the world without its actors, the robot moved from its place by the seed."""
-    root = sdf.read(world)
-    remove_actors(root)
-    move_robot(root, robot, start_offset(seed), world)
-    write_text(to, sdf.text(root))
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,10 @@ from angen_apps.robot.pilot import Pose
 from angen_apps.robot.planner import Door
 from angen_apps.robot.route_file import Route
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import write_text
 from angen_tools.common.home import Home
 from angen_tools.common.nearest import did_you_mean
+from angen_tools.world import sdf
 
 
 class Survey:
@@ -86,6 +88,17 @@ def _one(entities: list[Entity], kind: str, name: str, otherwise: str) -> Entity
     if found is None:
         raise Failure(otherwise)
     return found
+
+
+def write_world(world: Path, robot: str, offset: tuple[float, float, float] | None, to: Path
+                ) -> list[str]:
+    """Writes a world without its people, the robot moved from its place; the people's names."""
+    root = sdf.read(world)
+    people = remove_actors(root)
+    if offset is not None:
+        move_robot(root, robot, offset, world)
+    write_text(to, sdf.text(root))
+    return people
 
 
 def move_robot(root: etree._Element, robot: str, offset: tuple[float, float, float], world: Path

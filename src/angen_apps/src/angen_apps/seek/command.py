@@ -11,6 +11,7 @@ from pathlib import Path
 
 from angen_apps.maps.gridmap import load_world
 from angen_apps.plan.draw import read_scene
+from angen_apps.robot.building import write_world
 from angen_apps.robot.entities import Entity, entities_of
 from angen_apps.robot.rooms_route import prepare
 from angen_apps.robot.route_file import Route, default_route
@@ -109,7 +110,7 @@ def survey(route_file: Path | None, world: Path | None, out: Path) -> tuple[Home
     route, world, known = prepare(route_file, world, out, False)
     empty = out / 'survey.world'
     try:
-        run.write_world(world, route, None, empty)
+        write_world(world, route.robot, None, empty)
         entities = entities_of(InProcess(load_world(str(empty))))
         route = served(route, entities)
         return make_home(route, empty, entities, (0.0, 0.0, 0.0), known), route, world

@@ -8,12 +8,11 @@ from pathlib import Path
 from typing import Callable
 
 import numpy as np
-from lxml import etree
 
 from angen_apps.maps.gridmap import load_world
 from angen_apps.patrol.scene import start_offset
 from angen_apps.residents.floors import Floors
-from angen_apps.robot.building import find_start, move_robot, remove_actors
+from angen_apps.robot.building import find_start, write_world
 from angen_apps.robot.driver import Track
 from angen_apps.robot.interface import Event, collisions
 from angen_apps.robot.route_file import Route
@@ -21,8 +20,6 @@ from angen_apps.seek.home import Home
 from angen_apps.seek.person import add_person
 from angen_apps.seek.search import Found, Search
 from angen_apps.seek.simulation import Simulation
-from angen_tools.common.files import write_text
-from angen_tools.world import sdf
 
 NO_PERSON = ''  # the name and the room of a person in a world without people
 
@@ -63,23 +60,13 @@ BELIEF = 1.0  # s between two beliefs that are kept
 SOON = 1e-6  # s
 
 
-def write_world(world: Path, route: Route, seed: int | None, to: Path) -> str:
-    """Writes the world of a search, without people; returns the name of the first person of the
-    file, or nothing. Without a seed the robot is at its place in the file."""
-    root: etree._Element = sdf.read(world)
-    people = remove_actors(root)
-    if seed is not None:
-        move_robot(root, route.robot, start_offset(seed), world)
-    write_text(to, sdf.text(root))
-    return people[0] if people else NO_PERSON
-
-
 def search(world: Path, route: Route, home: Home, seed: int, ambient: bool, limit: float,
            scratch: Path, note: Callable[[float, str], None] = lambda now, text: None) -> Outcome:
     """Runs one search; `scratch`: the file for its world; `note` is called with the time (s) and
     the robot's next action."""
     began = time.monotonic()
-    name = write_world(world, route, seed, scratch)
+    people = write_world(world, route.robot, start_offset(seed), scratch)
+    name = people[0] if people else NO_PERSON
     simulation = Simulation(scratch, seed, route.robot)
     start = find_start(route, simulation.entities, start_offset(seed))
     home = replace(home, start=start)
