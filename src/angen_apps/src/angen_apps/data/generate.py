@@ -14,8 +14,9 @@ import time
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import asdict, dataclass, replace
+from itertools import chain
 from pathlib import Path
-from typing import Any, Callable, Iterator
+from typing import Any, Callable, Iterable, Iterator
 
 from angen_apps.data import faults, run, site
 from angen_apps.data.formats import FORMATS
@@ -29,6 +30,7 @@ from angen_apps.residents.profiles import is_file, names
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import check_folder, make_folder, write_csv, write_text
+from angen_tools.common.output import with_each
 from angen_tools.common.progress import Progress
 
 MANIFEST, HOME = 'manifest.json', 'home.json'
@@ -220,52 +222,39 @@ def write_truth(folder: Path, data: run.Data) -> list[Path]:
                    for t in home.things],
         'sensors': [{key: value for key, value in asdict(s).items() if key != 'source'}
                     for s in data.sensors]}
-    with zipped(paths[4]) as file:
-        file.write('time,resident,x,y,storey\n')
-        file.writelines(f'{t:.3f},{who},{x:.3f},{y:.3f},{storey}\n'
-                        for t, who, x, y, storey in data.track)
-    with zipped(paths[5]) as file:
-        file.write('time,kind,device,watts\n')
-        file.writelines(f'{time:.3f},{device.replace("/", ",", 1)},{watts:.3f}\n'
-                        for time, device, watts in sorted(
-                            (time, device, watts) for device, line in data.power.items()
-                            for time, watts in line))
-    with zipped(paths[6]) as file:
-        file.write('time,resident\n')
-        file.writelines(f'{move.time:.3f},{move.resident}\n' for move in data.moves)
+    _write_table(paths[4], 'time,resident,x,y,storey', (
+        f'{t:.3f},{who},{x:.3f},{y:.3f},{storey}' for t, who, x, y, storey in data.track))
+    _write_table(paths[5], 'time,kind,device,watts', (
+        f'{time:.3f},{device.replace("/", ",", 1)},{watts:.3f}' for time, device, watts in sorted(
+            (time, device, watts) for device, line in data.power.items() for time, watts in line)))
+    _write_table(paths[6], 'time,resident', (
+        f'{move.time:.3f},{move.resident}' for move in data.moves))
     if data.slides:
         paths.append(folder / CABINS)
-        with zipped(paths[-1]) as file:
-            file.write('time,model,link,x,y,z\n')
-            file.writelines(f'{t:.3f},{model},{link},{x:.4f},{y:.4f},{z:.4f}\n'
-                            for t, model, link, x, y, z in data.slides)
+        _write_table(paths[-1], 'time,model,link,x,y,z', (
+            f'{t:.3f},{model},{link},{x:.4f},{y:.4f},{z:.4f}'
+            for t, model, link, x, y, z in data.slides))
     if data.talks:
         paths.append(folder / TALKS)
-        with zipped(paths[-1]) as file:
-            file.write('start,end,resident,to\n')
-            file.writelines(f'{talk.start:.3f},{talk.end:.3f},{talk.resident},{talk.to}\n'
-                            for talk in data.talks)
-    write_text(paths[3], json.dumps(_rounded(layout), indent=1) + '\n')
+        _write_table(paths[-1], 'start,end,resident,to', (
+            f'{talk.start:.3f},{talk.end:.3f},{talk.resident},{talk.to}' for talk in data.talks))
+    write_text(paths[3], json.dumps(with_each(layout, _rounded), indent=1) + '\n')
     return paths
 
 
 def _rounded(value: Any) -> Any:
-    if isinstance(value, float):
-        return round(value, 4)
-    if isinstance(value, (list, tuple)):
-        return [_rounded(part) for part in value]
-    if isinstance(value, dict):
-        return {key: _rounded(part) for key, part in value.items()}
-    return value
+    return round(value, 4) if isinstance(value, float) else value
+
+
+def _write_table(path: Path, head: str, rows: Iterable[str]) -> None:
+    with zipped(path) as file:
+        file.writelines(f'{row}\n' for row in chain([head], rows))
 
 
 def sha256(path: Path) -> str:
     """The hash of a file."""
-    digest = hashlib.sha256()
     with path.open('rb') as file:
-        while block := file.read(1 << 20):
-            digest.update(block)
-    return digest.hexdigest()
+        return hashlib.file_digest(file, 'sha256').hexdigest()
 
 
 def generate(job: Job, homes: int, processes: int, scheduler: str = '') -> list[dict[str, Any]]:

@@ -6,15 +6,16 @@ from typing import Any
 
 import numpy as np
 
+from angen_tools.common.output import with_each
 from angen_tools.session.world import Entity
 
 
 def packed(value: Any) -> Any:
     """Numbers of few digits, which JSON has in few bytes; arrays in base64, little-endian."""
-    if isinstance(value, dict):
-        return {key: packed(each) for key, each in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [packed(each) for each in value]
+    return with_each(value, _packed)
+
+
+def _packed(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return base64.b64encode(value.astype(value.dtype.newbyteorder('<')).tobytes()).decode()
     return round(value, 5) if isinstance(value, float) else value

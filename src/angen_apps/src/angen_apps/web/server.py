@@ -17,6 +17,7 @@ from angen_apps.web.guard import BUILD, HEADERS, ROLE, Budget, Guard, Handler, r
 from angen_apps.web.history import numbers
 from angen_apps.web.store import Store
 from angen_apps.web.threads import in_thread
+from angen_tools.common.output import with_each
 
 MOST_BROWSERS, RESERVED = 40, 5  # the last ones are of the role that may do all
 LARGEST_MESSAGE = 16 * 1024  # bytes, of a browser
@@ -294,14 +295,10 @@ def json_text(data: Any) -> str:
     try:
         return json.dumps(data, separators=(',', ':'), allow_nan=False)
     except ValueError:
-        return json.dumps(_finite(data), separators=(',', ':'), allow_nan=False)
+        return json.dumps(with_each(data, _finite), separators=(',', ':'), allow_nan=False)
 
 
 def _finite(data: Any) -> Any:
-    if isinstance(data, dict):
-        return {key: _finite(value) for key, value in data.items()}
-    if isinstance(data, (list, tuple)):
-        return [_finite(value) for value in data]
     return None if isinstance(data, float) and not isfinite(data) else data
 
 

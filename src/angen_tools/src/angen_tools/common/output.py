@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 import sys
-from typing import TYPE_CHECKING, Any, Iterable, TextIO
+from typing import TYPE_CHECKING, Any, Callable, Iterable, TextIO
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -57,6 +57,15 @@ def show(thing: RenderableType) -> None:
         console(sys.stdout).print(thing)
     else:
         print(plain(thing))
+
+
+def with_each(value: Any, change: Callable[[Any], Any]) -> Any:
+    """JSON data with each value changed that is not a list or a dict."""
+    if isinstance(value, dict):
+        return {key: with_each(part, change) for key, part in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [with_each(part, change) for part in value]
+    return change(value)
 
 
 def as_json(value: Any) -> str:
