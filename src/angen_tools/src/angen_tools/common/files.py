@@ -9,6 +9,7 @@ import fcntl
 import os
 import signal
 import tempfile
+import threading
 import time
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -106,7 +107,10 @@ def _cut(part: Path) -> None:
 @contextmanager
 def later_signals() -> Iterator[None]:
     """Ctrl-C, SIGTERM and SIGHUP wait for the end of this block, in which a stopped write would
-    leave a compressed file damaged."""
+    leave a compressed file damaged, or a process be started and forgotten."""
+    if threading.current_thread() is not threading.main_thread():
+        yield  # signals interrupt the main thread only
+        return
     came: list[int] = []
     before = {number: signal.signal(number, lambda came_now, _: came.append(came_now))
               for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}

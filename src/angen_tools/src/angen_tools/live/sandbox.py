@@ -7,13 +7,13 @@ import re
 import shutil
 import signal
 import subprocess
-import threading
 import time
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
-from typing import Any, Iterator
+from typing import Any
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import later_signals
 from angen_tools.common.installed import share
 from angen_tools.common.port import free_port
 from angen_tools.common.wait import wait
@@ -112,7 +112,7 @@ class Sandbox:
 
     def start(self, words: list[str], log: str, **options: Any) -> subprocess.Popen[bytes]:
         """Starts a process without Ctrl-C; its output is written to a file named `log`."""
-        with (self.folder / f'{log}.log').open('wb') as out, uninterrupted():
+        with (self.folder / f'{log}.log').open('wb') as out, later_signals():
             settings: dict[str, Any] = {'env': self.environment, 'stdout': out, **options}
             process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stderr=out,
                                        start_new_session=True, **settings)
@@ -172,24 +172,6 @@ class Sandbox:
             return str(failure)
         self.environment.update(DISPLAY=f':{number.read_text().strip()}', LIBGL_ALWAYS_SOFTWARE='1')
         return None
-
-
-@contextmanager
-def uninterrupted() -> Iterator[None]:
-    """A signal within it is raised at its end: no process is started and then forgotten."""
-    if threading.current_thread() is not threading.main_thread():
-        yield  # signals interrupt the main thread only
-        return
-    raised: list[int] = []
-    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-    before = [signal.signal(number, lambda n, _: raised.append(n)) for number in numbers]
-    try:
-        yield
-    finally:
-        for number, handler in zip(numbers, before):
-            signal.signal(number, handler)
-    if raised:
-        signal.raise_signal(raised[0])
 
 
 def end(process: subprocess.Popen[Any]) -> None:
