@@ -13,9 +13,10 @@ from angen_apps.edit.coverage import coverage
 from angen_apps.edit.habits import check_day
 from angen_apps.imports.flood import rooms_of
 from angen_apps.plan.drawing import Drawing, from_json
-from angen_apps.plan.finish import finish, stem
+from angen_apps.plan.finish import finish
 from angen_apps.plan.lifts import with_shafts
 from angen_apps.plan.model import Plan, Room, Storey
+from angen_apps.plan.names import stem
 from angen_apps.plan.writer import world_of, write_world, written
 from angen_tools.common.catalog import angen_module, simulator
 from angen_tools.common.failure import Failure

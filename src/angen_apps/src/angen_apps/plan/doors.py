@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from lxml import etree
 
 from angen_apps.plan.model import Leaf, Opening
+from angen_apps.plan.names import apart
 from angen_apps.plan.polygons import rectangle
 from angen_models.catalog import REED_GAP, add_reed
 from angen_models.sdf import (Part, add_fixed, add_joint, add_link, add_plugin, add_pose, new_model,
@@ -106,8 +107,8 @@ def leaf_model(hung: Hung, reed: bool) -> etree._Element:
 
 def model_name(hung: Hung) -> str:
     """The name of a leaf's model: that of its device with its kind before the storey's number."""
-    stem = hung.name.rstrip('0123456789')
-    return f'{stem.rstrip("_")}_{hung.opening.kind}{hung.name[len(stem):]}'
+    name, number = apart(hung.name)
+    return f'{name}_{hung.opening.kind}{number}'
 
 
 def _frame(width: float, thick: float, height: float) -> Part:

@@ -9,6 +9,7 @@ from typing import Any, Callable, Sequence
 import numpy as np
 
 from angen_apps.plan import overlays
+from angen_apps.plan.names import stem
 from angen_apps.plan.outlines import Leaf, Shape, leaves_of, shapes_of, shut
 from angen_apps.plan.symbols import SYMBOLS
 from angen_tools.common.catalog import angen_module
@@ -264,7 +265,7 @@ def _label(axis: Any, room: Room, inch: float) -> None:
     """The room's name and area at the point of it that is farthest from its walls."""
     x, y, away = _inner_point(room)
     west, south, east, north = room.bounds
-    text = (room.name.rstrip('0123456789').rstrip('_') or room.name).replace('_', ' ')
+    text = (stem(room.name) or room.name).replace('_', ' ')
     wide = 0.065 * max(len(text), 7) / inch  # m of 8 points
     size = 8 if wide < max(2 * away, 0.6 * (east - west)) else 5.5
     axis.text(x, y, f'{text}{"?" if room.guessed else ""}\n{room.area:.1f} m²', ha='center',

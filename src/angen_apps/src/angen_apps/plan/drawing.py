@@ -11,8 +11,9 @@ from functools import cache
 from types import UnionType
 from typing import Any
 
-from angen_apps.plan.finish import room_at, stem
+from angen_apps.plan.finish import room_at
 from angen_apps.plan.model import Opening, Piece, Plan, Storey
+from angen_apps.plan.names import stem
 from angen_apps.plan.passages import PASSAGE
 from angen_tools.common.failure import Failure
 from angen_tools.common.text_file import shortened

@@ -11,7 +11,7 @@ from angen import Grid
 
 from angen_apps.maps.cells import cell_of
 from angen_apps.plan.model import Lamp, Opening, Piece, Plan, Point, Room, Storey, Wall
-from angen_apps.plan.names import Names, slug, use_by_things, use_of
+from angen_apps.plan.names import Names, slug, stem, use_by_things, use_of
 from angen_apps.plan.nested import cut_out, holds
 from angen_apps.plan.passages import passages
 from angen_apps.plan.polygons import area, base, hole, overlap
@@ -50,11 +50,6 @@ def finish(plan: Plan) -> Plan:
         plan.entrances = _entrances(plan)
         plan.entrance = plan.entrances[0] if plan.entrances else ''
     return plan
-
-
-def stem(name: str) -> str:
-    """A name without the storey's number."""
-    return name.rstrip('0123456789').rstrip('_')
 
 
 def room_at(storey: Storey, point: Point) -> Room | None:

@@ -10,9 +10,9 @@ from typing import Callable, Iterator, Sequence
 import numpy as np
 from scipy.ndimage import distance_transform_edt, label
 
-from angen_apps.plan.finish import room_at, stem
+from angen_apps.plan.finish import room_at
 from angen_apps.plan.model import Opening, Piece, Plan, Room, Storey
-from angen_apps.plan.names import Names
+from angen_apps.plan.names import Names, stem
 from angen_apps.plan.polygons import base, bounds, hole, overlap
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import turned

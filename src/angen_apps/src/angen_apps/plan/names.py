@@ -97,6 +97,17 @@ class Names:
         return f'_{LETTERS[tried]}' if tried < len(LETTERS) else f'_z{tried - len(LETTERS)}'
 
 
+def apart(name: str) -> tuple[str, str]:
+    """A name without the number at its end, and that number."""
+    stem = name.rstrip('0123456789')
+    return stem.rstrip('_'), name[len(stem):]
+
+
+def stem(name: str) -> str:
+    """A name without the storey's number."""
+    return apart(name)[0]
+
+
 def with_number(stem: str, number: int | None) -> str:
     """The stem and a storey's number, apart from a digit before it."""
     if number is None:

@@ -79,7 +79,8 @@ def _corners(room: Room) -> list[tuple[float, float, float, float]]:
 def _opposite(room: Room, solids: list[Obstacle], z: float
               ) -> list[tuple[float, float, float]]:
     """Two corners far apart from which the room is in sight; one if there is no second."""
-    solids = [o for o in solids if o.bottom < z < o.top and _is_near(o, bounds(room.polygon))]
+    area = bounds(room.polygon)
+    solids = [o for o in solids if o.bottom < z < o.top and o.is_near(area, SIGHT)]
 
     def is_free(x: float, y: float, yaw: float) -> bool:
         for ahead in (0.0, 0.1, 0.3, 0.6, SIGHT):
@@ -87,7 +88,8 @@ def _opposite(room: Room, solids: list[Obstacle], z: float
                 return False
         return True
 
-    spots = [spot for spot in _corners(room) if spot[3] > min(SIGHT, 0.8 * _size(room))
+    size = min(area[2] - area[0], area[3] - area[1])
+    spots = [spot for spot in _corners(room) if spot[3] > min(SIGHT, 0.8 * size)
              and is_free(*spot[:3])]
     if len(spots) < 2:
         return [spot[:3] for spot in spots]
@@ -95,15 +97,3 @@ def _opposite(room: Room, solids: list[Obstacle], z: float
              for j, b in enumerate(spots) if i < j]
     _, i, j = max(pairs)
     return [spots[-i][:3], spots[-j][:3]]
-
-
-def _is_near(obstacle: Obstacle, area: tuple[float, float, float, float]) -> bool:
-    """Whether something is within the sight of a sensor from an area."""
-    x, y = zip(*obstacle.corners)
-    return (min(x) < area[2] + SIGHT and max(x) > area[0] - SIGHT
-            and min(y) < area[3] + SIGHT and max(y) > area[1] - SIGHT)
-
-
-def _size(room: Room) -> float:
-    x, y = zip(*room.polygon)
-    return float(min(max(x) - min(x), max(y) - min(y)))

@@ -2,11 +2,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import ceil, copysign, cos, degrees, pi
-from typing import Sequence
+from typing import Iterable, Sequence
 
 from angen_apps.plan.doors import Hung
-from angen_apps.plan.model import Leaf, Opening, Plan, Storey
+from angen_apps.plan.model import Leaf, Opening, Plan, Point, Storey
+from angen_apps.plan.names import apart
 from angen_apps.plan.polygons import overlap
 from angen_apps.plan.walls import Box
 
@@ -28,6 +30,18 @@ class Obstacle:
     corners: list[tuple[float, float]]
     bottom: float
     top: float
+
+    @cached_property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """West, south, east, north."""
+        x, y = zip(*self.corners)
+        return min(x), min(y), max(x), max(y)
+
+    def is_near(self, area: tuple[float, float, float, float], reach: float) -> bool:
+        """Whether it is within reach of an area: west, south, east, north."""
+        west, south, east, north = self.bounds
+        return (west < area[2] + reach and east > area[0] - reach
+                and south < area[3] + reach and north > area[1] - reach)
 
 
 def hang(storey: Storey, walls: Sequence[Box], furniture: Sequence[Obstacle], plan: Plan
@@ -62,10 +76,13 @@ def _turned(hung: Hung, obstacles: Sequence[Obstacle], opened: Sequence[Obstacle
 
     It may pass through the place of an open leaf, but does not stop there.
     """
-    turn, why = _free_turn(hung, obstacles)
+    near = _near(hung, obstacles, hung.width)
+    count = max(1, round(abs(hung.turn) / STEP))
+    angles = (hung.turn * i / count for i in range(count + 1))
+    free, why = _free(((angle, hung.corners(angle)) for angle in angles), near, STEP / 2)
+    turn = copysign(free, hung.turn) if why else hung.turn
     around = [(o, TOUCH) for o in _near(hung, opened, hung.width)]
-    around += [(o, max(REST, overlap(hung.corners(0.0), o.corners)))
-               for o in _near(hung, obstacles, hung.width)]
+    around += [(o, max(REST, overlap(hung.corners(0.0), o.corners))) for o in near]
     while abs(turn) >= LEAST_TURN and (in_way := next(
             (o for o, touch in around if overlap(hung.corners(turn), o.corners) > touch), None)):
         turn, why = turn - copysign(STEP, turn), in_way.name
@@ -81,7 +98,10 @@ def _slid(hung: Hung, obstacles: Sequence[Obstacle]) -> tuple[Hung, str]:
     best, most, stopped = hung, -1.0, ''
     for leaf in _beside_wall(hung):
         tried = replace(hung, leaf=leaf)
-        way, why = _free_way(tried, obstacles)
+        count = max(1, ceil(abs(leaf.slide) / SLIDE_STEP))
+        ways = (leaf.slide * i / count for i in range(count + 1))
+        way, why = _free(((way, tried.corners(0.0, way)) for way in ways),
+                         _near(tried, obstacles, tried.width + abs(leaf.slide)), 0.01)
         if way > most + 1e-6:
             best, most, stopped = tried, way, why
         if not why:
@@ -103,17 +123,15 @@ def _beside_wall(hung: Hung) -> list[Leaf]:
     return [leaf, *(replace(leaf, hinge=(leaf.hinge[0], v)) for v in places)]
 
 
-def _free_way(hung: Hung, obstacles: Sequence[Obstacle]) -> tuple[float, str]:
-    """The way of a leaf without a touch, and the obstacle that stops it."""
-    near = _near(hung, obstacles, hung.width + abs(hung.leaf.slide))
-    count = max(1, ceil(abs(hung.leaf.slide) / SLIDE_STEP))
+def _free(places: Iterable[tuple[float, Sequence[Point]]], near: Sequence[Obstacle], back: float
+          ) -> tuple[float, str]:
+    """How far a leaf gets without a touch, of its places one after the other, and the obstacle
+    that stops it, `back` before that."""
     free = 0.0
-    for i in range(count + 1):
-        way = hung.leaf.slide * i / count
-        corners = hung.corners(0.0, way)
+    for way, corners in places:
         for o in near:
             if overlap(corners, o.corners) > TOUCH:
-                return max(0.0, free - 0.01), o.name
+                return max(0.0, free - back), o.name
         free = abs(way)
     return free, ''
 
@@ -121,13 +139,8 @@ def _free_way(hung: Hung, obstacles: Sequence[Obstacle]) -> tuple[float, str]:
 def _near(hung: Hung, obstacles: Sequence[Obstacle], reach: float) -> list[Obstacle]:
     """The obstacles within reach of a hinge, at the heights of its leaf."""
     bottom, top = hung.heights
-    x, y = hung.hinge
-    reach += 0.1
     return [o for o in obstacles if o.bottom < top + CLOSE and o.top > bottom - CLOSE
-            and min(c[0] for c in o.corners) < x + reach
-            and max(c[0] for c in o.corners) > x - reach
-            and min(c[1] for c in o.corners) < y + reach
-            and max(c[1] for c in o.corners) > y - reach]
+            and o.is_near((*hung.hinge, *hung.hinge), reach + 0.1)]
 
 
 def sided(opening: Opening, leaf: Leaf, index: int) -> str:
@@ -135,22 +148,5 @@ def sided(opening: Opening, leaf: Leaf, index: int) -> str:
     side = ('left' if leaf.hinge[0] < 0 else 'right') if len(opening.leaves) == 2 else f'n{index}'
     if opening.name == opening.source:
         return f'{opening.name}_{side}'
-    stem = opening.name.rstrip('0123456789')
-    joint = '' if stem.endswith('_') else '_'
-    return f'{stem}{joint}{side}{opening.name[len(stem):]}'
-
-
-def _free_turn(hung: Hung, obstacles: Sequence[Obstacle]) -> tuple[float, str]:
-    """The angle of a leaf without a touch, and the obstacle that stops it."""
-    near = _near(hung, obstacles, hung.width)
-    sign = -1.0 if hung.turn < 0 else 1.0
-    count = max(1, round(abs(hung.turn) / STEP))
-    free = 0.0
-    for i in range(count + 1):
-        angle = hung.turn * i / count
-        corners = hung.corners(angle)
-        for o in near:
-            if overlap(corners, o.corners) > TOUCH:
-                return sign * max(0.0, abs(free) - STEP / 2), o.name
-        free = angle
-    return hung.turn, ''
+    name, number = apart(opening.name)
+    return f'{name}_{side}{number}'

@@ -13,10 +13,10 @@ from lxml import etree
 from angen_apps.plan import sensors as rules
 from angen_apps.plan.doors import GLASS, OAK, Hung, leaf_model
 from angen_apps.plan.drawing import Drawing, drawing_of, kept
-from angen_apps.plan.finish import beside_box, room_at, sides, stem
+from angen_apps.plan.finish import beside_box, room_at, sides
 from angen_apps.plan.furnish import obstacles, piece_model
 from angen_apps.plan.lifts import add_lift, around_pits
-from angen_apps.plan.names import Names, line_of, slug, with_number
+from angen_apps.plan.names import Names, apart, line_of, slug, stem, with_number
 from angen_apps.plan.model import Lamp, Mover, Opening, Plan, Room, Storey
 from angen_apps.plan.slabs import Slabs, slabs
 from angen_apps.plan.travel import Obstacle, hang
@@ -337,8 +337,8 @@ def _add_daylight(world: etree._Element, storey: Storey, opening: Opening) -> No
     yaw = opening.yaw + (pi / 2 if is_out[0] else -pi / 2)
     x, y = opening.point(0.0, v)
     wide, high = opening.width * 0.9, (opening.top - opening.bottom) * 0.9
-    number = opening.name[len(opening.name.rstrip('0123456789')):]
-    at = stem(opening.name) + ('_door' if opening.kind == 'door' else '')
+    at, number = apart(opening.name)
+    at += '_door' if opening.kind == 'door' else ''
     name = f'{at}_daylight{number}'
     _, model = new_model(name, static=True)
     add_pose(model, (round(x, 5), round(y, 5),
@@ -352,8 +352,7 @@ def _add_daylight(world: etree._Element, storey: Storey, opening: Opening) -> No
 
 
 def _lamp_model(lamp: Lamp) -> etree._Element:
-    number = lamp.name[len(lamp.name.rstrip('0123456789')):]
-    _, model = new_model(f'{stem(lamp.name)}_lamp{number}', static=True)
+    _, model = new_model('{}_lamp{}'.format(*apart(lamp.name)), static=True)
     add_pose(model, (round(lamp.x, 4), round(lamp.y, 4), round(lamp.z, 4)))
     link = add_link(model, 'lamp', [Part(
         'bulb', (0.05,), material=lamp.color, collide=False, emissive=True)], moves=False)
