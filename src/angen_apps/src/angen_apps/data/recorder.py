@@ -17,6 +17,7 @@ ON = {'motion', 'pressed', 'opened', 'on'}
 OFF = {'still', 'released', 'closed', 'off'}
 VALUES = {'motion': ('ON', 'OFF'), 'area': ('ON', 'OFF'), 'door': ('OPEN', 'CLOSE'),
           'item': ('PRESENT', 'ABSENT'), 'power': ('ON', 'OFF')}
+ACTIVE = {values[0] for values in VALUES.values()}
 AIR = 300.0  # s between two looks at the temperature
 DEGREES = 0.5  # least step of temperature
 RECENT = 3.0  # s: a resident who moved within this time may have caused motion

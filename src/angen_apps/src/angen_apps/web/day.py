@@ -12,6 +12,7 @@ import numpy as np
 
 from angen_apps.data import shapes
 from angen_apps.data.generate import CABINS, HOME, LOADS, sha256
+from angen_apps.data.recorder import ACTIVE
 from angen_apps.data.site import Site, apartment
 from angen_apps.data.tables import (ENTRY, POWER, SLIDES, TRACK, Tables, homes, layout_of,
                                     parsed)
@@ -34,7 +35,6 @@ WORDS = {'motion': ('MOTION', 'still'), 'area': ('MOTION', 'still'), 'door': ('o
          'item': ('pressed', 'free'), 'power': ('on', 'off')}  # words of summaries
 HAPPENED = {'open': 'opened', 'free': 'released'}  # by these: words of events, if they differ
 SHOWN = (*LEAVES, 'lamp', 'appliance', 'person')  # devices whose states the files have
-FIRST = ('ON', 'OPEN', 'PRESENT')
 UNITS = {'temperature': ('temperature', '°C'), 'light': ('illuminance', 'lx')}
 
 
@@ -258,7 +258,7 @@ class Day(Lined):
             if kind == 'bell':
                 self.store.add_event([time, kind, name, 'rang', event['resident']])
                 continue
-            is_on, moves = event['value'] in FIRST, kind in ('motion', 'area')
+            is_on, moves = event['value'] in ACTIVE, kind in ('motion', 'area')
             word = WORDS[kind][0 if is_on else 1]
             self.store.put_rows([(source, name, word, is_on and moves, time, [])], False)
             if kind == 'door':

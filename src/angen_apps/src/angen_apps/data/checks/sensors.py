@@ -6,7 +6,7 @@ import math
 from bisect import bisect_left, bisect_right
 from typing import Any, Iterator
 
-from angen_apps.data.recorder import DEGREES, VALUES, WATTS
+from angen_apps.data.recorder import ACTIVE, DEGREES, VALUES, WATTS
 from angen_apps.data.whereabouts import WALKS, Whereabouts
 from angen_apps.data.written import Findings, Written
 from angen_apps.residents.activities import activities
@@ -31,7 +31,6 @@ WARMER = 12.0  # degrees between a reading and the middle one
 BRIEF = 0.05  # s: a shorter change is not reported
 IDLE = 5.0  # W of an appliance that is off
 MISSED, NOISE = 0.02, 0.02  # shares of walks and events, at most
-ON = {values[0] for values in VALUES.values()}
 
 
 def check(findings: Findings, home: Written) -> None:
@@ -71,7 +70,7 @@ def _alternate(findings: Findings, home: Written) -> None:
             findings.say('on and off alternate', last.get(row['sensor']) != row['value'],
                          f'{row["time"]} {row["sensor"]} {row["value"]} twice')
             if row['sensor'] not in last:
-                findings.say('on and off alternate', row['value'] in ON,
+                findings.say('on and off alternate', row['value'] in ACTIVE,
                              f'{row["time"]} {row["sensor"]} {row["value"]} at first')
             last[row['sensor']] = row['value']
 
@@ -87,13 +86,13 @@ def _could(findings: Findings, home: Written, shares: dict[str, int]) -> None:
         if sensor is None or sensor['kind'] not in ('motion', 'area', 'door', 'item') \
                 or row['cause'] == 'start':
             continue
-        found = _explained(home, sensor, time, row['value'] in ON)
+        found = _explained(home, sensor, time, row['value'] in ACTIVE)
         shares['explained' if found else 'unexplained'] += 1
         if row['sensor'] not in home.faulty:
             findings.say('a resident could have caused it', found,
                          f'{row["time"]} {row["sensor"]} {row["value"]} in {sensor["room"]}')
             who = row['resident']
-            if found and who in home.who and row['value'] in ON:
+            if found and who in home.who and row['value'] in ACTIVE:
                 findings.say('its resident could have caused it',
                              _explained(home, sensor, time, True, who),
                              f'{row["time"]} {row["sensor"]} {row["value"]}: {who}')
@@ -183,7 +182,7 @@ def _was_on(states: list[tuple[float, str]], time: float) -> bool:
     """Whether a sensor was on around a time."""
     first = bisect_left(states, (time - EARLY, ''))
     last = bisect_right(states, (time + LATE, '~'))
-    return any(value in ON for _, value in states[max(first - 1, 0):last])
+    return any(value in ACTIVE for _, value in states[max(first - 1, 0):last])
 
 
 def _seats(findings: Findings, home: Written) -> None:
@@ -204,7 +203,7 @@ def _seats(findings: Findings, home: Written) -> None:
             continue
         states = home.states(seat['id'])
         i = bisect_right(states, (begin, '~')) - 1
-        findings.say('a seat is pressed while one sits', i >= 0 and states[i][1] in ON,
+        findings.say('a seat is pressed while one sits', i >= 0 and states[i][1] in ACTIVE,
                      f'{row["resident"]} at {row["start"]} on {row["thing"]}')
 
 
@@ -275,7 +274,7 @@ def _is_open(states: list[tuple[float, str]], begin: float, end: float) -> bool:
     """Whether a front opens between two times, or opened a short time before and is open still."""
     last = bisect_left(states, (end, ''))
     first = max(bisect_right(states, (begin, '~')) - 1, 0)
-    return any(value in ON and time > begin - SHUTS for time, value in states[first:last])
+    return any(value in ACTIVE and time > begin - SHUTS for time, value in states[first:last])
 
 
 def _plug_of(home: Written) -> dict[str, str]:

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import numpy as np
 
-from angen_apps.data.formats.periods import binary, periods, seconds
+from angen_apps.data.formats.periods import Period, binary, label, periods, runs, seconds
 from angen_apps.data.run import Data
 from angen_apps.data.site import Sensor
 from angen_apps.residents.activities import activities
-from angen_apps.residents.profiles import DAY
+from angen_tools.common.clock import DAY
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text, writing
 
@@ -34,12 +34,8 @@ def write(folder: Path, data: Data) -> list[Path]:
             cells[:, i] = seconds(line, day)
         cells[:, COLUMNS:] = OTHER
         for number, (name, _) in enumerate(data.residents):
-            for period in every:
-                first, last = period.start - day * DAY, period.end - day * DAY
-                if period.resident == name and last > 0 and first < DAY:
-                    activity = activities()[period.activity]
-                    label = activity.number(activity.aras, period.start / 3600 % 24)
-                    cells[max(int(first), 0):max(int(last), 0), COLUMNS + number] = label
+            own = [period for period in every if period.resident == name]
+            label(cells[:, COLUMNS + number], own, day, _number)
         paths.append(folder / f'aras/DAY_{day + 1}.txt')
         with writing(paths[-1]) as file:
             file.write(_lines(cells))
@@ -52,9 +48,12 @@ def columns(data: Data) -> list[Sensor]:
     return sorted(able, key=lambda s: (FIRST.index(s.kind), s.id))[:COLUMNS]
 
 
+def _number(period: Period) -> int:
+    activity = activities()[period.activity]
+    return activity.number(activity.aras, period.start / 3600 % 24)
+
+
 def _lines(cells: np.ndarray) -> str:
     """A line for each second; a run of equal lines is formatted once."""
-    changes = np.flatnonzero((cells[1:] != cells[:-1]).any(axis=1)) + 1
-    edges = [0, *changes.tolist(), len(cells)]
     return ''.join((' '.join(map(str, cells[a].tolist())) + '\n') * (b - a)
-                   for a, b in zip(edges, edges[1:]))
+                   for a, b in runs((cells[1:] != cells[:-1]).any(axis=1)))

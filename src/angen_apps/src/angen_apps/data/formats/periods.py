@@ -5,17 +5,18 @@ import gzip
 import io
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
-from typing import IO, Iterator, cast
+from typing import IO, Any, Callable, Iterator, cast
 
 import numpy as np
 
+from angen_apps.data.recorder import ACTIVE
 from angen_apps.data.run import Data
-from angen_apps.residents.profiles import DAY
+from angen_tools.common.clock import DAY
 from angen_tools.common.files import writing
 
 LEVEL = 4  # gzip's level
-ON = ('ON', 'OPEN', 'PRESENT')
 
 
 @dataclass(frozen=True)
@@ -55,9 +56,9 @@ def binary(data: Data, sensor: str) -> list[tuple[float, float]]:
     for event in data.events:
         if event.sensor != sensor:
             continue
-        if event.value in ON and since is None:
+        if event.value in ACTIVE and since is None:
             since = event.time
-        elif event.value not in ON and since is not None:
+        elif event.value not in ACTIVE and since is not None:
             found.append((since, event.time))
             since = None
     if since is not None:
@@ -73,6 +74,19 @@ def seconds(spans: list[tuple[float, float]], day: int) -> np.ndarray:
         if last >= 0 and first < DAY:
             found[max(int(first), 0):min(int(np.ceil(last)), int(DAY))] = 1
     return found
+
+
+def label(cells: np.ndarray, of: list[Period], day: int, named: Callable[[Period], Any]) -> None:
+    """Sets the seconds of a day (86400,) in which periods hold to what these are named."""
+    for period in of:
+        first, last = period.start - day * DAY, period.end - day * DAY
+        if last > 0 and first < DAY:
+            cells[max(int(first), 0):max(int(last), 0)] = named(period)
+
+
+def runs(changes: np.ndarray) -> Iterator[tuple[int, int]]:
+    """Begins and ends of runs of equal lines, by whether each differs from the one before."""
+    return pairwise([0, *(np.flatnonzero(changes) + 1).tolist(), len(changes) + 1])
 
 
 @contextmanager
