@@ -7,6 +7,7 @@ import numpy as np
 
 from angen_apps.robot.driver import Driver
 from angen_apps.robot.interface import CYCLE
+from angen_tools.common.geometry import length
 
 BESIDE = 0.02  # m: things nearer to the line than the clearance less this are in the way
 AHEAD, NEAR = 14, 1.2  # points of the line that are looked at, 0.05 m apart; m around the robot
@@ -50,7 +51,7 @@ class Guard:
         self._unsure = self._unsure + CYCLE if self.driver.share < LOST else 0.0
         if self._unsure > UNSURE:
             self.reason = 'its lidar scan does not fit the map'
-        left = sum(math.dist(a, b) for a, b in zip(self.driver.left, self.driver.left[1:]))
+        left = length(self.driver.left)
         if left < self._left - STEP or self._held:
             self._left, self._still = left, 0.0
         self._still += CYCLE

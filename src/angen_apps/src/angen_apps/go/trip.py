@@ -18,6 +18,7 @@ from angen_apps.robot.planner import Door, Planner, Point
 from angen_apps.robot.route import Action, Drive, Router
 from angen_apps.robot.route_file import Lift, Route, Waypoint
 from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import length
 
 TRIES = 10
 WAIT = 5.0  # s before a further try
@@ -163,8 +164,7 @@ class Trip:
     @property
     def distance(self) -> float:
         """Meters that the wheels have driven."""
-        track = self._driver.track.odometry
-        return sum(math.dist(a, b) for a, b in zip(track, track[1:]))
+        return length(self._driver.track.odometry)
 
 
 def crosses(way: list[Point], doors: list[Door]) -> bool:

@@ -196,9 +196,8 @@ def measure(run: Run, seed: int, wall: float) -> Figures:
     aside, wheels = (np.linalg.norm(np.array(places) - track[:, 1:3], axis=1)
                      for places in (run.track.believed, run.track.odometry))
     return Figures(
-        seed, len(run.reached),
-        float(np.linalg.norm(np.diff(track[:, 1:3], axis=0), axis=1).sum()),
-        float(track[-1, 0]), wall, len(run.collisions()),
+        seed, len(run.reached), run.track.distance, float(track[-1, 0]), wall,
+        len(run.collisions()),
         max((1000 * abs(error) for _, error in run.track.levels), default=0.0),
         float(aside[track[:, 0] > 1.0].max()), float(wheels.max()), float(wheels[-1]))
 

@@ -1,7 +1,6 @@
 """Does a route's actions: the robot drives cycle by cycle, has doors turned, and rides."""
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from typing import Any, Callable
 
@@ -15,6 +14,7 @@ from angen_apps.robot.pilot import Pilot, Pose
 from angen_apps.robot.route import Action, Drive, Ride, Turn
 from angen_apps.robot.route_file import Route
 from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import length
 
 DEVICE_LIMIT = 60.0  # s of simulated time that a door or elevator may take
 DRIVE_SLACK = 30.0  # s beyond thrice the time that a drive should take
@@ -29,6 +29,11 @@ class Track:
     believed: list[tuple[float, float]] = field(default_factory=list)  # x, y
     odometry: list[tuple[float, float]] = field(default_factory=list)  # x, y, by wheels alone
     levels: list[tuple[int, float]] = field(default_factory=list)  # floor, m beside its level
+
+    @property
+    def distance(self) -> float:
+        """m that it drove in truth."""
+        return length([(x, y) for _, x, y, *_ in self.rows])
 
 
 class Stuck(Failure):
@@ -134,8 +139,7 @@ class Driver:
         return True
 
     def _drive(self, drive: Drive) -> bool:
-        length = sum(math.dist(a, b) for a, b in zip(drive.points, drive.points[1:]))
-        limit = self._robot.now + DRIVE_SLACK + 3 * length / self.route.speed
+        limit = self._robot.now + DRIVE_SLACK + 3 * length(drive.points) / self.route.speed
         pilot = Pilot(drive.points, self.route.speed, self.route.turn, self.route.acceleration)
         self.text = f'to {drive.name}' if drive.name else 'driving'
         pose = self.cycle()

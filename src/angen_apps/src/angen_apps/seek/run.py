@@ -96,8 +96,6 @@ def judge(home: Home, seed: int, ambient: bool, found: Found | None,
           truth: tuple[float, float, float, float] | None, track: Track, simulation: Simulation,
           since: float, limit: float, wall: float) -> Figures:
     """The figures of a search; the truth is used only here."""
-    line = np.array(track.rows)[:, 1:3]
-    distance = float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())
     error, true_room = math.nan, NO_PERSON
     if truth is not None:
         floor = home.described.storey_at(truth[2])
@@ -109,4 +107,4 @@ def judge(home: Home, seed: int, ambient: bool, found: Found | None,
                    found.time if found else min(simulation.now - since, limit),
                    found.room if found else '',
                    found.x if found else math.nan, found.y if found else math.nan,
-                   error, true_room, distance, len(collisions(simulation.events)), wall)
+                   error, true_room, track.distance, len(collisions(simulation.events)), wall)

@@ -42,6 +42,11 @@ def to_segment(point: Point, a: Point, b: Point) -> float:
     return math.hypot(x - share * dx, y - share * dy)
 
 
+def length(points: Sequence[Point]) -> float:
+    """The length of the line through points."""
+    return sum(math.dist(a, b) for a, b in zip(points, points[1:]))
+
+
 def edges(polygon: Sequence[Point]) -> list[tuple[Point, Point]]:
     return list(zip(polygon, [*polygon[1:], polygon[0]]))
 
