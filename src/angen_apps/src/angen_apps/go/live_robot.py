@@ -10,6 +10,7 @@ from angen_apps.robot.interface import CYCLE
 from angen_apps.robot.pilot import Pose
 from angen_apps.robot.world_robot import WorldRobot, pose_of
 from angen_tools.session.live import Live
+from angen_tools.session.messages import twist
 
 TRAIL = 200  # messages of odometry that are kept
 
@@ -32,7 +33,7 @@ class LiveRobot(WorldRobot):
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._send(0.0, 0.0)
+        self._wheels.publish(twist(0.0, 0.0))
         time.sleep(0.1)  # until it is sent
 
     @property
@@ -43,14 +44,8 @@ class LiveRobot(WorldRobot):
         self._trail.extend((state.time, pose_of(state)) for state in self._world.states('drive')
                            if state.name == self._name)
 
-    def _send(self, v: float, w: float) -> None:
-        from geometry_msgs.msg import Twist
-        twist = Twist()
-        twist.linear.x, twist.angular.z = v, w
-        self._wheels.publish(twist)
-
     def cycle(self, v: float, w: float) -> None:
-        self._send(v, w)
+        self._wheels.publish(twist(v, w))
         self._world.state('drive', self._name, self.now + CYCLE)  # waits for it
         self._follow()
 

@@ -13,6 +13,7 @@ from angen_apps.robot.route_file import Route
 from angen_apps.robot.world_robot import WorldRobot
 from angen_tools.common.geometry import yaw
 from angen_tools.session import Event, State
+from angen_tools.session.messages import twist
 from angen_tools.session.stepped import Stepped
 
 PAUSE = 5  # cycles, at most, between two actions
@@ -51,10 +52,7 @@ class RosRobot(WorldRobot):
         self.events += world.events()
 
     def cycle(self, v: float, w: float) -> None:
-        from geometry_msgs.msg import Twist
-        twist = Twist()
-        twist.linear.x, twist.angular.z = v, w
-        self._stepped.send(f'{self._name}/cmd_vel', twist)
+        self._stepped.send(f'{self._name}/cmd_vel', twist(v, w))
         seen = len(self.events)
         self.wait()
         self.take_angles()

@@ -15,6 +15,7 @@ from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home
 from angen_tools.common.wait import wait
 from angen_tools.session.live import Live
+from angen_tools.session.messages import twist
 
 LONGEST = 4096  # bytes of a text, as the simulator's own limit
 MOST_STEPS = 10_000_000
@@ -103,25 +104,22 @@ class Orders:
         return {'text': Live().call('angen/delete', Delete, LIMIT, name=name).message}
 
     def _drive(self, order: dict[str, Any]) -> None:
-        from geometry_msgs.msg import Twist
         name = self._robot(order)
-        twist = Twist()
-        twist.linear.x = number(order, 'speed', -2.0, 2.0)
-        twist.angular.z = number(order, 'turn', -6.0, 6.0)
+        speed, turn = number(order, 'speed', -2.0, 2.0), number(order, 'turn', -6.0, 6.0)
         self.trips.stop(name)
-        self._publisher(f'{name}/cmd_vel', Twist).publish(twist)
+        self._send(name, speed, turn)
         with self._lock:
             timer = self._stops.pop(name, None)
             if timer is not None:
                 timer.cancel()
-            if twist.linear.x or twist.angular.z:  # the browser may close the next moment
-                self._stops[name] = threading.Timer(HOLD, self._stop, (name,))
+            if speed or turn:  # the browser may close the next moment
+                self._stops[name] = threading.Timer(HOLD, self._send, (name, 0.0, 0.0))
                 self._stops[name].daemon = True
                 self._stops[name].start()
 
-    def _stop(self, name: str) -> None:
-        from geometry_msgs.msg import Twist
-        self._publisher(f'{name}/cmd_vel', Twist).publish(Twist())
+    def _send(self, name: str, speed: float, turn: float) -> None:
+        command = twist(speed, turn)
+        self._publisher(f'{name}/cmd_vel', type(command)).publish(command)
 
     def _robot(self, order: dict[str, Any]) -> str:
         name = text(order, 'name')

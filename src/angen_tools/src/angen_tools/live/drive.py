@@ -13,6 +13,7 @@ from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import did_you_mean
 from angen_tools.common.terminal import single_keys
 from angen_tools.session.live import Live
+from angen_tools.session.messages import twist
 
 HOLD = 0.25  # s after the last key, and it stops: a held key repeats faster
 FIRST_HOLD = 0.7  # s after the first one: as long as X waits before a held key repeats
@@ -105,16 +106,13 @@ class _Wheel:
 
     def __init__(self, world: Live, topic: str) -> None:
         from geometry_msgs.msg import Twist
-        self._kind = Twist
         self._publisher: Any = world.publisher(topic, Twist)
 
     def send(self, ahead: float, left: float) -> None:
         """m/s and rad/s; Failure if the robot has been deleted."""
         if self._publisher.get_num_connections() == 0:
             raise Failure(f'{self._publisher.resolved_name} has no subscriber any more')
-        twist = self._kind()
-        twist.linear.x, twist.angular.z = ahead, left
-        self._publisher.publish(twist)
+        self._publisher.publish(twist(ahead, left))
 
     def stop(self) -> None:
         """Stops it, if it still exists."""

@@ -18,6 +18,14 @@ def seconds(time: Any) -> float:
     return float(time.to_sec())
 
 
+def twist(ahead: float, left: float) -> Any:
+    """A geometry_msgs/Twist of m/s and rad/s."""
+    from geometry_msgs.msg import Twist
+    made = Twist()
+    made.linear.x, made.angular.z = ahead, left
+    return made
+
+
 def seven(pose: Any) -> Pose:
     """A geometry_msgs/Pose."""
     at, turned = pose.position, pose.orientation
