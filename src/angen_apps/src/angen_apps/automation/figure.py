@@ -17,6 +17,7 @@ from angen_apps.care.figure import name_hours
 from angen_apps.plan.draw import DPI, INK, Scene, draw_storey, extent, read_scene
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import pyplot, save_figure
+from angen_tools.common.verbs import number
 
 FAINT, GRID = '#7d8a94', '#e3e7ea'
 GOOD, BAD, UNKNOWN = '#3d9a5b', '#c8372d', '#a9b2b9'
@@ -179,19 +180,12 @@ def _cut(text: str) -> str:
 
 def _state_lane(record: Record, name: str, attribute: str, line: Line) -> Lane:
     color = COLORS.get(name.partition('.')[0], INK)
-    numbers = [_number(value) for _, value in line]
+    numbers = [number(value) for _, value in line]
     if any(math.isfinite(value) for value in numbers):
         return Lane(f'{name} {attribute}'.strip(), lambda axis, low, high: _draw_number(
             axis, record, line, color, low, high), 1.5 * LANE)
     return Lane(f'{name} {attribute}'.strip(), lambda axis, low, high: _draw_state(
         axis, record, line, color, low, high))
-
-
-def _number(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        return math.nan
 
 
 def _draw_lanes(axis: Any, record: Record, lanes: Sequence[Any], tall: float) -> None:
@@ -256,7 +250,7 @@ def _draw_state(axis: Any, record: Record, line: Line, color: str, low: float, h
 
 def _draw_number(axis: Any, record: Record, line: Line, color: str, low: float, high: float
                  ) -> None:
-    numbers = [(time, _number(value)) for time, value in line]
+    numbers = [(time, number(value)) for time, value in line]
     known = [value for _, value in numbers if math.isfinite(value)]
     least, most = min(known), max(known)
     scale = (high - low) / max(most - least, 1e-9) if most > least else 0.0

@@ -19,7 +19,7 @@ from angen_apps.plan.model import Leaf, Lift, Opening, Plan, Point, Storey, Wall
 from angen_apps.plan.names import plain_name, slug
 from angen_apps.plan.walls import SLOPE, direction, footprint
 from angen_tools.common.failure import Failure
-from angen_tools.common.geometry import local, turned
+from angen_tools.common.geometry import edges, local, turned
 from angen_tools.common.text_file import read_bytes
 from angen_tools.common.yaml_file import Entries, YamlFile, line_of
 
@@ -349,7 +349,7 @@ def _within(corners: Sequence[Point]) -> list[float]:
     """Where, along a doorway, a wall's outline is within it or crosses its faces."""
     half = THICK / 2
     found = [u for u, v in corners if abs(v) <= half]
-    for (u0, v0), (u1, v1) in zip(corners, [*corners[1:], corners[0]]):
+    for (u0, v0), (u1, v1) in edges(corners):
         found += [u0 + (u1 - u0) * (face - v0) / (v1 - v0) for face in (-half, half)
                   if (v0 - face) * (v1 - face) < 0]
     return found

@@ -13,7 +13,7 @@ from angen_apps.plan.finish import finish
 from angen_apps.plan.furnished import furnished
 from angen_apps.plan.lifts import THICK, add_shaft
 from angen_apps.plan.model import Lamp, Leaf, Lift, Opening, Plan, Point, Room, Storey, Wall
-from angen_tools.common.geometry import turned
+from angen_tools.common.geometry import edges, turned
 
 OUTER, INNER = THICK, 0.1  # m, walls
 CEILING, RISE = 2.5, 3.0  # m
@@ -154,8 +154,7 @@ def _outside(storey: Storey, length: float, depths: list[float]) -> None:
     z = storey.elevation
     north, south = HALL + depths[0], -depths[1]
     corners = [(0.0, south), (length, south), (length, north), (0.0, north)]
-    storey.walls += [Wall(a, b, OUTER, z, z + CEILING)
-                     for a, b in zip(corners, corners[1:] + corners[:1])]
+    storey.walls += [Wall(a, b, OUTER, z, z + CEILING) for a, b in edges(corners)]
     door(storey, 0.0, HALL / 2, -pi / 2, OUTER, True, True, 'front door')
 
 

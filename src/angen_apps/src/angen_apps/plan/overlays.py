@@ -15,7 +15,7 @@ import numpy as np
 
 from angen_apps.plan.polygons import reach_of
 from angen_tools.common.failure import Failure
-from angen_tools.common.geometry import turned
+from angen_tools.common.geometry import edges, turned
 from angen_tools.common.home import Storey
 from angen_tools.common.text_file import separator_hint
 
@@ -118,13 +118,12 @@ def draw(axis: Any, scene: Any, storey: Storey, data: Data, what: What) -> None:
 
 def _walls(scene: Any, storey: Storey) -> np.ndarray:
     """Edges (n, 4) of shapes as high as a wall: x0 y0 x1 y1."""
-    edges = []
+    found = []
     for shape in scene.shapes:
         if shape.top > storey.elevation + 1.7 and shape.bottom < storey.elevation + 1.1 \
                 and shape.model not in scene.things:
-            corners = shape.corners
-            edges += [(*a, *b) for a, b in zip(corners, [*corners[1:], corners[0]])]
-    return np.array(edges, float).reshape(-1, 4)
+            found += [(*a, *b) for a, b in edges(shape.corners)]
+    return np.array(found, float).reshape(-1, 4)
 
 
 def _draw_sensor(axis: Any, scene: Any, storey: Storey, entity: Any, walls: np.ndarray) -> None:

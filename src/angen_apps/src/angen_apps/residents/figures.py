@@ -48,11 +48,9 @@ def _sdf(text: str) -> str:
 
 
 def _shape(kind: str, size: Sequence[float], at: tuple[float, float, float], pitch: float) -> str:
-    inner = {'box': f'<size>{_numbers(size)}</size>',
-             'sphere': f'<radius>{size[0]:g}</radius>',
-             'capsule': f'<radius>{size[0]:g}</radius><length>{size[-1]:g}</length>'}[kind]
-    return (f'<pose>{_numbers(at)} 0 {pitch:g} 0</pose><geometry><{kind}>{inner}</{kind}>'
-            '</geometry>')
+    key = {'box': 'size', 'sphere': 'radius'}[kind]
+    return (f'<pose>{_numbers(at)} 0 {pitch:g} 0</pose><geometry><{kind}><{key}>{_numbers(size)}'
+            f'</{key}></{kind}></geometry>')
 
 
 def _visual(name: str, color: str, warm: float, shape: str) -> str:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from angen_tools.common.output import with_each
+from angen_tools.session.messages import seven
 from angen_tools.session.world import Entity
 
 
@@ -27,12 +28,6 @@ def of_entity(entity: Entity) -> dict[str, Any]:
             'type': entity.type, 'room': entity.room, 'pose': packed(entity.pose)}
 
 
-def _pose(message: Any) -> list[float]:
-    """x y z qx qy qz qw."""
-    at, turn = message.position, message.orientation
-    return [at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w]
-
-
 def _color(message: Any) -> list[float]:
     return [message.r, message.g, message.b, message.a]
 
@@ -42,18 +37,18 @@ def as_dict(scene: Any) -> dict[str, Any]:
     return {
         'revision': scene.revision,
         'links': [{'model': link.model, 'name': link.name, 'group': link.group,
-                   'moves': bool(link.moves), 'pose': _pose(link.pose)} for link in scene.links],
+                   'moves': bool(link.moves), 'pose': seven(link.pose)} for link in scene.links],
         'shapes': [{'type': shape.type, 'link': shape.link, 'mesh': shape.mesh,
-                    'pose': _pose(shape.pose), 'color': _color(shape.color),
+                    'pose': seven(shape.pose), 'color': _color(shape.color),
                     'size': [shape.size.x, shape.size.y, shape.size.z]}
                    for shape in scene.shapes],
         'meshes': [{'vertices': np.array(mesh.vertices, np.float32),
                     'triangles': np.array(mesh.triangles, np.uint32)} for mesh in scene.meshes],
         'lights': [{'name': light.name, 'model': light.model, 'link': light.link,
-                    'sun': bool(light.directional), 'pose': _pose(light.pose),
+                    'sun': bool(light.directional), 'pose': seven(light.pose),
                     'color': _color(light.color)} for light in scene.lights],
         'sensors': [{'kind': sensor.kind, 'name': sensor.name, 'link': sensor.link,
-                     'pose': _pose(sensor.pose), 'rays': sensor.rays,
+                     'pose': seven(sensor.pose), 'rays': sensor.rays,
                      'yaw': [sensor.min_yaw, sensor.max_yaw],
                      'pitch': [sensor.min_pitch, sensor.max_pitch], 'range': sensor.range}
                     for sensor in scene.sensors],
