@@ -10,8 +10,6 @@ from pathlib import Path
 from statistics import median
 from typing import Sequence
 
-from lxml import etree
-
 from angen_bench.contest_report import (ANGEN, EACH, ONE_LINK, Row, Session, draw, table,
                                         write_csv)
 from angen_bench.gazebo import STEPS, Gazebo, Tick, default_chroot, prepare
@@ -20,7 +18,6 @@ from angen_bench.report import Session as OwnSession
 from angen_bench.report import combine
 from angen_bench.sensors import WARM_UP, Bench, Case, rate_of, robot_round
 from angen_models.devices import SEPARATION, WHEEL_RADIUS
-from angen_models.sdf import numbers
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
 from angen_tools.common.output import as_json
@@ -29,7 +26,7 @@ from angen_tools.common.wait import wait
 from angen_tools.session.live import Live
 from angen_tools.live.sandbox import Sandbox
 from angen_tools.world import sdf
-from angen_tools.world.models import find
+from angen_tools.world.apartment import block, put
 from angen_tools.world.placing import Placement
 
 LEAST_READINGS = 5  # a sensor, for a share to be meaningful
@@ -111,16 +108,10 @@ def _wheels() -> tuple[float, float]:
 
 def _new_model() -> str:
     """The PIR that is spawned, as an SDF document."""
-    path = find(f'model://{NEW.model}')
-    if path is None:
-        raise Failure(f'model://{NEW.model} is not found')
-    root = sdf.read(path)
-    model = root.find('model')
+    model = block(NEW.model)
     model.set('name', NEW.name)
-    pose = etree.Element('pose')
-    pose.text = numbers(*NEW.pose)
-    model.insert(0, pose)
-    return sdf.text(root)
+    put(model, *NEW.pose)
+    return sdf.text(model.getroottree().getroot())
 
 
 def _spawn_and_delete(meter: Meter, client: Live) -> tuple[float, float]:

@@ -70,7 +70,7 @@ def write_apartment(path: Path, floors: int, counts: Mapping[str, int], seed: in
     return len(sensors)
 
 
-def _block(model: str) -> etree._Element:
+def block(model: str) -> etree._Element:
     """The <model> of worlds/models."""
     path = find(f'model://{model}')
     if path is None:
@@ -78,18 +78,23 @@ def _block(model: str) -> etree._Element:
     return sdf.read(path).find('model')
 
 
+def put(element: etree._Element, *pose: float) -> None:
+    """Gives a model or a sensor its pose."""
+    place = etree.Element('pose')
+    place.text = numbers(*pose)
+    element.insert(0, place)
+
+
 def _all_on_one_link(kind: str, sensors: Sequence[Placement]) -> etree._Element:
     """A static <model> of one link with those sensors at their blocks' origins."""
-    blocks = {sensor.model: _block(sensor.model).find('.//sensor') for sensor in sensors}
+    blocks = {sensor.model: block(sensor.model).find('.//sensor') for sensor in sensors}
     model = etree.Element('model', name=f'{kind}_sensors')
     etree.SubElement(model, 'static').text = 'true'
     link = etree.SubElement(model, 'link', name='link')
     for sensor in sensors:
         element = deepcopy(blocks[sensor.model])
         element.set('name', sensor.name)
-        pose = etree.Element('pose')
-        pose.text = numbers(*sensor.pose)
-        element.insert(0, pose)
+        put(element, *sensor.pose)
         link.append(element)
     return model
 
@@ -97,13 +102,11 @@ def _all_on_one_link(kind: str, sensors: Sequence[Placement]) -> etree._Element:
 def _add_robot(world: etree._Element) -> None:
     """A TurtleBot without sensors of its own, at the start of its round."""
     x, y, _ = plan.ROUND
-    model = _block('turtlebot')
+    model = block('turtlebot')
     for link in model.iterfind('link'):
         for sensor in link.findall('sensor'):
             link.remove(sensor)
-    pose = etree.Element('pose')
-    pose.text = numbers(x, y, 0.001, 0, 0, 0)
-    model.insert(0, pose)
+    put(model, x, y, 0.001, 0, 0, 0)
     world.append(model)
     plugin = world.find("plugin[@name='robot_controller']")
     etree.SubElement(plugin, 'commandTimeout').text = f'{FOREVER:g}'
