@@ -228,14 +228,18 @@ class Live(World):
             self._inboxes[topic] = self.subscribe(topic, kind, most, on_message)
         return self._inboxes[topic]
 
+    def _first(self, topic: str, kind: type, otherwise: str) -> Any:
+        """The latest message of a topic, once there is one."""
+        inbox = self._inbox(topic, kind)
+        if not self.until(lambda: inbox.latest is not None, CONNECT_LIMIT):
+            raise Failure(f'/{topic} {otherwise}')
+        return inbox.latest
+
     @property
     def stats(self) -> Any:
         """The latest angen_msgs/Stats."""
         from angen_msgs.msg import Stats
-        inbox = self._inbox('angen/stats', Stats)
-        if not self.until(lambda: inbox.latest is not None, CONNECT_LIMIT):
-            raise Failure('/angen/stats is not published')
-        return inbox.latest
+        return self._first('angen/stats', Stats, 'is not published')
 
     # --- time
 
@@ -316,10 +320,8 @@ class Live(World):
     @property
     def home(self) -> Home:
         from angen_msgs.msg import Home as Message
-        inbox = self._inbox('angen/home', Message)
-        if not self.until(lambda: inbox.latest is not None, CONNECT_LIMIT):
-            raise Failure('/angen/home has no message; is the simulator an older one?')
-        return Home.of(inbox.latest)
+        return Home.of(self._first('angen/home', Message,
+                                   'has no message; is the simulator an older one?'))
 
     def entities(self, kind: str = '') -> list[Entity]:
         from angen_msgs.srv import List

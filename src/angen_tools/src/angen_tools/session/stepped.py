@@ -76,7 +76,6 @@ class Stepped(Live):
     def begin(self, followed: Iterable[tuple[str, str]], step: float) -> None:
         """Puts everything back to the start and time to 0, once the devices and sensors that are
         followed have had a state; then takes a first step of `step` s."""
-        from std_srvs.srv import Empty
         self._follow([self._entity(*key) for key in followed])
         end = time.monotonic() + LIMIT
         while silent := [f'{kind} {name}' for kind, name in followed
@@ -84,7 +83,7 @@ class Stepped(Live):
             if time.monotonic() > end:
                 raise Failure(f'no message comes of {", ".join(silent)}')
             self.run(step)
-        self.call('gazebo/reset_simulation', Empty)
+        self.reset()
         self._missed = self._step(0).events
         inbox, past = self._events(), list[Any]()
 
