@@ -178,30 +178,25 @@ class _Home:
         return -self.xml.number(element, 'angle', 0.0, -1e4, 1e4)
 
     def _on_levels(self, tag: str) -> Iterator[etree._Element]:
-        """The pieces of furniture with a tag; one on a level that is missing is left out."""
+        """The pieces of furniture with a tag; one on a level that is missing is left out, and one
+        that cannot be seen."""
         for element in self.root.iter(tag):
             try:
                 self._storey(element)
             except Failure as failure:
                 self.remarks.append(f'{failure}; it is left out')
+                continue
+            why = 'has no size' if min(self._box(element)[3:]) < 1e-3 else ''
+            if element.get('visible') == 'false':
+                why = 'is not visible'
+            if why:
+                self._remark(element, f'{tag} "{element.get("name", "")}" {why} and is left out')
             else:
                 yield element
-
-    def _is_left_out(self, element: etree._Element, size: tuple[float, ...]) -> bool:
-        what = f'{element.tag} "{element.get("name", "")}"'
-        if element.get('visible') == 'false':
-            self._remark(element, f'{what} is not visible and is left out')
-            return True
-        if min(size) < 1e-3:
-            self._remark(element, f'{what} has no size and is left out')
-            return True
-        return False
 
     def _opening(self, element: etree._Element) -> None:
         xml, storey = self.xml, self._storey(element)
         x, y, elevation, width, depth, height = self._box(element)
-        if self._is_left_out(element, (width, depth, height)):
-            return
         yaw, mirrored = self._yaw(element), element.get('modelMirrored') == 'true'
         leaves = tuple(self._leaf(sash, width, depth, mirrored)
                        for sash in element.findall('sash'))
@@ -269,8 +264,6 @@ class _Home:
         xml, storey = self.xml, self._storey(element)
         x, y, elevation, width, depth, height = self._box(element)
         name = element.get('name', '').strip()
-        if self._is_left_out(element, (width, depth, height)):
-            return
         sources = element.findall('lightSource')
         yaw = self._yaw(element)
         sign = -1.0 if element.get('modelMirrored') == 'true' else 1.0
@@ -290,8 +283,6 @@ class _Home:
     def _piece(self, element: etree._Element) -> None:
         xml, storey = self.xml, self._storey(element)
         x, y, elevation, width, depth, height = self._box(element)
-        if self._is_left_out(element, (width, depth, height)):
-            return
         catalog, name = element.get('catalogId', ''), element.get('name', '').strip()
         entry = what_is(self.table, catalog, name)
         if entry is not None and entry.thing == PERSON:
