@@ -133,8 +133,7 @@ def draw(scores: Sequence[Score], days: float, path: Path) -> None:
             axis.set_yticks([])
             axis.set_xlim(-0.6, len(values) - 0.4)
             axis.set_ylim(0, 1.18 * most)
-            for side in ('top', 'right', 'left'):
-                axis.spines[side].set_visible(False)
+            axis.spines[['top', 'right', 'left']].set_visible(False)
             axis.spines['bottom'].set_color(FAINT)
         for j, (one, color) in enumerate(zip(scores, colors)):
             failed = rows[j][-1][1]

@@ -192,8 +192,7 @@ def _draw_lanes(axis: Any, record: Record, lanes: Sequence[Any], tall: float) ->
     end = max(record.lines.end, 1.0)
     axis.set_xlim(0.0, end)
     axis.set_ylim(0.0, tall)
-    for side in ('top', 'right', 'left'):
-        axis.spines[side].set_visible(False)
+    axis.spines[['top', 'right', 'left']].set_visible(False)
     axis.spines['bottom'].set_color(FAINT)
     axis.set_yticks([])
     name_hours(axis, 0.0, record.lines.end, record.house.since)

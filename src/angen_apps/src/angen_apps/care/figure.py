@@ -67,8 +67,7 @@ def _draw_day(axis: Any, engine: Engine, warnings: list[CareWarning]) -> None:
     begin, end = engine.began, max(engine.now, engine.began + 1.0)
     axis.set_xlim(begin, end)
     axis.set_ylim(-len(engine.rules.rules), 0.0)
-    for side in ('top', 'right', 'left'):
-        axis.spines[side].set_visible(False)
+    axis.spines[['top', 'right', 'left']].set_visible(False)
     axis.set_yticks([])
     for i, rule in enumerate(engine.rules.rules):
         low = -i - 0.9

@@ -14,7 +14,7 @@ from angen_apps.data.shapes import (DAYS, YEARS, Each, Many, Reader, boolean, ch
                                     check_shape, check_value, clock, figure, inner_path, number,
                                     shown, text, word)
 from angen_apps.data.site import LETTERS
-from angen_apps.residents.profiles import DAY
+from angen_tools.common.clock import DAY
 from angen_tools.common.failure import Failure
 from angen_tools.common.output import SEED
 from angen_tools.common.text_file import LARGEST, read_text

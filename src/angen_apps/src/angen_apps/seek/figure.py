@@ -145,8 +145,7 @@ def draw_times(found: list[Figures], limit: float, path: Path) -> None:
         ax.set_xlabel('time, s')
         ax.grid(axis='x', color='#e4e4e4', lw=0.7)
         ax.set_axisbelow(True)
-        for side in ('top', 'right'):
-            ax.spines[side].set_visible(False)
+        ax.spines[['top', 'right']].set_visible(False)
     figure.suptitle('What a smart apartment contributes to a robot that searches for a person',
                     fontsize=12)
     save_figure(figure, path)

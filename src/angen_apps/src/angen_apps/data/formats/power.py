@@ -7,7 +7,7 @@ import numpy as np
 
 from angen_apps.data.formats.periods import zipped
 from angen_apps.data.run import Data
-from angen_apps.residents.profiles import DAY
+from angen_tools.common.clock import DAY
 
 EPOCH = 719163  # days from year 1 to 1970
 

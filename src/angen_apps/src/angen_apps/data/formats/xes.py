@@ -6,7 +6,7 @@ from xml.sax.saxutils import quoteattr
 
 from angen_apps.data.formats.periods import periods
 from angen_apps.data.run import Data
-from angen_apps.residents.profiles import DAY
+from angen_tools.common.clock import DAY
 from angen_tools.common.files import writing
 
 OPENING = '''<?xml version="1.0" encoding="UTF-8"?>
