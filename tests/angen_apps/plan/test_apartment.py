@@ -6,9 +6,10 @@ from pathlib import Path
 import pytest
 
 from angen_apps.plan.apartment import CEILING, apartment
-from angen_apps.plan.polygons import area, bounds
+from angen_apps.plan.polygons import area
 from angen_apps.plan.writer import world_of
 from angen_bench import homes
+from angen_tools.common.geometry import bounds
 from angen_tools.world import sdf
 
 

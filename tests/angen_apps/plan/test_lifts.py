@@ -7,7 +7,6 @@ from pathlib import Path
 import angen
 import pytest
 
-from angen_apps.plan import polygons
 from angen_apps.plan.apartment import apartment
 from angen_apps.plan.finish import finish
 from angen_apps.plan.lifts import around_pits, shaft, with_shafts
@@ -15,6 +14,7 @@ from angen_apps.plan.model import Lift, Plan, Room, Storey, Wall
 from angen_apps.plan.tower import building
 from angen_apps.plan.writer import write_world
 from angen_apps.residents.floors import Floors
+from angen_tools.common.geometry import bounds
 from angen_tools.common.home import Home
 
 
@@ -91,7 +91,7 @@ def test_ground_is_left_out_below_each_lift_only() -> None:
     def covered(x: float, y: float) -> int:
         return sum(w < x < e and s < y < n for w, s, e, n in areas)
 
-    pits = [polygons.bounds(shaft(lift)) for lift in plan.lifts]
+    pits = [bounds(shaft(lift)) for lift in plan.lifts]
     whole = sum((e - w) * (n - s) for w, s, e, n in areas + pits)
     assert whole == pytest.approx(14.0 * 12.0)
     assert [covered(lift.x, lift.y) for lift in plan.lifts] == [0, 0]

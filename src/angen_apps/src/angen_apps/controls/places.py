@@ -93,10 +93,10 @@ def _others(home: Home, room: Room) -> Iterator[FloorPose]:
             x, y, z, yaw = door.pose
             heading = yaw + math.pi / 2 * (1 if door.rooms[0] == room.name else -1)
             yield (*turned((x, y), heading, INSIDE, 0.0), z, heading)
-    xs, ys = ([corner[axis] for corner in room.polygon] for axis in (0, 1))
-    grid = [(min(xs) + STEP * i, min(ys) + STEP * j)
-            for i in range(1, math.ceil((max(xs) - min(xs)) / STEP))
-            for j in range(1, math.ceil((max(ys) - min(ys)) / STEP))]
+    west, south, east, north = room.bounds
+    grid = [(west + STEP * i, south + STEP * j)
+            for i in range(1, math.ceil((east - west) / STEP))
+            for j in range(1, math.ceil((north - south) / STEP))]
     for x, y in [room.center, *sorted(grid, key=lambda at: math.dist(at, room.center))]:
         if room.distance(x, y) > AROUND:
             yield (x, y, room.floor, 0.0)

@@ -11,8 +11,8 @@ from typing import Any, Iterator
 import numpy as np
 from angen import Grid
 
-from angen_apps.plan.polygons import bounds, rectangle
-from angen_tools.common.geometry import turned
+from angen_apps.plan.polygons import rectangle
+from angen_tools.common.geometry import bounds, turned
 
 SIDE = 0.05  # m, of a cell of the floor
 EDGE = 0.5  # m around the rooms

@@ -10,7 +10,7 @@ from angen import Grid
 from scipy.ndimage import binary_dilation
 
 from angen_apps.maps.gridmap import models_with
-from angen_apps.plan.polygons import bounds
+from angen_tools.common.geometry import bounds
 from angen_tools.common.home import Home, Room
 
 CELL = 0.1  # m

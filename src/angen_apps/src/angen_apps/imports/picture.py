@@ -20,9 +20,9 @@ from angen_apps.imports.strokes import (LEAST_WALL, areas, by_label, cleaned_wal
 from angen_apps.plan.finish import finish, room_at, sides
 from angen_apps.plan.model import Opening, Piece, Plan, Point, Storey, Wall
 from angen_apps.plan.names import slug
-from angen_apps.plan.polygons import area, bounds
+from angen_apps.plan.polygons import area
 from angen_tools.common.failure import Failure
-from angen_tools.common.geometry import turned
+from angen_tools.common.geometry import bounds, turned
 from angen_tools.common.text_file import read_bytes
 from angen_tools.common.yaml_file import Entries, YamlFile
 

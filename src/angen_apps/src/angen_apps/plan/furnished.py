@@ -13,9 +13,9 @@ from scipy.ndimage import distance_transform_edt, label
 from angen_apps.plan.finish import room_at
 from angen_apps.plan.model import Opening, Piece, Plan, Room, Storey
 from angen_apps.plan.names import Names, stem
-from angen_apps.plan.polygons import base, bounds, hole, overlap
+from angen_apps.plan.polygons import base, hole, overlap
 from angen_tools.common.failure import Failure
-from angen_tools.common.geometry import turned
+from angen_tools.common.geometry import bounds, turned
 
 # thing: model, width, depth, height
 PIECES = {'bed': ('bed', 1.6, 2.04, 0.9), 'nightstand': ('nightstand', 0.45, 0.4, 0.5),

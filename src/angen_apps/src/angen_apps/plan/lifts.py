@@ -9,11 +9,10 @@ from lxml import etree
 
 from angen_apps.plan.model import Lift, Opening, Plan, Point, Storey, Wall
 from angen_apps.plan.names import Names, slug
-from angen_apps.plan.polygons import bounds
 from angen_apps.plan.walls import cuts_wall, direction, footprint
 from angen_models.sdf import (Part, add, add_fixed, add_joint, add_link, add_plugin, add_pose,
                               new_model, spanned)
-from angen_tools.common.geometry import contains, local, turned
+from angen_tools.common.geometry import bounds, contains, local, turned
 
 STEEL = (0.7, 0.72, 0.75)
 CLEAR = 2.1  # m, height of the doorway

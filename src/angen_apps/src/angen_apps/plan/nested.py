@@ -8,9 +8,9 @@ from typing import Sequence
 import numpy as np
 
 from angen_apps.plan.model import Point, Room, Storey
-from angen_apps.plan.polygons import area, bounds, inside
+from angen_apps.plan.polygons import area, inside
 from angen_apps.plan.walls import direction
-from angen_tools.common.geometry import contains, edges
+from angen_tools.common.geometry import bounds, contains, edges
 
 STEP = 0.1  # m between the places of an edge that are tried
 AT_WALL = 0.1  # m from a wall's face

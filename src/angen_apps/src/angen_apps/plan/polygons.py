@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from math import cos, hypot, inf, sin
-from typing import Iterable, Sequence
+from typing import Sequence
 
 import numpy as np
 
@@ -24,7 +24,7 @@ def signed_area(polygon: Sequence[Point]) -> float:
 
 def inside(polygon: Sequence[Point], x: np.ndarray, y: np.ndarray,
            holes: Sequence[Sequence[Point]] = ()) -> np.ndarray:
-    """As contains(), of many points."""
+    """As geometry.contains(), of many points."""
     (low_x, low_y), (high_x, high_y) = np.min(polygon, axis=0), np.max(polygon, axis=0)
     found = np.asarray((x >= low_x) & (x <= high_x) & (y >= low_y) & (y <= high_y))
     x, y = np.asarray(x)[found], np.asarray(y)[found]
@@ -140,7 +140,7 @@ def base(piece: Piece, front: float = 0.0) -> list[Point]:
 
 
 def to_segments(x: np.ndarray, y: np.ndarray, a: Point, b: Point) -> np.ndarray:
-    """As to_segment(), of many points."""
+    """As geometry.to_segment(), of many points."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     share = np.clip(((x - a[0]) * dx + (y - a[1]) * dy) / ((dx * dx + dy * dy) or 1.0), 0.0, 1.0)
     return np.hypot(x - a[0] - share * dx, y - a[1] - share * dy)
@@ -177,12 +177,6 @@ def overlap(first: Sequence[Point], second: Sequence[Point]) -> float:
                     return depth
             x0, y0 = x1, y1
     return depth
-
-
-def bounds(points: Iterable[Point]) -> tuple[float, float, float, float]:
-    """West, south, east, north of some points."""
-    x, y = np.array(list(points), float).T
-    return float(x.min()), float(y.min()), float(x.max()), float(y.max())
 
 
 def rectangles(cells: np.ndarray) -> list[tuple[int, int, int, int]]:

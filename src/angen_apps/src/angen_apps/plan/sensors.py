@@ -8,9 +8,9 @@ from lxml import etree
 
 from angen_apps.plan.travel import Obstacle
 from angen_apps.plan.model import Point, Room
-from angen_apps.plan.polygons import bounds, reach_of, signed_area
+from angen_apps.plan.polygons import reach_of, signed_area
 from angen_models.world import include
-from angen_tools.common.geometry import center, contains, turned
+from angen_tools.common.geometry import bounds, center, contains, turned
 
 PIR_HEIGHT = 2.2
 PIR_PITCH = 0.25  # rad down

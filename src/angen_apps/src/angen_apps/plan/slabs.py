@@ -9,8 +9,9 @@ import numpy as np
 from angen import Grid
 
 from angen_apps.plan.model import Plan, Point, Storey
-from angen_apps.plan.polygons import bounds, hole, rectangles
+from angen_apps.plan.polygons import hole, rectangles
 from angen_apps.plan.walls import footprint
+from angen_tools.common.geometry import bounds
 
 CELL = 0.05  # m
 CELLS = 4_000_000  # most cells of a floor: 100 m x 100 m

@@ -11,6 +11,7 @@ from angen_apps.plan.model import Leaf, Opening, Plan, Point, Storey
 from angen_apps.plan.names import apart
 from angen_apps.plan.polygons import overlap
 from angen_apps.plan.walls import Box
+from angen_tools.common.geometry import bounds
 
 STEP = pi / 60  # between the angles at which a leaf is tried
 SLIDE_STEP = 0.04  # m between the places at which a leaf that slides is tried
@@ -34,8 +35,7 @@ class Obstacle:
     @cached_property
     def bounds(self) -> tuple[float, float, float, float]:
         """West, south, east, north."""
-        x, y = zip(*self.corners)
-        return min(x), min(y), max(x), max(y)
+        return bounds(self.corners)
 
     def is_near(self, area: tuple[float, float, float, float], reach: float) -> bool:
         """Whether it is within reach of an area: west, south, east, north."""

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Sequence
+from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
 if TYPE_CHECKING:
     import numpy as np
@@ -59,6 +59,12 @@ def contains(polygon: Sequence[Point], x: float, y: float,
         if (y0 > y) != (y1 > y) and x < (x1 - x0) * (y - y0) / (y1 - y0) + x0:
             found = not found
     return found and not any(contains(hole, x, y) for hole in holes)
+
+
+def bounds(points: Iterable[Point]) -> tuple[float, float, float, float]:
+    """West, south, east, north of some points."""
+    x, y = zip(*points)
+    return float(min(x)), float(min(y)), float(max(x)), float(max(y))
 
 
 def center(polygon: Sequence[Point]) -> Point:

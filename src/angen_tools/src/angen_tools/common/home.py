@@ -10,7 +10,7 @@ from typing import Any, Mapping, get_args, get_origin, get_type_hints
 
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.clock import time_of_day
-from angen_tools.common.geometry import Point, center, contains, edges, to_segment
+from angen_tools.common.geometry import Point, bounds, center, contains, edges, to_segment
 from angen_tools.common.geometry import yaw as yaw_of
 
 IN_WALL = 0.1  # m: a thing in a wall, floor or ceiling is in the room
@@ -43,8 +43,7 @@ class Room:
     @property
     def bounds(self) -> tuple[float, float, float, float]:
         """The least and greatest x and y: x0, y0, x1, y1."""
-        xs, ys = zip(*self.polygon)
-        return min(xs), min(ys), max(xs), max(ys)
+        return bounds(self.polygon)
 
     @property
     def center(self) -> Point:

@@ -15,7 +15,7 @@ from typing import Iterator
 from angen_models import plan, world
 from angen_models.furniture import pieces
 from angen_tools.common.failure import Failure
-from angen_tools.common.geometry import to_segment, turned
+from angen_tools.common.geometry import bounds, to_segment, turned
 
 KINDS = ('pir', 'switch', 'luminosity', 'contact')
 LATTICE = 0.25  # between sensors of one kind in a room
@@ -166,8 +166,7 @@ def _footprint(model: str, _name: str, pose: Pose) -> tuple[float, float, float,
         for sx, sy in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
             corners.append(turned(pose[:2], pose[5], part.at[0] + sx * half[0],
                                   part.at[1] + sy * half[1]))
-    xs, ys = zip(*corners)
-    return min(xs), min(ys), max(xs), max(ys)
+    return bounds(corners)
 
 
 def _outside(point: tuple[float, float], box: tuple[float, float, float, float]) -> float:
