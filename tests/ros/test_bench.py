@@ -9,15 +9,24 @@ import sys
 import time
 from pathlib import Path
 
-from harness import SCRIPT, processes_with, until
+from harness import ROOT, processes_with, until
+
+# The angen command. Warm-ups make figures comparable, and no test reads the values of figures.
+PROGRAM = '''
+from angen_bench import sensors
+from angen_tools.common.program import run_main
+sensors.WARM_UP = sensors.PLANTS_READ = 1.0
+run_main('angen_tools.cli.main')
+'''
 
 
 def start(folder: Path, *words: str) -> subprocess.Popen[str]:
-    command = [sys.executable, str(SCRIPT), 'bench', 'sensors', '--window', '1',
+    command = [sys.executable, '-c', PROGRAM, 'bench', 'sensors', '--window', '1',
                '--out', str(folder)]
-    return subprocess.Popen([*command, *words], env=dict(os.environ, TMPDIR=str(folder)), text=True,
-                            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE)
+    path = f'{ROOT}/bench:{os.environ["PYTHONPATH"]}'
+    return subprocess.Popen([*command, *words], text=True, stdin=subprocess.DEVNULL,
+                            env=dict(os.environ, TMPDIR=str(folder), PYTHONPATH=path),
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
 
 def read(path: Path) -> list[dict[str, str]]:
