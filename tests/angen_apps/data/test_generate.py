@@ -1,5 +1,5 @@
 """Homes by one process, by two of which one dies, and by a cluster one of whose workers dies: the
-same bytes. A carer visits each for a part of a day, and no one else lives there; few sensors."""
+same bytes. A carer visits each for some minutes, and no one else lives there; few sensors."""
 from __future__ import annotations
 
 import json
@@ -22,16 +22,26 @@ from angen_apps.data.part_folder import MARKER
 from angen_apps.data.site import apartment
 from angen_apps.data.tables import homes
 from angen_apps.data.validate import validate
-from angen_apps.residents.profiles import FOLDER
 from angen_tools.common.failure import Failure
 
 SCRIPT = Path(__file__).resolve().parents[3] / 'src/angen_tools/scripts/angen'
 HOMES = 2
+BRIEF = """
+speed: 1.15
+lives: false
+wakes: '5:30-6:00'
+sleeps: '22:00-22:30'
+scheduled:
+  - {do: [care, clean], at: '8:00-8:10'}
+"""
 STARTS = 60.0  # s of wall time, at most, until a worker is there
 
 
 def job(folder: Path, world: Path) -> Job:
-    return Job(str(folder), 'home', 11, 1, ('carer',), ('casas', 'openshs', 'aras', 'csv', 'xes'),
+    carer = world.parent / 'brief.yaml'
+    carer.write_text(BRIEF)
+    return Job(str(folder), 'home', 11, 1, (str(carer),),
+               ('casas', 'openshs', 'aras', 'csv', 'xes'),
                world=str(world), own_sensors=True)
 
 
@@ -85,7 +95,7 @@ def test_each_home_is_valid(made):
 
 def test_a_profile_of_ones_own_lives_and_counts_by_its_contents(world, tmp_path):
     own = tmp_path / 'painter.yaml'
-    own.write_text((FOLDER / 'carer.yaml').read_text())
+    own.write_text(BRIEF)
     given = replace(job(tmp_path / 'home', world), residents=(str(own),), formats=('csv',))
     entry = make(given)
     assert entry['residents'] == [['anna', 'painter']]
