@@ -33,21 +33,21 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Poses]:
         return path, dict(zip(world.links, world.link_poses.tolist()))
 
 
-@pytest.fixture
-def read(run: tuple[Path, Poses], monkeypatch: pytest.MonkeyPatch
-         ) -> tuple[dict[str, Any], list[Any]]:
+@pytest.fixture(scope='module')
+def read(run: tuple[Path, Poses]) -> tuple[dict[str, Any], list[Any]]:
     """The parts and the entries of its time line."""
-    for name in ('rospy', 'rosgraph', 'genpy', 'angen_msgs'):
-        monkeypatch.setitem(sys.modules, name, None)
     recording = Recording(run[0])
-    recording._run()
-    assert recording.is_whole()
     parts, entries, seen, more = dict[str, Any](), list[Any](), 0, True
-    while more:
-        update = recording.store.since(seen)
-        entries += update.parts.pop('timeline', [])
-        parts.update(update.parts)
-        seen, more = update.version, update.more
+    with pytest.MonkeyPatch.context() as patch:
+        for name in ('rospy', 'rosgraph', 'genpy', 'angen_msgs'):
+            patch.setitem(sys.modules, name, None)
+        recording._run()
+        assert recording.is_whole()
+        while more:
+            update = recording.store.since(seen)
+            entries += update.parts.pop('timeline', [])
+            parts.update(update.parts)
+            seen, more = update.version, update.more
     return {**parts, 'drawn': recording.store.scene}, entries
 
 
