@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import datetime
 import random
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 from angen_apps.data import realism, transfer
 from angen_tools.common.failure import Failure
 
-pytest.importorskip('sklearn')
+pytestmark = pytest.mark.skipif(find_spec('sklearn') is None, reason='needs scikit-learn')
 # activity, its sensors, first hour and hours
 DAY = (('Sleeping', (1, 2), 0, 7), ('Meal_Preparation', (3, 4), 7, 1), ('Relax', (5,), 8, 4),
        ('Meal_Preparation', (3, 4), 12, 1), ('Relax', (5, 6), 13, 8), ('Sleeping', (1, 2), 21, 3))

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from math import hypot, pi
 from pathlib import Path
+from typing import Callable
 
 import angen
 import pytest
@@ -65,11 +66,11 @@ def test_a_lift_with_a_shaft_of_its_own_stays_as_it_is() -> None:
     assert plan.lifts == [lift] and not plan.storeys[0].openings
 
 
-@pytest.mark.parametrize('plan', [apartment(1, 2, 7), building(1, 2, 2, 4)])
-def test_the_ground_before_a_home_with_a_lift_is_level_with_its_floor(plan: Plan, tmp_path: Path
-                                                                      ) -> None:
+@pytest.mark.parametrize('make, sizes', [(apartment, (1, 2, 7)), (building, (1, 2, 2, 4))])
+def test_the_ground_before_a_home_with_a_lift_is_level_with_its_floor(
+        make: Callable[..., Plan], sizes: tuple[int, ...], tmp_path: Path) -> None:
     """People come and go by its main entrance, and its cabin comes down to that floor."""
-    write_world(plan, tmp_path / 'home.world', 'none')
+    write_world(make(*sizes), tmp_path / 'home.world', 'none')
     world = angen.World(str(tmp_path / 'home.world'))
     home = Home.of_world(world)
     floors = Floors(angen.World(str(tmp_path / 'home.world')), home)

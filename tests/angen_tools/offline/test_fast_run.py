@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import angen
-import pandas
 import pytest
 
 from angen_tools.offline import events, fast_run
@@ -175,6 +174,7 @@ def test_readings_are_those_that_each_tick_would_publish(tmp_path: Path) -> None
 
 
 def test_pandas_reads_the_readings_with_types(tmp_path: Path) -> None:
+    import pandas
     path, readings = tmp_path / 'flat.world', tmp_path / 'r.csv.gz'
     path.write_text(FLAT)
     assert run(path, '--for', '50', '--readings', readings, '--out', tmp_path).returncode == 0
