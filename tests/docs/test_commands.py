@@ -5,18 +5,18 @@ root, a network, or hands.
 """
 from __future__ import annotations
 
-import json
 import os
 import re
-import shlex
 import signal
 import subprocess
 import time
 import xmlrpc.client
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Iterator
 
 import pytest
+from angen_tools.session.live import Live
 from harness import free_port
 
 from tests.docs.pages import PAGES, ROOT, blocks, files
@@ -102,7 +102,8 @@ class Terminal:
         while not self.is_ready():
             assert time.monotonic() < end, (self.folder / 'home/run.log').read_text()
             time.sleep(0.1)
-        self.first = {entity['name'] for entity in self.entities()}
+        with self.session() as world:
+            self.first = {entity.name for entity in world.entities()}
         self.started = needed
 
     def is_ready(self) -> bool:
@@ -113,17 +114,21 @@ class Terminal:
             return False
         return any(topic == '/angen/ready' for topic, _ in published)
 
-    def entities(self) -> list[dict[str, Any]]:
-        found: list[dict[str, Any]] = json.loads(self.run('angen list --json'))
-        return found
+    @contextmanager
+    def session(self) -> Iterator[Live]:
+        """The simulator, from this process."""
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setenv('ROS_MASTER_URI', self.environment['ROS_MASTER_URI'])
+            yield Live()
 
     def clear(self) -> None:
         """Deletes all spawned models and sensors; the sensors and devices of a model go with it."""
-        spawned = [entity for entity in self.entities() if entity['name'] not in self.first]
-        models = {entity['name'] for entity in spawned if entity['kind'] == 'model'}
-        names = models | {entity['name'] for entity in spawned if entity['model'] not in models}
-        if names:
-            self.run(f'angen delete {shlex.join(sorted(names))}')
+        with self.session() as world:
+            spawned = [entity for entity in world.entities() if entity.name not in self.first]
+            models = {entity.name for entity in spawned if entity.kind == 'model'}
+            others = {entity.name for entity in spawned if entity.model not in models}
+            for name in sorted(models | others):
+                world.delete(name)
 
     def end(self) -> None:
         if self.process:
