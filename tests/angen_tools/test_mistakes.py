@@ -1,6 +1,7 @@
 """Mistakes that people make, and the answer to each: a line, an exit code, no traceback."""
 from __future__ import annotations
 
+import functools
 import os
 import shlex
 import socket
@@ -15,6 +16,7 @@ from angen_tools.cli import main as cli
 ROOT = Path(__file__).resolve().parents[2]
 MISTAKES: dict[str, list[Any]] = yaml.safe_load(
     (Path(__file__).parent / 'mistakes.yaml').read_text())
+PARSER = functools.cache(cli.make_parser)  # 0.05 s a mistake
 DOOR = '<plugin name="d" filename="libdoor_world_plugin.so"/>' \
     '<include><uri>model://bath_door0</uri></include>'
 
@@ -26,6 +28,7 @@ def alone(monkeypatch: pytest.MonkeyPatch) -> None:
         probe.bind(('127.0.0.1', 0))
         monkeypatch.setenv('ROS_MASTER_URI', f'http://127.0.0.1:{probe.getsockname()[1]}')
     monkeypatch.setenv('ANGEN_MODEL_PATH', os.environ.get('ANGEN_MODEL_PATH', ''))  # it is set
+    monkeypatch.setattr(cli, 'make_parser', PARSER)
     monkeypatch.chdir(ROOT)
 
 
