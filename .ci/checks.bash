@@ -12,6 +12,31 @@ suite() { # NAME COMMAND...
   summary+=("$(printf '%-14s  %-6s  %4d s' "$name" "$verdict" $((SECONDS - began)))")
 }
 
+# Suites of one process run side by side; the lines of each are printed at its turn.
+single=" clang-format flake8 mypy tsc catkin-lint "
+declare -A begun=() # process of each, with the id of its group
+said=               # folder with the lines of each
+begin() { # NAME WORDS
+  set -m # a group of its own
+  "check_${1//-/_}" "$2" >"$said/$1" 2>&1 </dev/null &
+  begun[$1]=$!
+  set +m
+}
+
+finish() { # NAME
+  local code=0
+  wait "${begun[$1]}" || code=$?
+  unset "begun[$1]"
+  cat "$said/$1"
+  return $code
+}
+
+end_begun() { # when Ctrl-C ends the tests
+  local process
+  for process in "${begun[@]}"; do kill -- "-$process" 2>/dev/null || true; done
+  rm -rf "$said"
+}
+
 report() { # fails where a suite has
   printf '%s\n' '' "${summary[@]}"
   [[ "${summary[*]}" != *FAILED* ]]
@@ -86,8 +111,13 @@ run_test() { # [-k WORDS] [--asan | --tsan | --bare] [SUITE...]
     if [[ $words ]]; then chosen=(ctest pytest); else read -ra chosen <<<"$suites"; fi
   fi
   if [[ " ${chosen[*]} " == *test* ]]; then prepare test; else install test; fi
+  said=$(mktemp -d)
+  trap end_begun EXIT
   for name in "${chosen[@]}"; do
-    suite "$name" "check_${name//-/_}" "$words"
+    [[ $single != *" $name "* ]] || begin "$name" "$words"
+  done
+  for name in "${chosen[@]}"; do
+    if [[ ${begun[$name]:-} ]]; then suite "$name" finish "$name"; else suite "$name" "check_${name//-/_}" "$words"; fi
   done
   [[ ! $words ]] || ((matched)) || die "no test has \"$words\" in its name"
   report
