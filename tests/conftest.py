@@ -12,7 +12,7 @@ from typing import Any, Iterator
 import pytest
 from harness import Master
 
-# Parts of tests' names, the longest units first: a unit runs on one worker, and should not begin
+# Parts of tests' files, the longest units first: a unit runs on one worker, and should not begin
 # last. Without an entry a test runs after these: a unit of Python alone takes some seconds.
 LONG = ('docs/test_commands.py', 'ros/test_soak.py', 'ros/test_edit.py', 'ros/test_web_plan.py',
         'docs/test_thesis.py', 'ros/test_replay_run.py', 'ros/test_patrol_run.py',
@@ -38,7 +38,8 @@ def unit(name: str) -> str:
 
 def place(name: str) -> int:
     """When a test runs, of all."""
-    return next((at for at, part in enumerate(LONG) if part in name), len(LONG))
+    file = name.partition('::')[0]
+    return next((at for at, part in enumerate(LONG) if part in file), len(LONG))
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
