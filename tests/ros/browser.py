@@ -41,6 +41,13 @@ class Server:
             self.end()
             raise
 
+    def __enter__(self) -> Server:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        assert self.end() == 0, self.log()
+        assert 'Traceback' not in self.log()
+
     def _serves(self) -> bool:
         assert self.process.poll() is None, self.log()
         return f':{self.port}/' in self.log()
@@ -64,6 +71,15 @@ class Page:
         options.add_experimental_option('prefs', {'intl.accept_languages': language})
         self.driver = Chrome(options=options, service=Service('/usr/bin/chromedriver'))
         self.driver.set_script_timeout(LIMIT)
+
+    def __enter__(self) -> Page:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        try:
+            assert kind or self.errors() == []
+        finally:
+            self.close()
 
     def run(self, script: str, *arguments: Any) -> Any:
         return self.driver.execute_script(script, *arguments)

@@ -53,15 +53,10 @@ def home(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFact
 @pytest.fixture(scope="module")
 def page(home: Angen, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
     """angen web beside that building in a browser, which downloads to the folder of the tests."""
-    server = Server(home.master, tmp_path_factory.mktemp("web"))
-    opened = Page(tmp_path_factory.mktemp("browser"), 1100, 800)
-    try:
+    with Server(home.master, tmp_path_factory.mktemp("web")) as server, \
+            Page(tmp_path_factory.mktemp("browser"), 1100, 800) as opened:
         opened.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {
             "behavior": "allow", "downloadPath": str(tmp_path_factory.getbasetemp())})
         opened.open(server.url)
         opened.first_view()
         yield opened
-        assert opened.errors() == []
-    finally:
-        opened.close()
-        assert server.end() == 0, server.log()

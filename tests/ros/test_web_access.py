@@ -37,16 +37,11 @@ MOST_KEYS = 120
 
 @pytest.fixture(scope='module')
 def page(angen: Angen, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
-    server = Server(angen.master, tmp_path_factory.mktemp('web'))
-    opened = Page(tmp_path_factory.mktemp('browser'), 1100, 750)
-    try:
+    with Server(angen.master, tmp_path_factory.mktemp('web')) as server, \
+            Page(tmp_path_factory.mktemp('browser'), 1100, 750) as opened:
         opened.open(server.url)
         opened.until('return angen.view.frames > 0')
         yield opened
-        assert opened.errors() == []
-    finally:
-        opened.close()
-        assert server.end() == 0, server.log()
 
 
 def press(page: Page, key: str) -> None:

@@ -27,16 +27,11 @@ WIDTH = '''return [document.documentElement.scrollWidth, innerWidth,
 @pytest.fixture(scope='module')
 def german(home: Angen, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
     """A page for someone who reads German and then English."""
-    server = Server(home.master, tmp_path_factory.mktemp('web'))
-    opened = Page(tmp_path_factory.mktemp('browser'), 1100, 800, 'de-AT,de,en')
-    try:
+    with Server(home.master, tmp_path_factory.mktemp('web')) as server, \
+            Page(tmp_path_factory.mktemp('browser'), 1100, 800, 'de-AT,de,en') as opened:
         opened.open(server.url)
         opened.until('return angen.begun')
         yield opened
-        assert opened.errors() == []
-    finally:
-        opened.close()
-        assert server.end() == 0, server.log()
 
 
 def english(page: Page) -> set[str]:

@@ -126,8 +126,7 @@ async def open_the_door(server: Server) -> None:
 
 def test_noise_of_several_browsers_ends_neither_node_nor_server(angen: Angen, tmp_path: Path
                                                                 ) -> None:
-    server = Server(angen.master, tmp_path)
-    try:
+    with Server(angen.master, tmp_path) as server:
         rejections = asyncio.run(all_at_once(server))
         assert any('must be' in text for text in rejections)
         assert any('JSON' in text for text in rejections)
@@ -141,7 +140,3 @@ def test_noise_of_several_browsers_ends_neither_node_nor_server(angen: Angen, tm
             asyncio.run(open_the_door(server))
             states.wait(lambda state: state.mode in (DoorState.OPENING, DoorState.OPEN),
                         'a door that opens', LIMIT)
-    finally:
-        code = server.end()
-    assert code == 0, server.log()
-    assert 'Traceback' not in server.log()

@@ -6,7 +6,7 @@ from typing import Iterator
 
 import pytest
 from browser import Page, Server
-from harness import ROOT, Master, end
+from harness import ROOT, own_node
 
 EXAMPLES = ROOT / 'tests/examples'
 WORLD = '''<sdf version="1.6"><world name="w">
@@ -31,30 +31,16 @@ WORLD = '''<sdf version="1.6"><world name="w">
 def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
     """A page beside a node with a device in C++ and a sensor in Python that Angen does not know."""
     folder = tmp_path_factory.mktemp('plugins')
-    (folder / 'w.world').write_text(WORLD)
     built = folder / 'turntable'
     for command in (['cmake', '-S', str(EXAMPLES / 'turntable'), '-B', str(built),
                      '-DPYTHON_EXECUTABLE=/usr/bin/python3'], ['cmake', '--build', str(built)]):
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == 0, done.stdout + done.stderr
-    master = Master(folder)
-    master.environment['ANGEN_PLUGIN_PATH'] = f'{built}:{EXAMPLES / "rangefinder"}'
-    node = server = opened = None
-    try:
-        node = master.node(folder / 'w.world', folder / 'log')
-        server = Server(master, folder)
-        opened = Page(folder, 1100, 800)
+    environment = {'ANGEN_PLUGIN_PATH': f'{built}:{EXAMPLES / "rangefinder"}'}
+    with own_node(folder, WORLD, environment) as node, Server(node.master, folder) as server, \
+            Page(folder, 1100, 800) as opened:
         opened.open(server.url)
         yield opened
-        assert opened.errors() == []
-    finally:
-        if opened is not None:
-            opened.close()
-        if server is not None:
-            server.end()
-        for process in (node, master.process):
-            if process is not None:
-                end(process)
 
 
 def test_a_device_has_a_card_with_its_verbs(page: Page) -> None:

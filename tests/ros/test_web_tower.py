@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from browser import Page, Server
-from harness import Angen, Cli, Master, end
+from harness import Cli, Master
 
 FLOORS = 4
 SHOWN = '''const {home, view} = angen, found = {};
@@ -26,10 +26,8 @@ def test_floors_are_closed_below_the_top_one(master: Master, rospy_node: None, t
     world = tmp_path / 'home.world'
     Cli(master).does('world', 'home', '--floors', str(FLOORS), '--rooms', '2', '--seed', '3',
                      '-o', str(world))
-    node = Angen(master, master.node(world, tmp_path / 'log'), tmp_path / 'log')
-    server = Server(master, tmp_path)
-    page = Page(tmp_path, 900, 600)
-    try:
+    with master.serving(world, tmp_path), Server(master, tmp_path) as server, \
+            Page(tmp_path, 900, 600) as page:
         page.open(server.url)
         page.first_view()
         elevations = page.run('return angen.home.storeys.map((s) => s.elevation)')
@@ -46,8 +44,3 @@ def test_floors_are_closed_below_the_top_one(master: Master, rospy_node: None, t
         assert set(one) <= {'wall 1', 'thing 1'}
         assert one['thing 1']['count'] > 2 * whole.get('thing 1', {'count': 0})['count']
         assert one['wall 1']['top'] < elevations[1] + 1.3
-        assert page.errors() == []
-    finally:
-        page.close()
-        assert server.end() == 0, server.log()
-        end(node.process)

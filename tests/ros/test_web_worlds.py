@@ -40,15 +40,10 @@ def add_pir(page: Page, place: tuple[float, float, float]) -> None:
 def page(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
          ) -> Iterator[Page]:
     """Opened while there is no node."""
-    server = Server(master, tmp_path_factory.mktemp('web'))
-    opened = Page(tmp_path_factory.mktemp('browser'), 900, 600)
-    try:
+    with Server(master, tmp_path_factory.mktemp('web')) as server, \
+            Page(tmp_path_factory.mktemp('browser'), 900, 600) as opened:
         opened.driver.get(server.url)
         yield opened
-        assert opened.errors() == []
-    finally:
-        opened.close()
-        assert server.end() == 0, server.log()
 
 
 def test_the_page_waits_for_its_node_and_says_that_a_world_is_empty(
