@@ -22,7 +22,6 @@ from angen_apps.residents.profiles import read
 from angen_apps.residents.resident import Resident
 from angen_bench.homes import examples
 
-LEAF = 0.9  # m
 WORLD = Path(__file__).resolve().parents[3] / 'worlds/angen.world'
 
 
