@@ -158,10 +158,9 @@ def test_its_commands_work(page: Path, terminal: Terminal) -> None:
     terminal.environment['ANGEN_PLUGIN_PATH'] = ':'.join([
         str(terminal.home / 'tape_measure/devel/lib'),
         *(str(ROOT / folder) for folder in SCRIPTS.findall(page.read_text()))])
+    drives = any('angen go ' in text for _, text in steps(page))  # for minutes at rate 1
     for arguments, text in steps(page):
-        if 'angen go ' in text:  # drives for minutes
-            arguments = f'rate:=4 {arguments}'.strip()
-        terminal.simulate(arguments)
+        terminal.simulate(f'rate:=4 {arguments}'.strip() if drives else arguments)
         terminal.run(text)
     if any('spawn' in text for _, text in steps(page)):
         terminal.clear()
