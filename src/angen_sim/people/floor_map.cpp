@@ -64,6 +64,7 @@ FloorMap::FloorMap(const View& view, const Vec3& feet, const Vec2& to, Extent ex
   squares_.assign(static_cast<std::size_t>(columns_) * rows_, kRoomyMap * kRoomyMap);
   toll_.assign(squares_.size(), 0.0F);
   known_.assign(squares_.size(), 0);
+  floored_ = std::make_shared<std::vector<char>>(squares_.size(), 0);
   scan({std::begin(kScanHeights), std::end(kScanHeights)}, view);
   scan(other_heights(view), view);
 }
@@ -247,10 +248,18 @@ float FloorMap::gap(int cell) const { return static_cast<float>(std::sqrt(square
 bool FloorMap::can_stand(const View& view, int cell) {
   if (gap(cell) < kClearance) return false;
   if (std::exchange(known_[cell], 1) != 0) return true;
-  static thread_local std::vector<rays::Hit> hits;
-  view.rays().cast({down_at(place(cell))}, hits);
-  if (!hits[0].hit()) squares_[cell] = 0.0;
-  return hits[0].hit();
+  char& is_floored = (*floored_)[cell];
+  if (is_floored != 0) return true;
+  const rays::Ray down = down_at(place(cell));
+  rays::Hit hit;
+  view.rays().cast(&down, &hit, 1, kStatic);
+  if (hit.hit()) {
+    is_floored = 1;
+    return true;
+  }
+  view.rays().cast(&down, &hit, 1);
+  if (!hit.hit()) squares_[cell] = 0.0;
+  return hit.hit();
 }
 
 rays::Ray FloorMap::down_at(const Vec2& place) const {
@@ -290,11 +299,12 @@ struct FloorMap::Search {
   explicit Search(std::size_t cells)
       : cost(cells, std::numeric_limits<double>::infinity()), from(cells, -1) {}
 
-  void reach(int cell, double at, int by, double rest) {
+  template <class Rest>
+  void reach(int cell, double at, int by, const Rest& rest) {
     if (at >= cost[cell]) return;
     cost[cell] = at;
     from[cell] = by;
-    open.push({at + rest, at, cell});
+    open.push({at + rest(cell), at, cell});
   }
 };
 
@@ -306,7 +316,8 @@ std::optional<std::vector<FloorMap::Vec2>> FloorMap::way(const View& view, const
   if (!start || !goal) return std::nullopt;
   Search search(squares_.size());
   const auto rest = [&](int cell) { return (place(cell) - place(*goal)).norm(); };
-  search.reach(*start, 0.0, -1, rest(*start));
+  const double lengths[] = {0.0, kCell, kCell * std::hypot(1.0, 1.0)};  // m, of a step
+  search.reach(*start, 0.0, -1, rest);
   while (!search.open.empty()) {
     const Search::Entry now = search.open.top();
     search.open.pop();
@@ -318,9 +329,11 @@ std::optional<std::vector<FloorMap::Vec2>> FloorMap::way(const View& view, const
         const int y = now.cell / columns_ + dy;
         if (x < 0 || y < 0 || x >= columns_ || y >= rows_) continue;
         const int next = y * columns_ + x;
+        const double length = lengths[std::abs(dx) + std::abs(dy)];
+        if (now.cost + length >= search.cost[next]) continue;  // no rate is below 1
         if (!can_stand(view, next)) continue;
-        const double more = kCell * std::hypot(dx, dy) * rate(next) + toll_[next];
-        search.reach(next, now.cost + more, now.cell, rest(next));
+        const double more = length * rate(next) + toll_[next];
+        search.reach(next, now.cost + more, now.cell, rest);
       }
     }
   }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -81,6 +82,8 @@ class FloorMap {
   std::vector<double> squares_;                          // m^2, of each cell's gap
   std::vector<float> toll_;                              // m, added to a way through the cell
   std::vector<char> known_;                              // whether its floor was looked at
+  // Whether the cell has a static floor, as found so far; shared by the map's copies.
+  std::shared_ptr<std::vector<char>> floored_;
 };
 
 }  // namespace angen::people

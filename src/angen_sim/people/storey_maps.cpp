@@ -7,7 +7,7 @@ namespace angen::people {
 namespace {
 
 constexpr std::size_t kKept = 4;
-constexpr std::size_t kMaxKeptCells = 500'000;  // 6.5 MB
+constexpr std::size_t kMaxKeptCells = 500'000;  // 7 MB
 
 }  // namespace
 

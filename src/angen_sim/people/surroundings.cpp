@@ -79,6 +79,7 @@ class Grid {
     from_.fill(-1);
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    const double lengths[] = {0.0, kCell, kCell * std::hypot(1.0, 1.0)};  // m, of a step
     cost_[kMiddle] = 0.0;
     open.push({0.0, kMiddle});
     while (!open.empty()) {
@@ -91,10 +92,12 @@ class Grid {
           const int y = cell / kSide + dy;
           if (x < 0 || y < 0 || x >= kSide || y >= kSide) continue;
           const int next = y * kSide + x;
+          const double length = lengths[std::abs(dx) + std::abs(dy)];
+          if (cost + length >= cost_[next]) continue;  // no rate is below 1
           if (!passable(next)) continue;
           const double aside = std::max(0.0, left.dot(place(next) - middle_));
           const double rate = 1.0 + kTight * (kRoomy - gap_[next]) + kLeft * aside;
-          const double reached = cost + kCell * std::hypot(dx, dy) * rate;
+          const double reached = cost + length * rate;
           if (reached >= cost_[next]) continue;
           cost_[next] = reached;
           from_[next] = cell;
@@ -233,27 +236,25 @@ std::string Surroundings::model_ahead(const View& view, const Vec3& feet, const 
 }
 
 void Surroundings::remove_gone(const View& view, const Vec3& feet, std::vector<Vec2>& points) {
-  constexpr std::size_t kRays = std::size(kHeights) + 1;
-  std::vector<rays::Ray> rays;
-  for (const Vec2& point : points) {
+  const rays::Scene& scene = view.rays();
+  const auto cast = [&](const rays::Ray& ray) {
+    rays::Hit hit;
+    scene.cast(&ray, &hit, 1);
+    return hit;
+  };
+  const auto is_gone = [&](const Vec2& point) {
     const Vec2 way = point - feet.head<2>();
-    const Vec3 direction(way.x() / way.norm(), way.y() / way.norm(), 0.0);
-    for (const double height : kHeights) {
-      rays.push_back({feet + height * Vec3::UnitZ(), direction, kOwn, way.norm() + kBeyond});
-    }
-    rays.push_back(down_at(feet, point));
-  }
-  std::vector<rays::Hit> hits;
-  view.rays().cast(rays, hits);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto first = hits.begin() + static_cast<std::ptrdiff_t>(i * kRays);
-    const bool stays = (points[i] - feet.head<2>()).norm() > kSight ||
-                       std::any_of(first, first + kRays - 1, is_obstacle) ||
-                       !first[kRays - 1].hit();
-    if (stays) points[kept++] = points[i];
-  }
-  points.resize(kept);
+    const double length = way.norm();
+    if (length > kSight) return false;
+    const Vec3 direction(way.x() / length, way.y() / length, 0.0);
+    const auto is_held = [&](double height) {  // mostly at the first one
+      const Vec3 eye = feet + height * Vec3::UnitZ();
+      return is_obstacle(cast({eye, direction, kOwn, length + kBeyond}));
+    };
+    return std::none_of(std::begin(kHeights), std::end(kHeights), is_held) &&
+           cast(down_at(feet, point)).hit();
+  };
+  points.erase(std::remove_if(points.begin(), points.end(), is_gone), points.end());
 }
 
 double Surroundings::free_way(const Vec2& from, const Vec2& direction, double body) const {
