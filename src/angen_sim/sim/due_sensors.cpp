@@ -111,6 +111,22 @@ void DueSensors::activate_changed(const Engines& engines, const SensorScheduler:
     if (&scheduler_.group(scheduler_.group_of(index)) != &group) return;
     if (engines.movers.changed_or_warmed_since(region, group.checked)) scheduler_.activate(index);
   });
+  const auto states_changed = [&](StateChanges::Fields fields) {
+    return engines.states.changed_since(fields, group.checked);
+  };
+  if (!group.queries_devices || !states_changed(group.fields)) return;
+  for (const std::uint32_t index : group.idle) {
+    const Queried& queried = entries_[index].sensor->queried;
+    if (queried.devices && states_changed(queried.fields)) scheduler_.activate(index);
+  }
+}
+
+/// Without the sensors that were idle until then and were activated since.
+void DueSensors::renew_idle_until(SensorScheduler::Group& group) const {
+  group.idle_until = kForever;
+  for (const std::uint32_t index : group.idle) {
+    group.idle_until = std::min(group.idle_until, idle_until_[index]);
+  }
 }
 
 DueSensors::Visit DueSensors::visit(const Engines& engines, std::uint32_t index, Clock clock,
@@ -177,19 +193,18 @@ bool DueSensors::begin_idle(std::uint32_t index, Clock clock, Snapshot& next) {
 
 bool DueSensors::unchanged(const Engines& engines, const Entry& entry) {
   const SensorInstance& sensor = *entry.sensor;
-  if ((sensor.queried.any() || sensor.link_moves) &&
-      !queries_unchanged(engines, *entry.live, sensor)) {
-    return false;
-  }
   if (sensor.near != nullptr && sensor.near->region.changed_since(sensor.seen)) return false;
-  return std::none_of(sensor.scans.begin(), sensor.scans.end(), [&](const auto& scan) {
-    return scan != nullptr && scan->region.changed_since(sensor.seen);
-  });
+  const bool scans_changed = std::any_of(
+      sensor.scans.begin(), sensor.scans.end(),
+      [&](const auto& scan) { return scan != nullptr && scan->region.changed_since(sensor.seen); });
+  if (scans_changed) return false;
+  return !(sensor.queried.any() || sensor.link_moves) ||
+         queries_unchanged(engines, *entry.live, sensor);
 }
 
 void DueSensors::stop_visits(const Engines& engines, std::uint32_t index) {
   const SensorInstance& sensor = *entries_[index].sensor;
-  if (!sensor.queried.only_in_regions(sensor.near != nullptr)) return;
+  if (!sensor.queried.wakes(sensor.near != nullptr)) return;
   const auto known = [](const auto& watched) {
     return watched && watched->region.number() != kNobody;
   };
@@ -201,6 +216,9 @@ void DueSensors::stop_visits(const Engines& engines, std::uint32_t index) {
   scheduler_.make_idle(index);
   SensorScheduler::Group& group = scheduler_.group(scheduler_.group_of(index));
   group.idle_until = std::min(group.idle_until, idle_until_[index]);
+  if (!sensor.queried.devices) return;
+  group.queries_devices = true;
+  group.fields |= sensor.queried.fields;
 }
 
 void DueSensors::publish_idle(const Engines& engines, Clock clock, Snapshot& next) {
@@ -235,19 +253,25 @@ std::int64_t DueSensors::next_end(Building& building, Clock clock, std::int64_t 
   };
   stop_at(clock.time + SamplesAhead::kFarthest + clock.step);
   stop_at(std::max(engines.next_light(), clock.time + clock.step));
-  for (const SensorScheduler::Group& group : scheduler_.groups()) {
+  for (std::uint32_t number = 0; number < scheduler_.groups().size(); ++number) {
     if (end <= soonest) return soonest;
-    if (group.idle.empty()) continue;
-    activate_changed(engines, group);
-    stop_for(group.schedule, group.idle_until);
-  }
-  for (std::uint32_t index = 0; index < entries_.size() && end > soonest; ++index) {
-    const SensorInstance& sensor = *entries_[index].sensor;
-    if (!sensor.error.empty() || scheduler_.is_idle(index)) continue;
-    if (sensor.on_demand() && !requested_.has(sensor.kind, sensor.name)) continue;
-    const bool is_idle =
-        sensor.idle && (!moving || sensor.unchanged > 0) && unchanged(engines, entries_[index]);
-    stop_for(sensor.schedule, is_idle ? idle_until_[index] : 0);
+    SensorScheduler::Group& group = scheduler_.group(number);
+    if (group.schedule.next_sample(clock.time) / clock.step >= end) continue;
+    if (!group.idle.empty()) {
+      activate_changed(engines, group);
+      scheduler_.update_lists(group);
+      if (group.idle_until / clock.step < end) renew_idle_until(group);
+      stop_for(group.schedule, group.idle_until);
+    }
+    for (const std::uint32_t index : group.active) {
+      const SensorInstance& sensor = *entries_[index].sensor;
+      if (end <= soonest) return soonest;
+      if (!sensor.error.empty()) continue;
+      if (sensor.on_demand() && !requested_.has(sensor.kind, sensor.name)) continue;
+      const bool is_idle =
+          sensor.idle && (!moving || sensor.unchanged > 0) && unchanged(engines, entries_[index]);
+      stop_for(sensor.schedule, is_idle ? idle_until_[index] : 0);
+    }
   }
   return end;
 }

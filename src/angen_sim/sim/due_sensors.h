@@ -32,7 +32,8 @@ class DueSensors {
   /// Sensors to visit in the tick that ends now, ascending.
   const std::vector<std::uint32_t>& collect(Building& building, Clock clock);
   /// What the sensor does at this due time. One that repeats its reading, and that only changes in
-  /// its watch regions, or of its model, can wake, is not visited again until then.
+  /// its watch regions, of its model, or of devices that it queries, can wake, is not visited again
+  /// until then.
   Visit visit(const Engines& engines, std::uint32_t index, Clock clock, Snapshot& next);
   /// Whether its reading stays although something moves in its region. The hits of its rays must
   /// be as at its last sample; it must depend on nothing else but time.
@@ -60,6 +61,7 @@ class DueSensors {
   void list(Building& building, Nanoseconds now);
   void activate(const Engines& engines, SensorScheduler::Group& group, Clock clock);
   void activate_changed(const Engines& engines, const SensorScheduler::Group& group);
+  void renew_idle_until(SensorScheduler::Group& group) const;
   bool is_idle(std::uint32_t index, Clock clock);
   Nanoseconds idle_until(SensorInstance& sensor, Nanoseconds after) const;
   void stop_visits(const Engines& engines, std::uint32_t index);

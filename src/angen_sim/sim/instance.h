@@ -83,10 +83,10 @@ struct Queried {
   bool model = false;               // links and joints of its own model
 
   bool any() const { return contacts || light || devices || other || heat || heat_set || model; }
-  /// Whether only its model, and what happens in the regions that it watches, change the answers;
-  /// `near`: temperatures matter in these only.
-  bool only_in_regions(bool near) const {
-    return !(contacts || light || devices || other || heat || (heat_set && !near));
+  /// Whether only its model, states of devices, and what happens in the regions that it watches,
+  /// change the answers; `near`: temperatures matter in these only.
+  bool wakes(bool near) const {
+    return !(contacts || light || other || heat || (heat_set && !near));
   }
   Queried operator|(const Queried& o) const {
     return {contacts || o.contacts, light || o.light, devices || o.devices,   other || o.other,

@@ -7,6 +7,7 @@
 
 #include "sim/mover_index.h"
 #include "sim/schedule.h"
+#include "sim/state_changes.h"
 
 namespace angen::sim {
 
@@ -19,6 +20,8 @@ class SensorScheduler {
     std::vector<std::uint32_t> active;  // ascending
     std::vector<std::uint32_t> idle;    // idle sensors, ascending
     Nanoseconds idle_until = kForever;  // until then none of these is to be queried
+    bool queries_devices = false;       // whether some of these do …
+    StateChanges::Fields fields = 0;    // … and by which fields
     MoverIndex::Moment checked = 0;     // idle ones were activated for all changes before
 
     bool publishes(Nanoseconds now) const {
