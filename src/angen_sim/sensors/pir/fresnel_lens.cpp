@@ -64,13 +64,12 @@ void FresnelLens::tape(const Window& window) {
   }
 }
 
-FresnelLens::Line FresnelLens::line(double elevation) const {
-  Line line;
+void FresnelLens::find_line(double elevation, Line& line) const {
+  line.parts_.clear();
   for (const Zones& row : rows_) {
     const double up = soft_box((elevation - row.window.low) / (row.window.high - row.window.low));
     if (up != 0.0) line.parts_.push_back({&row, up});
   }
-  return line;
 }
 
 double FresnelLens::Line::sensitivity(double azimuth) const {
@@ -80,9 +79,9 @@ double FresnelLens::Line::sensitivity(double azimuth) const {
     // Half a pair holds one zone, as wide as half of it, in its middle.
     const double half = (azimuth - row.window.right) / (0.5 * row.width);
     if (half < 0.0 || half >= static_cast<double>(row.sign.size())) continue;
-    const double zone = std::floor(half);
-    const double across = soft_box(2.0 * (half - zone) - 0.5);
-    sum += row.sign[static_cast<std::size_t>(zone)] * across * part.up;
+    const auto zone = static_cast<std::size_t>(half);
+    const double across = soft_box(2.0 * (half - static_cast<double>(zone)) - 0.5);
+    sum += row.sign[zone] * across * part.up;
   }
   return sum;
 }

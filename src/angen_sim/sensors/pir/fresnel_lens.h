@@ -53,9 +53,11 @@ class FresnelLens {
     };
     std::vector<Part> parts_;
   };
-  Line line(double elevation) const;
+  void find_line(double elevation, Line& line) const;
   double sensitivity(double azimuth, double elevation) const {
-    return line(elevation).sensitivity(azimuth);
+    Line line;
+    find_line(elevation, line);
+    return line.sensitivity(azimuth);
   }
 
   /// Unit vectors into the zones that see something: nine evenly over each.

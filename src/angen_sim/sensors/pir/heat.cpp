@@ -88,6 +88,7 @@ Heat::Heat(FresnelLens lens, double range, double opening, Nanoseconds period)
 double HeatSources::flux(Nanoseconds time) const {
   double sum = 0.0;
   for (const Source& source : all) {
+    if (source.factor == 0.0) continue;  // hidden
     sum += (fourth_power(source.course.at(time)) - air_fourth) * source.factor;
   }
   return kStefanBoltzmann / M_PI * sum;
@@ -122,9 +123,7 @@ void Heat::sample(const View& view) {
   if (pending_) return;
   follow_air(view);
   revisions_.shapes = now.shapes;
-  if (!(pose == pose_)) scans_.clear();
-  pose_ = pose;
-  rotation_ = pose.rotation.toRotationMatrix();
+  look_from(pose);
   shapes_.clear();
   radiating_.all.clear();
   near_ = false;
@@ -195,40 +194,52 @@ std::vector<rays::Ray> Heat::all_rays(const Pose& pose) const {
   return rays;
 }
 
-// False only where the ball around the box is beside the cone around the window.
-bool Heat::sees(const Eigen::AlignedBox3d& box, const Pose& pose) const {
+void Heat::look_from(const Pose& pose) {
+  if (!(pose == pose_)) scans_.clear();
+  pose_ = pose;
+  rotation_ = pose.rotation.toRotationMatrix();
   const Window& window = lens_.window();
-  const double cone = 0.5 * std::hypot(window.left - window.right, window.high - window.low);
-  const Vec3 way = box.center() - pose.position;
+  cone_ = 0.5 * std::hypot(window.left - window.right, window.high - window.low);
+  axis_ = pose.rotation *
+          direction_to(0.5 * (window.left + window.right), 0.5 * (window.low + window.high));
+}
+
+// False only where the ball around the box is beside the cone around the window.
+bool Heat::sees(const Eigen::AlignedBox3d& box) const {
+  const Vec3 way = box.center() - pose_.position;
   const double away = way.norm();
   const double radius = 0.5 * box.sizes().norm();
-  if (away <= radius || cone >= M_PI_2) return true;
-  const Vec3 axis = pose.rotation * direction_to(0.5 * (window.left + window.right),
-                                                 0.5 * (window.low + window.high));
-  const double angle = std::acos(std::clamp(axis.dot(way) / away, -1.0, 1.0));
-  return angle <= cone + std::asin(radius / away);
+  if (away <= radius || cone_ >= M_PI_2) return true;
+  const double angle = std::acos(std::clamp(axis_.dot(way) / away, -1.0, 1.0));
+  return angle <= cone_ + std::asin(radius / away);
 }
 
 /// m^2 sr: the share of a surface's radiance that reaches the elements' difference.
 double Heat::factor_of(const rays::WarmShape& shape, const View& view) {
   if (shape.box.isEmpty() || shape.box.exteriorDistance(pose_.position) > range_) return 0.0;
-  if (!sees(shape.box, pose_)) return 0.0;
+  if (!sees(shape.box)) return 0.0;
   Scan& found = scan_of(shape);
-  if (found.windows.empty()) return 0.0;
-  near_ = true;
+  if (found.windows && found.windows->empty()) return 0.0;
   const rays::Scene& rays = view.rays();
   const Eigen::AlignedBox3d between = Eigen::AlignedBox3d(found.box).extend(pose_.position);
-  if (found.is_known && !rays.moved_since(found.moment, between)) return found.factor;
+  if (!found.is_known || rays.moved_since(found.moment, between)) {
+    found.factor = look_at(shape.shape, found, rays);
+  }
   found.moment = rays.moment();
   found.is_known = true;
-  if (rays.blocks(found.wall, pose_.position, kHousing, shape.shape)) {
-    found.blockers.reset();
-    return found.factor = 0.0;
-  }
-  const rays::Shaft shaft = rays.shaft(pose_.position, kHousing, shape.shape);
-  const std::optional<std::uint64_t> before = std::exchange(found.blockers, shaft.fingerprint());
-  if (before != found.blockers) found.factor = seen_factor(shaft, found);
+  near_ = near_ || !windows_of(found).empty();
   return found.factor;
+}
+
+double Heat::look_at(std::uint32_t shape, Scan& found, const rays::Scene& rays) const {
+  if (rays.blocks(found.wall, pose_.position, kHousing, shape)) {
+    found.blockers.reset();
+    return 0.0;
+  }
+  if (windows_of(found).empty()) return 0.0;
+  const rays::Shaft shaft = rays.shaft(pose_.position, kHousing, shape);
+  const std::optional<std::uint64_t> before = std::exchange(found.blockers, shaft.fingerprint());
+  return before == found.blockers ? found.factor : seen_factor(shaft, found);
 }
 
 Heat::Scan& Heat::scan_of(const rays::WarmShape& shape) {
@@ -243,19 +254,26 @@ Heat::Scan& Heat::scan_of(const rays::WarmShape& shape) {
   found.wall = wall;
   found.box = shape.box;
   found.rotation = shape.rotation;
-  const Window around = window_of(shape.box, pose_, lens_.window());
-  for (const double turn : {0.0, kTurn, -kTurn}) {
-    const Window seen = common(lens_.window(), around, turn);
-    if (seen.right < seen.left && seen.low < seen.high) found.windows.push_back(seen);
-  }
   return found;
 }
 
-double Heat::seen_factor(const rays::Shaft& shaft, Scan& found) {
+// Found when they are needed: not of one that stays hidden.
+const std::vector<Window>& Heat::windows_of(Scan& found) const {
+  if (found.windows) return *found.windows;
+  found.windows.emplace();
+  const Window around = window_of(found.box, pose_, lens_.window());
+  for (const double turn : {0.0, kTurn, -kTurn}) {
+    const Window seen = common(lens_.window(), around, turn);
+    if (seen.right < seen.left && seen.low < seen.high) found.windows->push_back(seen);
+  }
+  return *found.windows;
+}
+
+double Heat::seen_factor(const rays::Shaft& shaft, Scan& found) const {
   found.wall = shaft.blocked_by();
   if (found.wall != UINT32_MAX) return 0.0;
   if (found.parts.empty()) {
-    for (const Window& seen : found.windows) found.parts.push_back(scan(seen, shaft));
+    for (const Window& seen : windows_of(found)) found.parts.push_back(scan(seen, shaft));
   }
   double sum = 0.0;
   for (const std::vector<Cell>& cells : found.parts) sum += visible(cells, shaft);
@@ -274,9 +292,11 @@ std::vector<Heat::Cell> Heat::scan(const Window& seen, const rays::Shaft& shaft)
   const double width = (seen.left - seen.right) / columns;
   const double height = (seen.high - seen.low) / rows;
   std::vector<Cell> found;
+  found.reserve(static_cast<std::size_t>(columns) * rows);
+  FresnelLens::Line line;
   for (int row = 0; row < rows; ++row) {
     const double elevation = seen.low + (row + 0.5) * height;
-    const FresnelLens::Line line = lens_.line(elevation);
+    lens_.find_line(elevation, line);
     if (line.empty()) continue;
     const double level = std::cos(elevation);
     const double up = std::sin(elevation);

@@ -74,22 +74,25 @@ class Heat {
   struct Scan {
     Eigen::AlignedBox3d box;
     Eigen::Matrix3d rotation;
-    std::vector<Window> windows;  // windows of the lens, around the shape
+    std::optional<std::vector<Window>> windows;  // windows of the lens, around the shape
     /// The cells of each window that it fills; found when they are needed.
     std::vector<std::vector<Cell>> parts;
     // Blockers of its shaft, when it was last looked at; none if `wall` hid it …
     std::optional<std::uint64_t> blockers;
-    std::uint64_t moment = 0;  // … by rays::Scene::moment() …
-    double factor = 0.0;       // … and the part of it that was visible, m^2 sr
+    double factor = 0.0;  // … and the part of it that was visible, m^2 sr
     bool is_known = false;
+    std::uint64_t moment = 0;         // by rays::Scene::moment(): it holds up to then
     std::uint32_t wall = UINT32_MAX;  // the shape that hid it whole, when one last did
   };
 
   std::vector<rays::Ray> all_rays(const Pose& pose) const;
-  bool sees(const Eigen::AlignedBox3d& box, const Pose& pose) const;
+  void look_from(const Pose& pose);
+  bool sees(const Eigen::AlignedBox3d& box) const;
   double factor_of(const rays::WarmShape& shape, const View& view);
   Scan& scan_of(const rays::WarmShape& shape);
-  double seen_factor(const rays::Shaft& shaft, Scan& found);
+  double look_at(std::uint32_t shape, Scan& found, const rays::Scene& rays) const;
+  const std::vector<Window>& windows_of(Scan& found) const;
+  double seen_factor(const rays::Shaft& shaft, Scan& found) const;
   std::vector<Cell> scan(const Window& seen, const rays::Shaft& shaft) const;
   double visible(const std::vector<Cell>& cells, const rays::Shaft& shaft) const;
   rays::Ray ray_to(const Cell& cell) const;
@@ -111,6 +114,8 @@ class Heat {
   Revisions revisions_{UINT64_MAX, UINT64_MAX};  // the surfaces at its last sample
   Pose pose_;
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();  // rotation of pose_
+  Vec3 axis_ = Vec3::UnitX();                               // axis of a cone around its window
+  double cone_ = 0.0;                                       // rad, from there to the cone's side
   bool near_ = false;                              // whether a surface is where the lens looks
   std::unordered_map<std::uint32_t, Scan> scans_;  // by shape, from pose_
   bool pending_ = false;                           // something has moved since
