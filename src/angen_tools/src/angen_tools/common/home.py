@@ -145,16 +145,13 @@ class Home:
 
     def room_at(self, x: float, y: float, z: float) -> Room | None:
         """The room that a place is in, or in whose wall, floor or ceiling; None outside."""
-        nearest, distance = None, IN_WALL
-        for room in self.rooms:
-            if not room.at_height(z):
-                continue
-            if room.contains(x, y):
-                return room
-            away = room.distance(x, y)
-            if away < distance:
-                nearest, distance = room, away
-        return nearest
+        here = [room for room in self.rooms if room.at_height(z)]
+        inside = next((room for room in here if room.contains(x, y)), None)
+        if inside is not None:
+            return inside
+        away, nearest = min(((room.distance(x, y), i) for i, room in enumerate(here)),
+                            default=(IN_WALL, 0))
+        return here[nearest] if away < IN_WALL else None
 
     @property
     def described(self) -> bool:
