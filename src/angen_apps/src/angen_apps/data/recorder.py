@@ -9,7 +9,7 @@ import numpy as np
 
 from angen_apps.data.cabins import Cabins
 from angen_apps.data.faults import Happened
-from angen_apps.data.site import Sensor, Site
+from angen_apps.data.site import AIR, Sensor, Site
 from angen_apps.residents.chance import chance, spread
 from angen_apps.residents.household import Household
 
@@ -18,7 +18,6 @@ OFF = {'still', 'released', 'closed', 'off'}
 VALUES = {'motion': ('ON', 'OFF'), 'area': ('ON', 'OFF'), 'door': ('OPEN', 'CLOSE'),
           'item': ('PRESENT', 'ABSENT'), 'power': ('ON', 'OFF')}
 ACTIVE = {values[0] for values in VALUES.values()}
-AIR = 300.0  # s between two looks at the temperature
 DEGREES = 0.5  # least step of temperature
 RECENT = 3.0  # s: a resident who moved within this time may have caused motion
 PUSHED = 0.02  # m

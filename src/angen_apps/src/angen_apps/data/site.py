@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Callable
 
 import numpy as np
 from lxml import etree
@@ -29,6 +30,7 @@ WALL = 0.12  # m from the walls where those of a room are
 HIGH = 2.2  # m above the floor
 WIDE = math.radians(52.5)  # half of the angle that the sensor of a room sees
 CHEST, SPARSE = 1.2, 7  # m above the floor of what it sees of people, at each so many-th free cell
+AIR = 300.0  # s between two looks at the temperature
 SAMPLES = 25.0  # Hz of motion sensors, a fourth of the default, which costs less
 AREAS = ('living', 'kitchen', 'bedroom')  # rooms that have a sensor for all of them
 LEFT_OUT = ('plant', 'cup', 'weighing_table', 'pressure_mat')
@@ -157,15 +159,26 @@ def facing(room: Room, number: int) -> tuple[float, float, float]:
     return x, y, math.atan2(cy - y, cx - x)
 
 
-def _sampled(model: str) -> str:
-    """A motion sensor with a low sample rate, which costs less."""
-    path = find(f'model://{model}')
+def _altered(model: str, alter: Callable[[etree._Element], None]) -> str:
+    """The text of a model that costs less after its description was altered."""
+    path = find(model)
     if path is None:
-        raise Failure(f'model://{model} is not found')
+        raise Failure(f'{model} is not found')
     root = sdf.read(path)
+    alter(root)
+    return sdf.text(root)
+
+
+def _sample_rarely(root: etree._Element) -> None:
+    """Gives a motion sensor a low sample rate."""
     for plugin in root.iter('plugin'):
         etree.SubElement(plugin, 'sample_rate').text = f'{SAMPLES:g}'
-    return sdf.text(root)
+
+
+def _read_rarely(root: etree._Element) -> None:
+    """A thermometer reads the air only as often as somebody looks at it."""
+    for rate in root.iter('update_rate'):
+        rate.text = repr(1.0 / AIR)
 
 
 class _Placer:
@@ -182,7 +195,8 @@ class _Placer:
             self._cells(room)
             if room.use in AREAS:
                 self._area(room)
-            self._spawn('model://temperature_sensor', f'{room.name}_temperature',
+            self._spawn(_altered('model://temperature_sensor', _read_rarely),
+                        f'{room.name}_temperature',
                         (*corner(room, 0), room.floor + 1.5, 0.0))
             if self.light:
                 x, y, yaw = facing(room, 1)
@@ -223,7 +237,7 @@ class _Placer:
             if room.contains(x, y) and all(math.dist((x, y), other) >= APART for other in kept):
                 kept.append((x, y))
         for i, (x, y) in enumerate(kept):
-            self._spawn(_sampled('pir_casas'), f'cell_{room.name}_{i:02d}',
+            self._spawn(_altered('model://pir_casas', _sample_rarely), f'cell_{room.name}_{i:02d}',
                         (x, y, room.ceiling - CEILING, 0.0), math.pi / 2)
 
     def _area(self, room: Room) -> None:
@@ -232,7 +246,7 @@ class _Placer:
         best = max(((k + 2) % corners for k in range(corners)),
                    key=lambda number: round(self._seen(room, number), 1))
         x, y, yaw = facing(room, best)
-        self._spawn(_sampled('pir_pyroelectric'), f'area_{room.name}',
+        self._spawn(_altered('model://pir_pyroelectric', _sample_rarely), f'area_{room.name}',
                     (x, y, room.floor + HIGH, yaw))
 
     def _seen(self, room: Room, number: int) -> float:
