@@ -58,11 +58,13 @@ const HomeDoor* Home::door(HomeDoor::Kind kind, std::string_view name) const {
 
 const Room* Home::room_at(const Vec3& point) const {
   const Point2 flat = point.head<2>();
+  for (const Room& room : rooms) {
+    if (room.at_height(point.z()) && room.contains(flat)) return &room;
+  }
   const Room* nearest = nullptr;
   double distance = kInWall;
   for (const Room& room : rooms) {
     if (!room.at_height(point.z())) continue;
-    if (room.contains(flat)) return &room;
     const double away = room.distance(flat);
     if (away >= distance) continue;
     distance = away;
