@@ -84,6 +84,20 @@ void DueSensors::list(Building& building, Nanoseconds now) {
   }
   idle_until_.assign(entries_.size(), 0);
   scheduler_.assign(schedules, now);
+  counted_.assign(scheduler_.groups().size(), 0);
+  for (std::uint32_t index = 0; index < entries_.size(); ++index) {
+    if (counts(index)) ++counted_[scheduler_.group_of(index)];
+  }
+}
+
+/// Whether it publishes at all times of its schedule.
+bool DueSensors::counts(std::uint32_t index) const {
+  const SensorInstance& sensor = *entries_[index].sensor;
+  return !sensor.on_demand() && sensor.error.empty();
+}
+
+void DueSensors::note_failing(std::uint32_t index) {
+  if (counts(index)) --counted_[scheduler_.group_of(index)];
 }
 
 /// Activates sensors near which something has changed, or whose next sample is not known to be
@@ -278,16 +292,10 @@ std::int64_t DueSensors::next_end(Building& building, Clock clock, std::int64_t 
 
 void DueSensors::skip_to(Clock clock, std::int64_t tick, Snapshot& next) {
   const Nanoseconds to = tick * clock.step;
-  const Schedule* last = nullptr;
-  std::uint64_t each = 0;
-  for (const Entry& entry : entries_) {
-    const SensorInstance& sensor = *entry.sensor;
-    if (sensor.on_demand() || !sensor.error.empty()) continue;
-    if (last == nullptr || !(*last == sensor.schedule)) {  // mostly many have the same
-      last = &sensor.schedule;
-      each = static_cast<std::uint64_t>(last->publications(to) - last->publications(clock.time));
-    }
-    next.counts.readings += each;
+  for (std::size_t number = 0; number < counted_.size(); ++number) {
+    const Schedule& schedule = scheduler_.groups()[number].schedule;
+    const std::int64_t each = schedule.publications(to) - schedule.publications(clock.time);
+    next.counts.readings += counted_[number] * static_cast<std::uint64_t>(each);
   }
   next.new_readings.clear();
   scheduler_.requeue(to);

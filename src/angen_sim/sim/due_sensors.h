@@ -56,9 +56,12 @@ class DueSensors {
   /// Counts the publications of the ticks from that of `clock` up to `tick`, which
   /// next_end() allowed to be skipped.
   void skip_to(Clock clock, std::int64_t tick, Snapshot& next);
+  /// To be called before the sensor gets its error.
+  void note_failing(std::uint32_t index);
 
  private:
   void list(Building& building, Nanoseconds now);
+  bool counts(std::uint32_t index) const;
   void activate(const Engines& engines, SensorScheduler::Group& group, Clock clock);
   void activate_changed(const Engines& engines, const SensorScheduler::Group& group);
   void renew_idle_until(SensorScheduler::Group& group) const;
@@ -73,6 +76,7 @@ class DueSensors {
   bool outdated_ = true;
   std::vector<Entry> entries_;           // indexed like Structure::sensors
   SensorScheduler scheduler_;            // schedules of these
+  std::vector<std::uint64_t> counted_;   // by group: how many publish at all its times
   std::vector<Nanoseconds> idle_until_;  // their answers, indexed like entries_
   std::vector<std::uint32_t> owners_;    // whose a watch region is, by its number
   std::vector<std::uint32_t> groups_;    // groups that are due

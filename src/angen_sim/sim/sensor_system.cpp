@@ -218,6 +218,7 @@ void SensorSystem::end_idle(std::uint32_t index, Clock clock, Snapshot& next) {
 void SensorSystem::fail(std::uint32_t index, const std::string& error, Nanoseconds now,
                         Snapshot& next) {
   SensorInstance& sensor = *due_[index].sensor;
+  due_.note_failing(index);
   sensor.error = error;
   sensor.scans.clear();
   sensor.idle = false;
