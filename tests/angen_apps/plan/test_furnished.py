@@ -111,6 +111,21 @@ def test_a_person_walks_to_each_thing(rooms: int, tmp_path: Path) -> None:
         assert any(arrives(world, goal) for goal in users(piece)), piece
 
 
+def test_a_person_steps_into_the_shower(tmp_path: Path) -> None:
+    plan = apartment(2, 1, 3)
+    path = tmp_path / 'home.world'
+    write_world(plan, path, 'none')
+    world = angen.World(str(path), seed=1)
+    shower = next(piece for piece in plan.storeys[0].pieces if piece.thing == 'shower')
+    x, y = users(shower)[0]
+    world.spawn('<actor name="ann"><plugin name="person" filename="libperson_controller.so"/>'
+                '</actor>', 'ann', [x, y, 0.0, 0.0, 0.0, 0.0])
+    world.command('person', 'ann', f'GoTo {shower.x:.3f} {shower.y:.3f}')
+    world.run(8.0)
+    ann = world.device('person', 'ann')
+    assert (ann['x'], ann['y']) == pytest.approx((shower.x, shower.y), abs=0.1)
+
+
 def users(piece: Piece) -> list[tuple[float, float]]:
     """Places before a piece; of a chair behind it and beside it."""
     c, s = cos(piece.yaw), sin(piece.yaw)

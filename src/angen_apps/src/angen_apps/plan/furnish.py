@@ -20,7 +20,7 @@ from angen_tools.world.models import find
 SAME = 0.02  # a scale within this of 1 is 1
 STEPS = 15
 TREADS = 0.69  # share of the height of a flight with its railing that is steps
-TRAY = 0.08  # m, height of a shower's tray
+TRAY = 0.02  # m, height of a shower's tray; a walking body does not climb one of 0.08
 THIN = 0.02  # m: a flatter thing on the floor is not in anyone's way
 
 
