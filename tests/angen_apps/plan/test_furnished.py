@@ -111,12 +111,13 @@ def test_a_person_walks_to_each_thing(rooms: int, tmp_path: Path) -> None:
         assert any(arrives(world, goal) for goal in users(piece)), piece
 
 
-def test_a_person_steps_into_the_shower(tmp_path: Path) -> None:
+def test_a_person_steps_into_the_shower_and_rests_on_the_toilet(tmp_path: Path) -> None:
     plan = apartment(2, 1, 3)
     path = tmp_path / 'home.world'
     write_world(plan, path, 'none')
     world = angen.World(str(path), seed=1)
-    shower = next(piece for piece in plan.storeys[0].pieces if piece.thing == 'shower')
+    shower, toilet = (next(piece for piece in plan.storeys[0].pieces if piece.thing == thing)
+                      for thing in ('shower', 'toilet'))
     x, y = users(shower)[0]
     world.spawn('<actor name="ann"><plugin name="person" filename="libperson_controller.so"/>'
                 '</actor>', 'ann', [x, y, 0.0, 0.0, 0.0, 0.0])
@@ -124,6 +125,14 @@ def test_a_person_steps_into_the_shower(tmp_path: Path) -> None:
     world.run(8.0)
     ann = world.device('person', 'ann')
     assert (ann['x'], ann['y']) == pytest.approx((shower.x, shower.y), abs=0.1)
+    assert arrives(world, users(toilet)[0])
+    world.command('person', 'ann', 'Sit bathroom_toilet0')
+    world.run(10.0)
+    ann = world.device('person', 'ann')
+    seat = next(thing for thing in world.home['things'] if thing['type'] == 'toilet')
+    at = seat['places'][0]['pose']
+    assert ann['mode'] == 'SITTING' and world.awake_bodies == 0
+    assert (ann['x'], ann['y']) == pytest.approx((at[0], at[1]), abs=0.02)
 
 
 def users(piece: Piece) -> list[tuple[float, float]]:

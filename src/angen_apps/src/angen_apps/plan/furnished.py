@@ -46,6 +46,7 @@ NEAR = 0.3  # m; places that differ by less are as near
 TABLES = ('table', 'desk')  # used from their chairs
 GAP = 0.02  # m to the wall, and between a table and its chairs
 FRONT = 0.65  # m before a piece that stay free
+SITTER = 0.5  # m of a toilet's width that no other piece is in: who sits there is 0.48 m wide
 WAY = 0.8  # m that ways are wide
 REACH = 0.8  # m from the middle of a way to what it leads to
 BEFORE = 0.35  # m from a piece to its user
@@ -207,6 +208,11 @@ def _front(piece: Piece) -> float:
     return 0.0 if piece.thing in (*TABLES, 'chair') else FRONT
 
 
+def _with_user(piece: Piece) -> Piece:
+    """A piece as wide as who uses it."""
+    return replace(piece, width=max(piece.width, SITTER)) if piece.thing == 'toilet' else piece
+
+
 def _fits(floor: _Floor, pieces: list[Piece], placed: list[Piece]) -> bool:
     """Whether pieces are within the room, clear of swings and of what is placed already."""
     west, south, east, north = bounds(floor.room.polygon)
@@ -217,8 +223,10 @@ def _fits(floor: _Floor, pieces: list[Piece], placed: list[Piece]) -> bool:
         if any(overlap(outline, area) > 0 for area, above in floor.kept_free
                if piece.height > above):
             return False
+        piece = _with_user(piece)
         if any(overlap(base(piece, _front(piece)), base(other)) > -0.03
-               or overlap(outline, base(other, _front(other))) > -0.03 for other in placed):
+               or overlap(base(piece), base(other, _front(other))) > -0.03
+               for other in map(_with_user, placed)):
             return False
     return True
 
