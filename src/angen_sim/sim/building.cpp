@@ -7,27 +7,9 @@
 #include "core/named.h"
 #include "core/nearest.h"
 #include "core/text.h"
-#include "plugin/view.h"
 #include "sim/device_maker.h"
 
 namespace angen::sim {
-
-namespace {
-
-Error taken(const Source& source, const std::string& what, const std::string& name,
-            const LiveModel& by) {
-  const std::string where =
-      by.is_light ? "as a light of the world" : "in model '" + by.desc->name + "'";
-  return Error(source,
-               what + " '" + name + "' exists already, " + where + "; names of a kind must differ");
-}
-
-template <class Instance>
-std::string key_of(const Instance& instance) {
-  return instance.kind + "/" + instance.name;
-}
-
-}  // namespace
 
 Building::Building(const desc::World& world, std::uint64_t seed, std::shared_ptr<Catalog> catalog)
     : world_(world),
@@ -35,7 +17,8 @@ Building::Building(const desc::World& world, std::uint64_t seed, std::shared_ptr
       gravity_(world.gravity),
       seed_(seed),
       catalog_(std::move(catalog)),
-      faults_(seed) {
+      faults_(seed),
+      home_(world) {
   for (const desc::Light& light : world.lights) lights_.push_back(world_light(light, ""));
   make_engines();
   for (const desc::Plugin& plugin : world_.plugins) {
@@ -49,7 +32,7 @@ Building::Building(const desc::World& world, std::uint64_t seed, std::shared_ptr
   }
   std::vector<const desc::Model*> all;
   for (const desc::Model& model : world_.models) all.push_back(&model);
-  find_storeys(all);
+  home_.find_storeys(*this, all);
   for (const desc::Model& model : world_.models) build(model, nullptr, 0);
   for (WorldLight& own : lights_) make_lamp(*own.live, 0);
 }
@@ -81,64 +64,16 @@ Pose Building::pose_of(const LiveModel& live) const {
   return first * live.desc->links.front().pose.inverse();
 }
 
-Building::FoundDevice Building::found(const LiveModel& live, const DeviceInstance& device,
-                                      std::size_t order) const {
-  const Pose pose = pose_of(live);
-  return {&live, &device, pose, DeviceView::place_of(pose, *device.last), order};
-}
-
-const Building::DevicesByField& Building::devices_by_field(const std::string& field) const {
-  const auto [at, is_new] = by_field_.try_emplace(field);
-  DevicesByField& all = at->second;
-  if (!is_new) return all;
-  std::size_t order = 0;
-  for (const auto& live : models_) {
-    const bool fixed = engines_->physics.mass(live->parts.links.at(0)) == 0.0;
-    for (const DeviceInstance& device : live->devices) {
-      if (!device.last || !device.last->find(field)) continue;
-      (fixed ? all.fixed : all.movable).push_back(found(*live, device, order++));
-    }
-  }
-  std::stable_sort(all.fixed.begin(), all.fixed.end(),
-                   [](const FoundDevice& a, const FoundDevice& b) { return a.low() < b.low(); });
-  for (const FoundDevice& each : all.fixed) {
-    all.tallest = std::max(all.tallest, each.high() - each.low());
-  }
-  return all;
-}
-
-std::vector<Building::FoundDevice> Building::find_devices(const std::string& field,
-                                                          const Eigen::AlignedBox3d& within) const {
-  const DevicesByField& all = devices_by_field(field);
-  std::vector<FoundDevice> in_box;
-  const auto add = [&](const FoundDevice& device) {
-    if (within.contains(device.pose.position) || within.contains(device.place)) {
-      in_box.push_back(device);
-    }
-  };
-  const auto lower =
-      std::lower_bound(all.fixed.begin(), all.fixed.end(), within.min().z() - all.tallest,
-                       [](const FoundDevice& t, double z) { return t.low() < z; });
-  for (auto at = lower; at != all.fixed.end() && at->low() <= within.max().z(); ++at) {
-    add(*at);
-  }
-  for (const FoundDevice& each : all.movable) add(found(*each.live, *each.device, each.order));
-  std::sort(in_box.begin(), in_box.end(),
-            [](const FoundDevice& a, const FoundDevice& b) { return a.order < b.order; });
-  return in_box;
+std::vector<FoundDevice> Building::find_devices(const std::string& field,
+                                                const Eigen::AlignedBox3d& within) const {
+  return by_field_.find(*this, field, within);
 }
 
 std::vector<Building::Target> Building::devices_named(const std::string& kind,
                                                       const std::string& name) const {
   const bool all = name == "all" && !kind.empty();
-  std::vector<LiveModel*> models;
-  if (all) {
-    models = with_devices();
-  } else if (const auto at = with_device_.find(name); at != with_device_.end()) {
-    models = at->second;
-  }
   std::vector<Target> targets;
-  for (LiveModel* live : models) {
+  for (LiveModel* live : all ? with_devices() : registry_.with_devices(name)) {
     for (DeviceInstance& device : live->devices) {
       if (!kind.empty() && device.kind != kind) continue;
       if (all || device.name == name) targets.push_back({live, &device});
@@ -151,16 +86,11 @@ std::vector<std::string> Building::device_names(const std::string& kind) const {
   std::vector<std::string> names;
   for (const LiveModel* live : with_devices()) {
     for (const DeviceInstance& device : live->devices) {
-      if (kind.empty()) names.push_back(key_of(device));
+      if (kind.empty()) names.push_back(Registry::key_of(device));
       if (device.kind == kind) names.push_back(device.name);
     }
   }
   return names;
-}
-
-LiveModel* Building::find(const std::string& model) const {
-  const auto at = by_name_.find(model);
-  return at == by_name_.end() ? nullptr : at->second;
 }
 
 std::vector<std::string> Building::names_to_delete() const {
@@ -179,46 +109,6 @@ std::vector<std::string> Building::model_names() const {
   return names;
 }
 
-void Building::check_sensor_name(const SensorInstance& sensor) const {
-  const auto other = sensors_.find(key_of(sensor));
-  if (other == sensors_.end()) return;
-  throw taken(sensor.desc->source, sensor.kind, sensor.name, *other->second);
-}
-
-void Building::check_names(const LiveModel& live) const {
-  if (find(live.desc->name) != nullptr) {
-    throw Error(live.desc->source,
-                "model '" + live.desc->name + "' exists already; choose another name");
-  }
-  for (const DeviceInstance& device : live.devices) {
-    const auto other = devices_.find(key_of(device));
-    if (other == devices_.end()) continue;
-    throw taken(live.desc->source, device.kind, device.name, *other->second);
-  }
-  for (const SensorInstance& sensor : live.sensors) check_sensor_name(sensor);
-}
-
-void Building::add_names(LiveModel& live) {
-  if (!live.is_light) by_name_[live.desc->name] = &live;
-  for (const DeviceInstance& device : live.devices) {
-    devices_[key_of(device)] = &live;
-    std::vector<LiveModel*>& with = with_device_[device.name];
-    if (with.empty() || with.back() != &live) with.push_back(&live);
-  }
-  for (const SensorInstance& sensor : live.sensors) sensors_[key_of(sensor)] = &live;
-}
-
-void Building::remove_names(const LiveModel& live) {
-  if (!live.is_light) by_name_.erase(live.desc->name);
-  for (const DeviceInstance& device : live.devices) {
-    devices_.erase(key_of(device));
-    std::vector<LiveModel*>& with = with_device_[device.name];
-    erase_if(with, [&](const auto& each) { return each == &live; });
-    if (with.empty()) with_device_.erase(device.name);
-  }
-  for (const SensorInstance& sensor : live.sensors) sensors_.erase(key_of(sensor));
-}
-
 /// The sensor's model is in the engines.
 void Building::start(SensorInstance& sensor, Nanoseconds now) const {
   sensor.schedule.start = now;
@@ -232,7 +122,7 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
                      Nanoseconds now) {
   auto live = std::make_unique<LiveModel>();
   if (world_.customs.sets_aside) model.customs = world_.customs;
-  live->storeys = storeys_;
+  live->storeys = home_.storeys();
   live->desc = live->read = std::make_shared<const desc::Model>(std::move(model));
   make_instances(*live, plugins_, *catalog_, warnings_);
   for (std::size_t i = 0; attached != nullptr && i < attached->size(); ++i) {
@@ -241,7 +131,7 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
     live->sensors.back().attached = true;
   }
   drop_taken_lamps(*live);
-  check_names(*live);
+  registry_.check(*live);
   live->parts = engines_->add(*live->desc);
   for (SensorInstance& sensor : live->sensors) start(sensor, now);
   for (DeviceInstance& device : live->devices) device.updated = now - world_.physics.step;
@@ -250,22 +140,22 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
     if (owners_.size() <= index) owners_.resize(index + 1);
     owners_[index] = {live.get(), i};
   }
-  add_names(*live);
-  home_changed_ = home_changed_ || is_of_home(*live);
+  registry_.add(*live);
+  home_.note(*live);
   models_.push_back(std::move(live));
   note_change(models_.size() - 1);
 }
 
 void Building::add(desc::Model model, Nanoseconds now) {
   const std::size_t before = warnings_.size();
-  const bool has_storeys = may_have_storeys(model);
-  if (has_storeys) find_storeys({&model});
+  const bool has_storeys = BuildingHome::may_have_storeys(model);
+  if (has_storeys) home_.find_storeys(*this, {&model});
   for (const Diagnostic& warning : model.warnings) warnings_.push_back(warning.text());
   try {
     build(std::move(model), nullptr, now);
   } catch (...) {
     warnings_.resize(before);  // drops warnings of a model that is not there
-    if (has_storeys) find_storeys({});
+    if (has_storeys) home_.find_storeys(*this, {});
     throw;
   }
 }
@@ -290,25 +180,25 @@ void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanos
   if (sensor.plugin.empty()) throw Error(sensor.source, "the sensor has no <plugin>");
   SensorInstance instance = make_sensor(*live, *at, std::make_shared<const desc::Sensor>(sensor),
                                         sensor.name, *catalog_, warnings_);
-  check_sensor_name(instance);
+  registry_.check(instance);
   instance.attached = true;
   start(instance, now);
-  sensors_[key_of(instance)] = live;
+  registry_.add(instance, *live);
   live->sensors.push_back(std::move(instance));
   note_change(number_of(*live));
 }
 
 void Building::displace(const std::string& kind, const std::string& name, const Pose& by) {
-  const auto at = sensors_.find(kind + "/" + name);
-  if (at == sensors_.end()) return;
-  for (SensorInstance& sensor : at->second->sensors) {
+  LiveModel* live = registry_.with_sensor(kind, name);
+  if (live == nullptr) return;
+  for (SensorInstance& sensor : live->sensors) {
     if (sensor.kind != kind || sensor.name != name) continue;
     sensor.pose = sensor.pose * by;
     sensor.forget_regions();
     sensor.idle = sensor.up_to_date = false;
     sensor.unchanged = 0;
   }
-  note_change(number_of(*at->second));
+  note_change(number_of(*live));
 }
 
 void Building::erase(const std::string& name) {
@@ -318,12 +208,12 @@ void Building::erase(const std::string& name) {
     engines_->remove((*model)->parts);
     pushes_.forget(**model);
     erase_if(placed_, [&](const auto& each) { return each == model->get(); });
-    remove_names(**model);
-    home_changed_ = home_changed_ || is_of_home(**model);
+    registry_.remove(**model);
+    home_.note(**model);
     const auto number = static_cast<std::size_t>(model - models_.begin());
-    const bool has_storeys = may_have_storeys(*(*model)->desc);
+    const bool has_storeys = BuildingHome::may_have_storeys(*(*model)->desc);
     models_.erase(model);
-    if (has_storeys) find_storeys({});
+    if (has_storeys) home_.find_storeys(*this, {});
     note_change(number);
     return;
   }
@@ -334,7 +224,7 @@ void Building::erase(const std::string& name) {
         throw Error("sensor '" + name + "' is a part of model '" + live->desc->name +
                     "'; delete that");
       }
-      sensors_.erase(key_of(*sensor));
+      registry_.remove(*sensor);
       live->sensors.erase(sensor);
       note_change(number_of(*live));
       return;
@@ -348,8 +238,7 @@ void Building::reset(Nanoseconds now) {
   std::vector<std::unique_ptr<LiveModel>> old;
   old.swap(models_);
   faults_.reset();
-  for (auto* names : {&by_name_, &devices_, &sensors_}) names->clear();
-  with_device_.clear();
+  registry_.clear();
   for (const auto& live : old) {
     for (SensorInstance& sensor : live->sensors)
       sensor.forget_regions();  // they are regions of the engines

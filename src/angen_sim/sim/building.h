@@ -1,16 +1,17 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
+#include "sim/building_home.h"
+#include "sim/devices_by_field.h"
 #include "sim/faults.h"
 #include "sim/instance.h"
 #include "sim/pushes.h"
+#include "sim/registry.h"
 #include "sim/saved.h"
 
 namespace angen::sim {
@@ -46,16 +47,6 @@ class Building {
   /// The pose of a model's frame.
   Pose pose_of(const LiveModel& live) const;
 
-  struct FoundDevice {
-    const LiveModel* live;
-    const DeviceInstance* device;
-    Pose pose;   // pose of its model
-    Vec3 place;  // see DeviceView::place()
-    std::size_t order;
-
-    double low() const { return std::min(pose.position.z(), place.z()); }
-    double high() const { return std::max(pose.position.z(), place.z()); }
-  };
   /// The devices whose last state has a field of that name and that are in `within`, or whose
   /// models are, in the order of the models.
   std::vector<FoundDevice> find_devices(const std::string& field,
@@ -77,7 +68,7 @@ class Building {
   std::vector<std::string> device_names(const std::string& kind) const;
 
   /// Null if there is none.
-  LiveModel* find(const std::string& model) const;
+  LiveModel* find(const std::string& model) const { return registry_.model(model); }
   std::vector<std::string> model_names() const;
 
   Pushes& pushes() { return pushes_; }
@@ -155,22 +146,11 @@ class Building {
   void start(SensorInstance& sensor, Nanoseconds now) const;
   std::vector<std::shared_ptr<const Plugin>> device_plugins();
   void append(LiveModel& live, Structure& all) const;
-  HomeSurvey survey_home() const;
-  /// Whether the description of the home may change with that model: it says something of it, has a
-  /// door or elevator, or may be a wall.
-  static bool is_of_home(const LiveModel& live);
-  /// Whether storeys follow from it: it describes them, or rooms, or has walls, a floor or doors.
-  static bool may_have_storeys(const desc::Model& model);
-  void find_storeys(const std::vector<const desc::Model*>& added);
   std::size_t number_of(const LiveModel& live) const;
   void make_engines();
-  void check_names(const LiveModel& live) const;
-  void check_sensor_name(const SensorInstance& sensor) const;
   std::vector<std::string> names_to_delete() const;
   void note_change(std::size_t first_model);
   void note_moved(LiveModel& live, MoverIndex::Moment when) const;
-  void add_names(LiveModel& live);
-  void remove_names(const LiveModel& live);
 
   struct FoundLight {
     LiveModel* live = nullptr;   // a light of the world's own, or a model
@@ -188,10 +168,7 @@ class Building {
   std::shared_ptr<Catalog> catalog_;
   std::unique_ptr<Engines> engines_;
   std::vector<std::unique_ptr<LiveModel>> models_;
-  std::unordered_map<std::string, LiveModel*> by_name_;  // the models
-  std::unordered_map<std::string, LiveModel*> devices_;  // whose model it is, by kind/name
-  std::unordered_map<std::string, std::vector<LiveModel*>> with_device_;  // by the device's name
-  std::unordered_map<std::string, LiveModel*> sensors_;                   // sensors by name
+  Registry registry_;
   std::vector<WorldLight> lights_;
   Pushes pushes_;
   Faults faults_;
@@ -204,18 +181,8 @@ class Building {
   std::uint64_t revision_ = 0;
   std::shared_ptr<const Structure> structure_;  // the last one
   std::size_t renumbered_from_ = 0;
-  bool home_changed_ = true;     // since the last structure()
-  std::vector<Storey> storeys_;  // result of storeys_of()
-  struct DevicesByField {
-    std::vector<FoundDevice>
-        fixed;             // by height: a storey's are found without going through a tower
-    double tallest = 0.0;  // m, the largest span of low() to high() of these
-    std::vector<FoundDevice> movable;
-  };
-  const DevicesByField& devices_by_field(const std::string& field) const;
-  FoundDevice found(const LiveModel& live, const DeviceInstance& device, std::size_t order) const;
-  // The queried fields since the last change of the structure.
-  mutable std::unordered_map<std::string, DevicesByField> by_field_;
+  BuildingHome home_;
+  mutable DevicesByField by_field_;
 };
 
 }  // namespace angen::sim

@@ -139,13 +139,13 @@ void Building::make_lamp(LiveModel& light, Nanoseconds now) {
   make_devices(light, {}, *catalog_, warnings_);
   drop_taken_lamps(light);
   for (DeviceInstance& device : light.devices) device.updated = now - world_.physics.step;
-  add_names(light);
+  registry_.add(light);
 }
 
 // A light whose lamp would have the name of another shines, and is not switched.
 void Building::drop_taken_lamps(LiveModel& live) {
   const auto is_taken = [&](const DeviceInstance& device) {
-    if (device.own_light < 0 || devices_.count(device.kind + "/" + device.name) == 0) return false;
+    if (device.own_light < 0 || !registry_.with_device(device.kind, device.name)) return false;
     const std::string text = "light '" + device.name + "' cannot be switched: there is a " +
                              device.kind + " of that name; give it another name";
     warnings_.push_back(
@@ -174,7 +174,7 @@ void Building::erase_light(const std::string& name) {
                 "'; delete that");
   }
   engines_->light.remove(found.live->parts.lamps[0].id);
-  remove_names(*found.live);
+  registry_.remove(*found.live);
   lights_.erase(lights_.begin() + static_cast<std::ptrdiff_t>(found.own));
   engines_->note_change();
   note_change(0);

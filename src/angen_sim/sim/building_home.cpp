@@ -1,4 +1,5 @@
-// The home that the models make.
+#include "sim/building_home.h"
+
 #include <algorithm>
 
 #include "home/solids.h"
@@ -29,9 +30,9 @@ bool may_be_wall(const desc::Model& model) {
   return false;
 }
 
-}  // namespace
-
-bool Building::is_of_home(const LiveModel& live) {
+// Whether the description of the home may change with that model: it says something of it, has a
+// door or elevator, or may be a wall.
+bool is_of_home(const LiveModel& live) {
   const auto is_passage = [](const DeviceInstance& device) {
     return passage_of(device) != Passage::kNone;
   };
@@ -39,27 +40,41 @@ bool Building::is_of_home(const LiveModel& live) {
          std::any_of(live.devices.begin(), live.devices.end(), is_passage);
 }
 
-bool Building::may_have_storeys(const desc::Model& model) {
+}  // namespace
+
+bool BuildingHome::may_have_storeys(const desc::Model& model) {
   return !model.home.rooms.empty() || !model.home.storeys.empty() || may_be_wall(model) ||
          std::any_of(model.joints.begin(), model.joints.end(),
                      [](const desc::Joint& joint) { return joint.parent == "world"; });
 }
 
-void Building::find_storeys(const std::vector<const desc::Model*>& added) {
+void BuildingHome::find_storeys(const Building& building,
+                                const std::vector<const desc::Model*>& added) {
   std::vector<std::pair<const desc::Model*, Pose>> models;
-  for (const auto& live : models_) models.emplace_back(live->desc.get(), pose_of(*live));
+  for (const auto& live : building.models()) {
+    models.emplace_back(live->desc.get(), building.pose_of(*live));
+  }
   for (const desc::Model* model : added) models.emplace_back(model, model->pose);
   storeys_ = storeys_of(world_.home, models);
 }
 
-HomeSurvey Building::survey_home() const {
+void BuildingHome::note(const LiveModel& live) {
+  if (is_of_home(live)) derived_.reset();
+}
+
+std::shared_ptr<const DerivedHome> BuildingHome::derived(const Building& building) {
+  if (!derived_) derived_ = std::make_shared<const DerivedHome>(survey(building));
+  return derived_;
+}
+
+HomeSurvey BuildingHome::survey(const Building& building) const {
   HomeSurvey survey;
   survey.parts = world_.home;
   survey.site = world_.site;
   survey.storeys = storeys_;
-  for (const auto& live : models_) {
+  for (const auto& live : building.models()) {
     const std::size_t number = survey.models.size();
-    survey.models.push_back({live->desc, pose_of(*live)});
+    survey.models.push_back({live->desc, building.pose_of(*live)});
     for (const DeviceInstance& device : live->devices) {
       const Passage passage = passage_of(device);
       if (passage == Passage::kElevator) {

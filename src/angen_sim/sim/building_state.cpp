@@ -60,15 +60,12 @@ std::shared_ptr<const Structure> Building::structure() {
   const std::size_t from = structure_ ? renumbered_from_ : 0;
   const Numbering kept = numbering(from);
   auto all = from > 0 ? std::make_shared<Structure>(*structure_) : std::make_shared<Structure>();
-  if (structure_) all->home = structure_->home;
   all->revision = revision_;
   all->physics = physics_;
   all->gravity = gravity_;
-  all->storeys = storeys_;
+  all->storeys = home_.storeys();
+  all->home = home_.derived(*this);
   all->device_plugins = device_plugins();
-  if (std::exchange(home_changed_, false) || !all->home) {
-    all->home = std::make_shared<const DerivedHome>(survey_home());
-  }
   if (from > 0) {
     all->models.resize(from);
     all->links.truncate(kept.link);

@@ -55,9 +55,9 @@ std::vector<DeviceView> InstanceView::devices(const std::string& field,
   queried_.devices = true;
   queried_.fields |= engines_.states.bit_of(field);
   std::vector<DeviceView> found;
-  const std::vector<Building::FoundDevice> all = building_.find_devices(field, within);
+  const std::vector<FoundDevice> all = building_.find_devices(field, within);
   found.reserve(all.size());
-  for (const Building::FoundDevice& t : all) {
+  for (const FoundDevice& t : all) {
     found.push_back({t.device->kind, t.device->name, t.live->desc->name, t.pose, *t.device->last});
   }
   return found;
