@@ -42,17 +42,17 @@ const ExtensionRegistration registration([](const ExtensionParts& parts) {
 
 Api::Api(const ExtensionParts& parts)
     : paths_(load::SearchPaths::from_environment(parts.models)),
-      server_(parts.services),
-      lights_(server_, parts.inbox),
-      spawner_(server_, parts.inbox, paths_, parts.per, lights_),
-      physics_(server_, parts.inbox, parts.rate),
+      server_(parts.services, parts.inbox),
+      lights_(server_),
+      spawner_(server_, paths_, parts.per, lights_),
+      physics_(server_, parts.rate),
       reconfigure_(parts.services, physics_),
       states_(parts.topics, parts.inbox, parts.states_rate),
       performance_(parts.topics, parts.simulation),
       controls_(parts.simulation) {
-  serve_models(server_, parts.inbox);
-  serve_links(server_, parts.inbox);
-  serve_joints(server_, parts.inbox);
+  serve_models(server_);
+  serve_links(server_);
+  serve_joints(server_);
 }
 
 void Api::on_structure(const sim::Structure& structure, const Changes& changes) {

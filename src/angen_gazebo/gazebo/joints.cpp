@@ -12,7 +12,9 @@ namespace angen::node::gazebo {
 
 namespace {
 
-using Answer = gazebo_msgs::GetJointProperties::Response;
+using namespace gazebo_msgs;
+
+using Answer = GetJointProperties::Response;
 
 constexpr const char* kNoJoint = "joint not found";
 constexpr double kUnlimited = 1e15;  // rad; SDF writes 1e16
@@ -36,9 +38,9 @@ std::uint8_t type_of(const desc::Joint& joint) {
   return limited ? Answer::REVOLUTE : Answer::CONTINUOUS;
 }
 
-std::string get(Inbox& inbox, const std::string& name, Answer& response) {
+std::string get(Inbox& inbox, const GetJointProperties::Request& request, Answer& response) {
   const auto structure = structure_of(inbox);
-  const sim::JointEntry& entry = joint_named(*structure, name, kNoJoint);
+  const sim::JointEntry& entry = joint_named(*structure, request.joint_name, kNoJoint);
   const desc::Joint& joint = structure->described(entry);
   response.type = type_of(joint);
   for (const desc::JointAxis& axis : joint.axes) response.damping.push_back(axis.damping);
@@ -50,7 +52,7 @@ std::string get(Inbox& inbox, const std::string& name, Answer& response) {
 }
 
 // Also a value that this solver does not use must be a number.
-void check_unused(const gazebo_msgs::ODEJointProperties& properties) {
+void check_unused(const ODEJointProperties& properties) {
   for (const auto* values : {&properties.erp, &properties.cfm, &properties.stop_erp,
                              &properties.stop_cfm, &properties.fudge_factor, &properties.vel}) {
     for (const double value : *values) {
@@ -59,9 +61,10 @@ void check_unused(const gazebo_msgs::ODEJointProperties& properties) {
   }
 }
 
-std::string set(Inbox& inbox, const gazebo_msgs::SetJointProperties::Request& request) {
+std::string set(Inbox& inbox, const SetJointProperties::Request& request,
+                SetJointProperties::Response&) {
   const auto structure = structure_of(inbox);
-  const gazebo_msgs::ODEJointProperties& properties = request.ode_joint_config;
+  const ODEJointProperties& properties = request.ode_joint_config;
   sim::SetJointProperties to;
   to.joint = joint_named(*structure, request.joint_name, kNoJoint).name;
   check_unused(properties);
@@ -76,31 +79,28 @@ std::string set(Inbox& inbox, const gazebo_msgs::SetJointProperties::Request& re
   return "SetJointProperties: properties set";
 }
 
-std::string apply_effort(Inbox& inbox, const gazebo_msgs::ApplyJointEffort::Request& request) {
+std::string apply_effort(Inbox& inbox, const ApplyJointEffort::Request& request,
+                         ApplyJointEffort::Response&) {
   const auto structure = structure_of(inbox);
   edit(inbox, sim::PushJoint{joint_named(*structure, request.joint_name, kNoJoint).name,
                              request.effort, push_time(request.start_time, request.duration)});
   return "ApplyJointEffort: effort set";
 }
 
+std::string clear_forces(Inbox& inbox, const JointRequest::Request& request,
+                         JointRequest::Response&) {
+  const auto structure = structure_of(inbox);
+  edit(inbox, sim::ClearPushes{joint_named(*structure, request.joint_name, kNoJoint).name});
+  return "";
+}
+
 }  // namespace
 
-void serve_joints(Server& server, Inbox& inbox) {
-  using namespace gazebo_msgs;
-  server.serve<GetJointProperties>("get_joint_properties", "GetJointProperties",
-                                   [&](const auto& request, auto& response) {
-                                     return get(inbox, request.joint_name, response);
-                                   });
-  server.serve<SetJointProperties>("set_joint_properties", "SetJointProperties",
-                                   [&](const auto& request, auto&) { return set(inbox, request); });
-  server.serve<ApplyJointEffort>(
-      "apply_joint_effort", "ApplyJointEffort",
-      [&](const auto& request, auto&) { return apply_effort(inbox, request); });
-  server.serve_silently<JointRequest>(
-      "clear_joint_forces", "ClearJointForces", [&](const auto& request) {
-        const auto structure = structure_of(inbox);
-        edit(inbox, sim::ClearPushes{joint_named(*structure, request.joint_name, kNoJoint).name});
-      });
+void serve_joints(Server& server) {
+  server.serve<GetJointProperties>("GetJointProperties", &get);
+  server.serve<SetJointProperties>("SetJointProperties", &set);
+  server.serve<ApplyJointEffort>("ApplyJointEffort", &apply_effort);
+  server.serve<JointRequest>("ClearJointForces", &clear_forces);
 }
 
 }  // namespace angen::node::gazebo

@@ -89,40 +89,38 @@ void Lights::note_spawned(const std::string& name, const std::string& sdf) {
   unused_[name] = unused;
 }
 
-Lights::Lights(Server& server, Inbox& inbox) : inbox_(inbox) {
+Lights::Lights(Server& server) : inbox_(server.inbox()) {
   using namespace gazebo_msgs;
-  server.serve<GetLightProperties>(
-      "get_light_properties", "getLightProperties", [this](const auto& request, auto& response) {
-        const auto structure = structure_of(inbox_);
-        const sim::LightEntry& light =
-            light_in(*structure, request.light_name, "getLightProperties");
-        const Unused unused = unused_of(*structure, light);
-        response.diffuse.r = light.light.diffuse[0];
-        response.diffuse.g = light.light.diffuse[1];
-        response.diffuse.b = light.light.diffuse[2];
-        response.diffuse.a = unused.alpha;
-        response.attenuation_constant = unused.constant;
-        response.attenuation_linear = unused.linear;
-        response.attenuation_quadratic = unused.quadratic;
-        return "";
-      });
-  server.serve<SetLightProperties>(
-      "set_light_properties", "setLightProperties", [this](const auto& request, auto&) {
-        const auto structure = structure_of(inbox_);
-        check_finite(request);
-        sim::SetLight to;
-        to.light = light_in(*structure, request.light_name, "setLightProperties").name;
-        to.diffuse = {request.diffuse.r, request.diffuse.g, request.diffuse.b};
-        to.cast_shadows = request.cast_shadows != 0;
-        to.direction = vector_of(request.direction);
-        to.pose = pose_of(request.pose);
-        edit(inbox_, to);
-        const std::lock_guard<std::mutex> lock(mutex_);
-        unused_[to.light] = {request.diffuse.a, request.attenuation_constant,
-                             request.attenuation_linear, request.attenuation_quadratic};
-        return "";
-      });
-  server.serve<DeleteLight>("delete_light", "DeleteLight", [this](const auto& request, auto&) {
+  server.serve<GetLightProperties>("getLightProperties", [this](const auto& request,
+                                                                auto& response) {
+    const auto structure = structure_of(inbox_);
+    const sim::LightEntry& light = light_in(*structure, request.light_name, "getLightProperties");
+    const Unused unused = unused_of(*structure, light);
+    response.diffuse.r = light.light.diffuse[0];
+    response.diffuse.g = light.light.diffuse[1];
+    response.diffuse.b = light.light.diffuse[2];
+    response.diffuse.a = unused.alpha;
+    response.attenuation_constant = unused.constant;
+    response.attenuation_linear = unused.linear;
+    response.attenuation_quadratic = unused.quadratic;
+    return "";
+  });
+  server.serve<SetLightProperties>("setLightProperties", [this](const auto& request, auto&) {
+    const auto structure = structure_of(inbox_);
+    check_finite(request);
+    sim::SetLight to;
+    to.light = light_in(*structure, request.light_name, "setLightProperties").name;
+    to.diffuse = {request.diffuse.r, request.diffuse.g, request.diffuse.b};
+    to.cast_shadows = request.cast_shadows != 0;
+    to.direction = vector_of(request.direction);
+    to.pose = pose_of(request.pose);
+    edit(inbox_, to);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    unused_[to.light] = {request.diffuse.a, request.attenuation_constant,
+                         request.attenuation_linear, request.attenuation_quadratic};
+    return "";
+  });
+  server.serve<DeleteLight>("DeleteLight", [this](const auto& request, auto&) {
     const auto structure = structure_of(inbox_);
     const std::string light = light_in(*structure, request.light_name, "DeleteLight").name;
     edit(inbox_, sim::DeleteLight{light});

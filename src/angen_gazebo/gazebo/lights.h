@@ -13,7 +13,7 @@ namespace angen::node::gazebo {
 /// itself here, and the alpha of colors are kept and answered.
 class Lights {
  public:
-  Lights(Server& server, Inbox& inbox);
+  explicit Lights(Server& server);
   /// A light was spawned from this SDF.
   void note_spawned(const std::string& name, const std::string& sdf);
 

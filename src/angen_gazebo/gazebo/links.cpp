@@ -14,10 +14,12 @@ namespace angen::node::gazebo {
 
 namespace {
 
+using namespace gazebo_msgs;
+
 constexpr const char* kNoLink = "link not found, did you forget to scope the link by model name?";
 
-std::string get_state(Inbox& inbox, const gazebo_msgs::GetLinkState::Request& request,
-                      gazebo_msgs::GetLinkState::Response& response) {
+std::string get_state(Inbox& inbox, const GetLinkState::Request& request,
+                      GetLinkState::Response& response) {
   const auto structure = structure_of(inbox);
   const std::string& link = link_named(*structure, request.link_name, kNoLink).name;
   const std::string frame = frame_named(
@@ -32,8 +34,8 @@ std::string get_state(Inbox& inbox, const gazebo_msgs::GetLinkState::Request& re
   return "GetLinkState: got state";
 }
 
-std::string get_properties(Inbox& inbox, const gazebo_msgs::GetLinkProperties::Request& request,
-                           gazebo_msgs::GetLinkProperties::Response& response) {
+std::string get_properties(Inbox& inbox, const GetLinkProperties::Request& request,
+                           GetLinkProperties::Response& response) {
   const auto structure = structure_of(inbox);
   const desc::Link& link = structure->described(link_named(*structure, request.link_name, kNoLink));
   const Eigen::Matrix3d& moment = link.inertial.moment;
@@ -49,7 +51,8 @@ std::string get_properties(Inbox& inbox, const gazebo_msgs::GetLinkProperties::R
   return "GetLinkProperties: got properties";
 }
 
-std::string set_properties(Inbox& inbox, const gazebo_msgs::SetLinkProperties::Request& request) {
+std::string set_properties(Inbox& inbox, const SetLinkProperties::Request& request,
+                           SetLinkProperties::Response&) {
   const auto structure = structure_of(inbox);
   sim::SetLinkProperties to;
   to.link = link_named(*structure, request.link_name, kNoLink).name;
@@ -63,7 +66,8 @@ std::string set_properties(Inbox& inbox, const gazebo_msgs::SetLinkProperties::R
   return "SetLinkProperties: properties set";
 }
 
-std::string apply_wrench(Inbox& inbox, const gazebo_msgs::ApplyBodyWrench::Request& request) {
+std::string apply_wrench(Inbox& inbox, const ApplyBodyWrench::Request& request,
+                         ApplyBodyWrench::Response&) {
   const auto structure = structure_of(inbox);
   sim::PushLink push;
   push.link = link_named(*structure, request.body_name, "body does not exist").name;
@@ -76,40 +80,35 @@ std::string apply_wrench(Inbox& inbox, const gazebo_msgs::ApplyBodyWrench::Reque
   return "";
 }
 
+std::string clear_wrenches(Inbox& inbox, const BodyRequest::Request& request,
+                           BodyRequest::Response&) {
+  const auto structure = structure_of(inbox);
+  edit(inbox,
+       sim::ClearPushes{link_named(*structure, request.body_name, "body does not exist").name});
+  return "";
+}
+
+std::string set_state(Inbox& inbox, const SetLinkState::Request& request, SetLinkState::Response&) {
+  edit(inbox, edit_of(*structure_of(inbox), request.link_state));
+  return "SetLinkState: success";
+}
+
 }  // namespace
 
-sim::Edit edit_of(const sim::Structure& structure, const gazebo_msgs::LinkState& state) {
+sim::Edit edit_of(const sim::Structure& structure, const LinkState& state) {
   return sim::SetLinkState{
       link_named(structure, state.link_name, "link does not exist").name,
       {frame_named(structure, state.reference_frame, "failed"), pose_of(state.pose),
        vector_of(state.twist.linear), vector_of(state.twist.angular)}};
 }
 
-void serve_links(Server& server, Inbox& inbox) {
-  using namespace gazebo_msgs;
-  server.serve<GetLinkState>(
-      "get_link_state", "GetLinkState",
-      [&](const auto& request, auto& response) { return get_state(inbox, request, response); });
-  server.serve<GetLinkProperties>("get_link_properties", "GetLinkProperties",
-                                  [&](const auto& request, auto& response) {
-                                    return get_properties(inbox, request, response);
-                                  });
-  server.serve<SetLinkState>("set_link_state", "SetLinkState", [&](const auto& request, auto&) {
-    edit(inbox, edit_of(*structure_of(inbox), request.link_state));
-    return "SetLinkState: success";
-  });
-  server.serve<SetLinkProperties>(
-      "set_link_properties", "SetLinkProperties",
-      [&](const auto& request, auto&) { return set_properties(inbox, request); });
-  server.serve<ApplyBodyWrench>(
-      "apply_body_wrench", "ApplyBodyWrench",
-      [&](const auto& request, auto&) { return apply_wrench(inbox, request); });
-  server.serve_silently<BodyRequest>(
-      "clear_body_wrenches", "ClearBodyWrenches", [&](const auto& request) {
-        const auto structure = structure_of(inbox);
-        edit(inbox, sim::ClearPushes{
-                        link_named(*structure, request.body_name, "body does not exist").name});
-      });
+void serve_links(Server& server) {
+  server.serve<GetLinkState>("GetLinkState", &get_state);
+  server.serve<GetLinkProperties>("GetLinkProperties", &get_properties);
+  server.serve<SetLinkState>("SetLinkState", &set_state);
+  server.serve<SetLinkProperties>("SetLinkProperties", &set_properties);
+  server.serve<ApplyBodyWrench>("ApplyBodyWrench", &apply_wrench);
+  server.serve<BodyRequest>("ClearBodyWrenches", &clear_wrenches);
 }
 
 }  // namespace angen::node::gazebo

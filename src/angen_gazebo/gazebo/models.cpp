@@ -21,6 +21,8 @@ namespace angen::node::gazebo {
 
 namespace {
 
+using namespace gazebo_msgs;
+
 /// The number of requests for each model, which answers have in their header.
 class Requests {
  public:
@@ -34,9 +36,8 @@ class Requests {
   std::map<std::string, std::uint32_t> counts_;
 };
 
-std::string get_state(Inbox& inbox, Requests& requests,
-                      const gazebo_msgs::GetModelState::Request& request,
-                      gazebo_msgs::GetModelState::Response& response) {
+std::string get_state(Inbox& inbox, Requests& requests, const GetModelState::Request& request,
+                      GetModelState::Response& response) {
   const auto structure = structure_of(inbox);
   model_named(*structure, request.model_name);
   const std::string frame = frame_named(
@@ -52,7 +53,10 @@ std::string get_state(Inbox& inbox, Requests& requests,
   return "GetModelState: got properties";
 }
 
-void list_parts(const desc::Model& model, gazebo_msgs::GetModelProperties::Response& response) {
+std::string get_model(Inbox& inbox, const GetModelProperties::Request& request,
+                      GetModelProperties::Response& response) {
+  const auto structure = structure_of(inbox);
+  const desc::Model& model = *structure->models[model_named(*structure, request.model_name)];
   for (const desc::Link& link : model.links) {
     response.body_names.push_back(link.name);
     for (const desc::Collision& collision : link.collisions) {
@@ -66,9 +70,11 @@ void list_parts(const desc::Model& model, gazebo_msgs::GetModelProperties::Respo
   response.joint_names = names_in(model.joints);
   if (!model.links.empty()) response.canonical_body_name = model.links.front().name;
   response.is_static = static_cast<unsigned char>(model.is_static);
+  return "GetModelProperties: got properties";
 }
 
-std::string get_world(Inbox& inbox, gazebo_msgs::GetWorldProperties::Response& response) {
+std::string get_world(Inbox& inbox, const GetWorldProperties::Request&,
+                      GetWorldProperties::Response& response) {
   const auto snapshot = inbox.simulation().snapshot();
   response.sim_time = to_seconds(snapshot->time);
   response.model_names = names_in(snapshot->structure->models);
@@ -82,7 +88,8 @@ std::string within(const std::string& model, const std::string& joint) {
   return joint.compare(0, scope.size(), scope) == 0 ? joint.substr(scope.size()) : joint;
 }
 
-std::string configure(Inbox& inbox, const gazebo_msgs::SetModelConfiguration::Request& request) {
+std::string configure(Inbox& inbox, const SetModelConfiguration::Request& request,
+                      SetModelConfiguration::Response&) {
   if (request.joint_names.size() != request.joint_positions.size()) {
     throw Error("joint name and position list have different lengths");
   }
@@ -111,7 +118,13 @@ std::string configure(Inbox& inbox, const gazebo_msgs::SetModelConfiguration::Re
   return "SetModelConfiguration: success";
 }
 
-std::string erase(Inbox& inbox, const gazebo_msgs::DeleteModel::Request& request) {
+std::string set_state(Inbox& inbox, const SetModelState::Request& request,
+                      SetModelState::Response&) {
+  edit(inbox, edit_of(*structure_of(inbox), request.model_state));
+  return "SetModelState: set model state done";
+}
+
+std::string erase(Inbox& inbox, const DeleteModel::Request& request, DeleteModel::Response&) {
   model_named(*structure_of(inbox), request.model_name);
   carry_out(inbox, sim::Delete{request.model_name});
   return "DeleteModel: successfully deleted model";
@@ -119,7 +132,7 @@ std::string erase(Inbox& inbox, const gazebo_msgs::DeleteModel::Request& request
 
 }  // namespace
 
-sim::Edit edit_of(const sim::Structure& structure, const gazebo_msgs::ModelState& state) {
+sim::Edit edit_of(const sim::Structure& structure, const ModelState& state) {
   model_named(structure, state.model_name);
   const std::string frame = frame_named(structure, state.reference_frame,
                                         "specified reference frame entity does not exist");
@@ -128,31 +141,16 @@ sim::Edit edit_of(const sim::Structure& structure, const gazebo_msgs::ModelState
       {frame, pose_of(state.pose), vector_of(state.twist.linear), vector_of(state.twist.angular)}};
 }
 
-void serve_models(Server& server, Inbox& inbox) {
-  using namespace gazebo_msgs;
+void serve_models(Server& server) {
   const auto requests = std::make_shared<Requests>();
-  server.serve<GetModelState>("get_model_state", "GetModelState",
-                              [&inbox, requests](const auto& request, auto& response) {
-                                return get_state(inbox, *requests, request, response);
-                              });
-  server.serve<GetModelProperties>(
-      "get_model_properties", "GetModelProperties", [&](const auto& request, auto& response) {
-        const auto structure = structure_of(inbox);
-        list_parts(*structure->models[model_named(*structure, request.model_name)], response);
-        return "GetModelProperties: got properties";
-      });
-  server.serve<GetWorldProperties>(
-      "get_world_properties", "GetWorldProperties",
-      [&](const auto&, auto& response) { return get_world(inbox, response); });
-  server.serve<SetModelState>("set_model_state", "SetModelState", [&](const auto& request, auto&) {
-    edit(inbox, edit_of(*structure_of(inbox), request.model_state));
-    return "SetModelState: set model state done";
+  server.serve<GetModelState>("GetModelState", [&, requests](const auto& request, auto& response) {
+    return get_state(server.inbox(), *requests, request, response);
   });
-  server.serve<SetModelConfiguration>(
-      "set_model_configuration", "SetModelConfiguration",
-      [&](const auto& request, auto&) { return configure(inbox, request); });
-  server.serve<DeleteModel>("delete_model", "DeleteModel",
-                            [&](const auto& request, auto&) { return erase(inbox, request); });
+  server.serve<GetModelProperties>("GetModelProperties", &get_model);
+  server.serve<GetWorldProperties>("GetWorldProperties", &get_world);
+  server.serve<SetModelState>("SetModelState", &set_state);
+  server.serve<SetModelConfiguration>("SetModelConfiguration", &configure);
+  server.serve<DeleteModel>("DeleteModel", &erase);
 }
 
 }  // namespace angen::node::gazebo

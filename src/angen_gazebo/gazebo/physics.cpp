@@ -37,15 +37,15 @@ bool is_other_step(double requested, double step) {
 
 }  // namespace
 
-PhysicsProperties::PhysicsProperties(Server& server, Inbox& inbox, std::atomic<double>& rate)
-    : inbox_(inbox), rate_(rate) {
-  server.serve<gazebo_msgs::GetPhysicsProperties>("get_physics_properties", "GetPhysicsProperties",
+PhysicsProperties::PhysicsProperties(Server& server, std::atomic<double>& rate)
+    : inbox_(server.inbox()), rate_(rate) {
+  server.serve<gazebo_msgs::GetPhysicsProperties>("GetPhysicsProperties",
                                                   [this](const auto&, auto& response) {
                                                     response = get();
                                                     return "GetPhysicsProperties: got properties";
                                                   });
   server.serve<gazebo_msgs::SetPhysicsProperties>(
-      "set_physics_properties", "SetPhysicsProperties",
+      "SetPhysicsProperties",
       [this](const auto& request, auto&) { return "physics engine updated" + set(request); });
 }
 

@@ -20,7 +20,7 @@ namespace angen::node::gazebo {
 class PhysicsProperties {
  public:
   /// `rate` is that of the node: simulated seconds per wall second, 0 for no limit.
-  PhysicsProperties(Server& server, Inbox& inbox, std::atomic<double>& rate);
+  PhysicsProperties(Server& server, std::atomic<double>& rate);
 
   gazebo_msgs::GetPhysicsProperties::Response get();
   /// Returns the part without effect, "" if there is none. Throws Error and changes nothing.

@@ -2,6 +2,8 @@
 
 #include <ros/console.h>
 
+#include <cctype>
+
 #include "core/text.h"
 
 namespace angen::node::gazebo {
@@ -11,6 +13,15 @@ namespace {
 constexpr std::size_t kLongestStatus = 10'000;  // bytes
 
 }  // namespace
+
+std::string Server::name_of(const std::string& title) {
+  std::string name;
+  for (const char c : title) {
+    if (std::isupper(static_cast<unsigned char>(c)) != 0 && !name.empty()) name += '_';
+    name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return name;
+}
 
 std::string Server::status_of(const std::string& title, const std::exception& problem) {
   std::string status = title + ": " + problem.what();

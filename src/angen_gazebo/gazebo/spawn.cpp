@@ -52,9 +52,8 @@ void check_packages(const std::string& urdf, const load::SearchPaths& paths) {
 
 }  // namespace
 
-Spawner::Spawner(Server& server, Inbox& inbox, const load::SearchPaths& paths, Topics topics,
-                 Lights& lights)
-    : inbox_(inbox), paths_(paths), topics_(topics), lights_(lights) {
+Spawner::Spawner(Server& server, const load::SearchPaths& paths, Topics topics, Lights& lights)
+    : inbox_(server.inbox()), paths_(paths), topics_(topics), lights_(lights) {
   for (const bool urdf_only : {true, false}) {
     const char* name = urdf_only ? "spawn_urdf_model" : "spawn_sdf_model";
     server.serve<gazebo_msgs::SpawnModel>(

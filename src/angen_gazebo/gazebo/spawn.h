@@ -14,8 +14,7 @@ namespace angen::node::gazebo {
 /// spawn_urdf_model, spawn_sdf_model.
 class Spawner {
  public:
-  Spawner(Server& server, Inbox& inbox, const load::SearchPaths& paths, Topics topics,
-          Lights& lights);
+  Spawner(Server& server, const load::SearchPaths& paths, Topics topics, Lights& lights);
 
  private:
   sim::Action action_of(const std::string& xml, const std::string& name, const Pose& pose);
