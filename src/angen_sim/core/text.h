@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <sstream>
 #include <string>
 
 namespace angen {
@@ -29,5 +30,13 @@ std::optional<int> parse_integer(const std::string& text);
 
 /// The shortest text that parse_number() reads as the same value.
 std::string number_text(double value);
+
+/// The parts one after the other, for people: numbers have 6 digits at most.
+template <class... Parts>
+std::string text_of(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
 
 }  // namespace angen

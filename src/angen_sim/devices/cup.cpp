@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
+#include "core/text.h"
 #include "devices/profile.h"
 #include "devices/refresh.h"
 #include "plugin/outputs.h"
@@ -32,11 +32,7 @@ double tilt_of(const Pose& pose) {
   return std::acos(std::clamp((pose.rotation * Vec3::UnitZ()).z(), -1.0, 1.0));
 }
 
-std::string volume_text(double volume) {
-  std::ostringstream text;
-  text << std::round(10.0 * volume) / 10.0 << " ml";
-  return text.str();
-}
+std::string volume_text(double volume) { return text_of(std::round(10.0 * volume) / 10.0, " ml"); }
 
 // m^3 that an upright cylinder of this radius and height (m) still holds when it is tilted (rad).
 // Up to where the surface meets the bottom it is the cylinder below the mean height; beyond, a hoof

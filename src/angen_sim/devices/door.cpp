@@ -5,7 +5,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,9 +57,7 @@ PidGains gains_for(double inertia, PidGains gains) {
 }
 
 std::string range_text(const JointLimits& limits) {
-  std::ostringstream text;
-  text << limits.lower << " to " << limits.upper;
-  return text.str();
+  return text_of(limits.lower, " to ", limits.upper);
 }
 
 }  // namespace
@@ -255,10 +252,8 @@ Verdict Door::command(const Command& command, const View& view) {
   if (command.verb == "Set") {
     target = command.number;
     if (target < limits_.lower - kRounded || target > limits_.upper + kRounded) {
-      std::ostringstream reason;
-      reason << "the angle " << target << " is outside the hinge's " << range_text(limits_)
-             << " rad";
-      return Verdict::reject(reason.str());
+      return Verdict::reject(
+          text_of("the angle ", target, " is outside the hinge's ", range_text(limits_), " rad"));
     }
     target = std::clamp(target, limits_.lower, limits_.upper);
   }

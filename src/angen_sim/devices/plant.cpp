@@ -1,8 +1,8 @@
 // libplant.so
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "core/text.h"
 #include "devices/refresh.h"
 #include "plugin/outputs.h"
 #include "plugin/registration.h"
@@ -119,10 +119,9 @@ class Plant : public Device {
     const double gets = std::min(watered_, (full_ - moisture_) / per_ml());
     moisture_ += gets * per_ml();
     drained_ += watered_ - gets;
-    std::ostringstream detail;
-    detail << watered_ << " ml";
-    if (gets < watered_) detail << ", " << std::round(watered_ - gets) << " ml run through";
-    outputs.event("watered", detail.str());
+    std::string detail = text_of(watered_, " ml");
+    if (gets < watered_) detail += text_of(", ", std::round(watered_ - gets), " ml run through");
+    outputs.event("watered", detail);
     watered_ = 0.0;
   }
 

@@ -1,10 +1,10 @@
 // A person's way to where it was sent.
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/text.h"
 #include "people/person.h"
 #include "people/places.h"
 #include "people/right_of_way.h"
@@ -19,9 +19,7 @@ constexpr double kShutsFrom = 1.6;  // m from a leaf that is in its way
 constexpr double kUnseen = 0.3;     // m to an obstacle that it does not see
 
 std::string place_text(const Surroundings::Vec2& place) {
-  std::ostringstream text;
-  text << place.x() << " " << place.y();
-  return text.str();
+  return text_of(place.x(), " ", place.y());
 }
 
 }  // namespace

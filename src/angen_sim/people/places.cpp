@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <sstream>
 #include <vector>
 
 #include "core/text.h"
@@ -42,11 +41,9 @@ std::string outside(const Vec2& place, const Home& home) {
   const Point2 low = grounds.min().array() - kGrounds;
   const Point2 high = grounds.max().array() + kGrounds;
   if (Eigen::AlignedBox2d(low, high).contains(place)) return "";
-  std::ostringstream why;
-  why << place.x() << ' ' << place.y() << " is outside of the world; x is " << std::round(low.x())
-      << " to " << std::round(high.x()) << ", y " << std::round(low.y()) << " to "
-      << std::round(high.y()) << " m";
-  return why.str();
+  return text_of(place.x(), " ", place.y(), " is outside of the world; x is ", std::round(low.x()),
+                 " to ", std::round(high.x()), ", y ", std::round(low.y()), " to ",
+                 std::round(high.y()), " m");
 }
 
 // In the open, away from walls.

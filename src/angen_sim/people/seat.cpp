@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <vector>
 
 #include "core/text.h"
@@ -130,12 +129,12 @@ FoundSeat find_seat(const Command& command, const View& view, const Pose& body) 
     return {Seat{Posture::kLie, {feet + kLiesOn * Vec3::UnitZ(), *to}, feet}, ""};
   }
   if (!found.why_not.empty()) return found;
-  std::ostringstream why;
-  why << "no " << (lies ? "bed" : "seat");
-  if (!wanted.thing.empty()) why << " of " << printable(wanted.thing);
-  if (wanted.near) why << " at " << wanted.near->x() << ' ' << wanted.near->y();
-  why << " is within " << kReaches[lies ? 2 : 1] << " m of it; send it there by GoTo first";
-  return {{}, why.str()};
+  std::string what = lies ? "bed" : "seat";
+  if (!wanted.thing.empty()) what += " of " + printable(wanted.thing);
+  if (wanted.near) what += text_of(" at ", wanted.near->x(), " ", wanted.near->y());
+  return {{},
+          text_of("no ", what, " is within ", kReaches[lies ? 2 : 1],
+                  " m of it; send it there by GoTo first")};
 }
 
 std::optional<Vec3> free_place_beside(const View& view, const Vec3& to, double reach) {

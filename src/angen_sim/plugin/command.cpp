@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 #include "core/diagnostics.h"
 #include "core/limits.h"
@@ -41,12 +40,6 @@ bool parse_number(const std::string& word, bool whole, double& value) {
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
-}
-
-std::string text_of(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
 }
 
 /// "0 to 100 percent", "radians".

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
+#include "core/text.h"
 #include "plugin/registration.h"
 #include "plugin/view.h"
 
@@ -36,10 +36,8 @@ class Luminosity : public Sensor {
     if (!noted_) noted_ = illuminance;
     const double change = std::abs(illuminance - *noted_);
     if (change < std::max(kRelativeChange * *noted_, kLeastChange)) return;
-    std::ostringstream detail;
-    detail << "from " << *noted_ << " to " << illuminance << " lx";
     reading.event = "changed";
-    reading.event_detail = detail.str();
+    reading.event_detail = text_of("from ", *noted_, " to ", illuminance, " lx");
     noted_ = illuminance;
   }
 

@@ -1,9 +1,9 @@
 #include "sensors/pir/pyroelectric.h"
 
 #include <cmath>
-#include <sstream>
 #include <utility>
 
+#include "core/text.h"
 #include "plugin/view.h"
 #include "sensors/fan.h"
 
@@ -189,13 +189,7 @@ void Pyroelectric::read(const View& view, Hits, Rng& rng, Reading& reading) {
   if (state_.motion == was_on) return;
   reading.urgent = true;
   reading.event = state_.motion ? "motion" : "still";
-  std::ostringstream detail;
-  if (alarm) {
-    detail << "false alarm";
-  } else {
-    detail << "signal " << 1e6 * signal << " uV";
-  }
-  reading.event_detail = detail.str();
+  reading.event_detail = alarm ? "false alarm" : text_of("signal ", 1e6 * signal, " uV");
 }
 
 Nanoseconds Pyroelectric::idle_until(const Ahead&) const {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "core/text.h"
 #include "plugin/view.h"
 
 namespace angen::sensors {
@@ -32,9 +32,7 @@ bool any_longer(const Ranges& now, const Ranges& before, double threshold) {
 
 void announce_range(bool motion, double difference, Reading& reading) {
   reading.event = motion ? "motion" : "still";
-  std::ostringstream detail;
-  detail << "difference " << difference << " m";
-  reading.event_detail = detail.str();
+  reading.event_detail = text_of("difference ", difference, " m");
 }
 
 }  // namespace
@@ -164,10 +162,9 @@ std::size_t RangeDifference::count_phases(const Params& params, double nod_perio
   const double scans = nod_period / to_seconds(nod_.period);
   const double whole = std::round(scans);
   if (whole < 1.0 || std::abs(scans - whole) > 1e-6 * whole) {
-    std::ostringstream message;
-    message << "<nod_period> is " << nod_period << " s, must be a multiple of "
-            << to_seconds(nod_.period) << " s, the time between two scans";
-    throw params.error("nod_period", message.str());
+    throw params.error("nod_period",
+                       text_of("<nod_period> is ", nod_period, " s, must be a multiple of ",
+                               to_seconds(nod_.period), " s, the time between two scans"));
   }
   if (whole * static_cast<double>(fan_.size()) > kMaxDirections) {
     throw params.error("nod_period",
