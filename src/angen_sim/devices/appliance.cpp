@@ -1,8 +1,8 @@
 // libappliance.so
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "devices/sound.h"
 #include "plugin/outputs.h"
 #include "plugin/registration.h"
 #include "plugin/wiring.h"
@@ -10,8 +10,6 @@
 namespace angen::devices {
 
 namespace {
-
-constexpr double kSilent = -std::numeric_limits<double>::infinity();  // dB
 
 /// Dependence of power and sound on the level: both in powers of it.
 struct Control {
@@ -43,15 +41,7 @@ class Appliance : public Device {
       throw params.error("idle_power", "idle_power is above power, which includes it");
     }
     standby_power_ = params.number("standby_power", 0.0, "W", "switched off", kNotNegative);
-    full_sound_ = params.number("sound_power_level", 60.0, "dB",
-                                "at full speed or volume, over 1 pW", {-100.0, 200.0});
-    directivity_ = params.number("directivity", 2.0, "",
-                                 "of its sound: 1 in free air, 2 on a floor or wall, 4 in an edge",
-                                 {0.1, 1000.0});
-    const auto places =
-        params.rows("position", 3, "m", "x y z in the model's frame where it sounds; 0 0 0");
-    if (places.size() > 1) throw params.error("position", "an appliance has one <position>");
-    if (!places.empty()) position_ = places.front();
+    full_sound_.configure(params, 60.0, "at full speed or volume, over 1 pW");
     flux_ = params.number("luminous_flux", 0.0, "lm",
                           "of the model's light while it is on; 0 = it has none", kNotNegative);
     level_ = params.number("level", 50.0, "%", "speed or volume at the start", {0.0, 100.0});
@@ -95,9 +85,7 @@ class Appliance : public Device {
     state.set("on", on_);
     state.set("level", level_);
     state.set("power", power());
-    state.set("sound_power_level", sound());
-    state.set("directivity", directivity_);
-    state.set("position", position_);
+    report_sound(state);
   }
 
  private:
@@ -107,18 +95,17 @@ class Appliance : public Device {
     return idle_power_ + (full_power_ - idle_power_) * share;
   }
 
-  double sound() const {
-    if (!on_) return kSilent;
-    return full_sound_ + 10.0 * std::log10(std::pow(level_ / 100.0, control_.sound_exponent));
+  void report_sound(Reading& state) const {
+    if (!on_) return full_sound_.report_silence(state);
+    const double share = std::pow(level_ / 100.0, control_.sound_exponent);
+    full_sound_.report(full_sound_.level() + 10.0 * std::log10(share), state);
   }
 
   Control control_ = kControls[0];
   double full_power_ = 0.0;     // W
   double idle_power_ = 0.0;     // W
   double standby_power_ = 0.0;  // W
-  double full_sound_ = 0.0;     // dB over 1 pW
-  double directivity_ = 1.0;
-  std::vector<double> position_{0.0, 0.0, 0.0};
+  Sound full_sound_;
   double flux_ = 0.0;  // lm
   LightRef light_;
   bool on_ = false;
@@ -127,26 +114,22 @@ class Appliance : public Device {
   double last_level_ = 0.0;     // percent
 };
 
-ANGEN_REGISTER_DEVICE(Appliance,
-                      Kind("appliance", "A fan, a television, a stereo: power and sound.")
-                          .model("fan")
-                          .model("tv")
-                          .model("stereo")
-                          .example("set appliance fan1 speed 70")
-                          .verb("On", "at its level")
-                          .verb("Off", "on standby")
-                          .verb("Speed", "percent", "%", {0.0, 100.0},
-                                "of a fan, of its full speed")
-                          .verb("Volume", "percent", "%", {0.0, 100.0}, "of a television or stereo")
-                          .flag("on", "whether it is on")
-                          .shown_as("on", "off")
-                          .number("level", "%", "speed or volume that it has while it is on")
-                          .shown()
-                          .number("power", "W", "electric power, all of which becomes heat")
-                          .shown(1)
-                          .number("sound_power_level", "dB",
-                                  "over 1 pW; minus infinity where it is silent")
-                          .number("directivity", "", "of its sound")
-                          .numbers("position", "m", "x y z in the model's frame where it sounds"))
+ANGEN_REGISTER_DEVICE(
+    Appliance,
+    Sound::describe(Kind("appliance", "A fan, a television, a stereo: power and sound.")
+                        .model("fan")
+                        .model("tv")
+                        .model("stereo")
+                        .example("set appliance fan1 speed 70")
+                        .verb("On", "at its level")
+                        .verb("Off", "on standby")
+                        .verb("Speed", "percent", "%", {0.0, 100.0}, "of a fan, of its full speed")
+                        .verb("Volume", "percent", "%", {0.0, 100.0}, "of a television or stereo")
+                        .flag("on", "whether it is on")
+                        .shown_as("on", "off")
+                        .number("level", "%", "speed or volume that it has while it is on")
+                        .shown()
+                        .number("power", "W", "electric power, all of which becomes heat")
+                        .shown(1)))
 
 }  // namespace angen::devices

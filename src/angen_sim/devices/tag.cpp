@@ -9,9 +9,7 @@ class Tag : public Device {
  public:
   void configure(Params& params, Wiring& wiring) override {
     id_ = params.text("id", wiring.model(), "that readers read; the model's name unless given");
-    const auto places = params.rows("position", 3, "m", "x y z in the model's frame; 0 0 0");
-    if (places.size() > 1) throw params.error("position", "a tag has one <position>");
-    if (!places.empty()) position_ = places.front();
+    position_ = params.row("position", position_, "m", "x y z in the model's frame");
   }
 
   void update(const View&, Outputs&) override {}

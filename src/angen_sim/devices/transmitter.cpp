@@ -15,10 +15,7 @@ class Transmitter : public Device {
     power_ =
         params.number("tx_power", 0.0, "dBm", "radiated, antenna gain included", {-200.0, 100.0});
     frequency_ = params.number("frequency", 2440.0, "MHz", "of its carrier", {100.0, 100'000.0});
-    const auto places =
-        params.rows("position", 3, "m", "x y z of its antenna in the model's frame; 0 0 0");
-    if (places.size() > 1) throw params.error("position", "a transmitter has one <position>");
-    if (!places.empty()) position_ = places.front();
+    position_ = params.row("position", position_, "m", "x y z of its antenna in the model's frame");
     on_ = params.flag("on", true, "sends at the start");
   }
 

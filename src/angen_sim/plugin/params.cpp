@@ -51,6 +51,28 @@ void collect(const Element& parent, const std::string& path, std::vector<const E
   }
 }
 
+std::vector<double> numbers_in(const Element& given, const std::string& path, std::size_t count,
+                               const std::string& unit) {
+  const auto rejected = [&](const std::string& what) {
+    return Error(given.source, "<" + path + "> has " + what);
+  };
+  std::istringstream words(given.text);
+  std::vector<double> row;
+  std::string word;
+  while (words >> word) {
+    const std::optional<double> value = parse_finite(word);
+    if (!value) throw rejected(word.insert(0, 1, '"').append("\", must be a finite number"));
+    const std::string problem = limit_problem(limit_of_unit(unit), *value);
+    if (!problem.empty()) throw rejected(word.append("; ").append(problem));
+    row.push_back(*value);
+  }
+  if (row.size() != count) {
+    throw rejected(std::to_string(row.size()) + " numbers, must have " + std::to_string(count) +
+                   (unit.empty() ? "" : " (" + unit + ")"));
+  }
+  return row;
+}
+
 }  // namespace
 
 Params::Params(const Element& plugin, const Element* sensor, double rate)
@@ -161,32 +183,21 @@ std::vector<std::vector<double>> Params::rows(const std::string& path, std::size
                                               const std::string& unit, const std::string& doc) {
   note(path, std::to_string(count) + " numbers, any number of times", "", unit, doc);
   std::vector<std::vector<double>> result;
-  const auto rejected = [&](const Element& given, const std::string& what) {
-    return Error(given.source, "<" + path + "> has " + what);
-  };
   for (const Element* given : all(path)) {
-    std::istringstream words(given->text);
-    std::vector<double> row;
-    std::string word;
-    while (words >> word) {
-      const std::optional<double> value = parse_finite(word);
-      if (!value) {
-        throw rejected(*given, word.insert(0, 1, '"').append("\", must be a finite number"));
-      }
-      const std::string problem = limit_problem(limit_of_unit(unit), *value);
-      if (!problem.empty()) {
-        throw rejected(*given, word.append("; ").append(problem));
-      }
-      row.push_back(*value);
-    }
-    if (row.size() != count) {
-      throw Error(given->source, "<" + path + "> has " + std::to_string(row.size()) +
-                                     " numbers, must have " + std::to_string(count) +
-                                     (unit.empty() ? "" : " (" + unit + ")"));
-    }
-    result.push_back(std::move(row));
+    result.push_back(numbers_in(*given, path, count, unit));
   }
   return result;
+}
+
+std::vector<double> Params::row(const std::string& path, const std::vector<double>& fallback,
+                                const std::string& unit, const std::string& doc) {
+  std::string numbers;
+  for (const double each : fallback) {
+    numbers += (numbers.empty() ? "" : " ") + number_text(each);
+  }
+  const Element* given =
+      take(path, std::to_string(fallback.size()) + " numbers", numbers, unit, doc);
+  return given == nullptr ? fallback : numbers_in(*given, path, fallback.size(), unit);
 }
 
 std::vector<std::string> Params::names(const std::string& path) const {

@@ -42,6 +42,9 @@ class Params {
   /// Every <path> child of the plug-in as `count` numbers each.
   std::vector<std::vector<double>> rows(const std::string& path, std::size_t count,
                                         const std::string& unit, const std::string& doc);
+  /// <path> as so many numbers as `fallback`, which is returned if it is not given.
+  std::vector<double> row(const std::string& path, const std::vector<double>& fallback,
+                          const std::string& unit, const std::string& doc);
   /// The attribute `name` of every <path> child, "" where one has none.
   std::vector<std::string> names(const std::string& path) const;
   /// The text of every `path`, none when it is not given.
