@@ -91,8 +91,8 @@ class Sensor {
   virtual void configure(Params& params, Wiring& wiring) = 0;
   /// Called after configure(): its rays, where it has a grid of them; Kind::rays draws them.
   virtual std::optional<RayGeometry> rays() const { return std::nullopt; }
-  /// How often it samples, ns; 0 = as often as it publishes (<update_rate>, or its kind's rate).
-  virtual Nanoseconds sample_period() const { return 0; }
+  /// How often it samples, ns: what configure() has set, unless overridden.
+  virtual Nanoseconds sample_period() const { return sample_period_; }
   /// Called before each sample: which of its sets of rays it needs now. For a set that it had
   /// before, at the same pose, aim() is not called and static hits are cached.
   virtual int ray_set(const View&) { return kNoRaySet; }
@@ -109,6 +109,10 @@ class Sensor {
   /// Called before the sample after those that its lazy reading replaced, the last of them at
   /// `time`: the sensor's state is to be as if it had read them. `draws` are of that last one.
   virtual void skip(Nanoseconds, const Draws&) {}
+
+ protected:
+  /// ns; 0 = as often as it publishes (<update_rate>, or its kind's rate).
+  Nanoseconds sample_period_ = 0;
 };
 
 /// The description of a model by which a plug-in decides whether to serve it.

@@ -20,8 +20,6 @@ constexpr Nanoseconds kLongestGlide = 10 * kSecond;  // the integral of a longer
 /// or lifted. Decisions are made before noise, which is far below their thresholds.
 class Accelerometer : public Sensor {
  public:
-  Nanoseconds sample_period() const override { return sample_period_; }
-
   void configure(Params& params, Wiring& wiring) override {
     sample_period_ = read_sample_period(params, 100.0, {1.0, 1e4});
     activity_ = params.number("activity_threshold", 0.5, "m/s^2",
@@ -117,7 +115,6 @@ class Accelerometer : public Sensor {
   }
 
   LinkRef link_;
-  Nanoseconds sample_period_ = kSecond / 100;
   Nanoseconds quiet_ = 0;
   double activity_ = 0.0;        // m/s^2
   double tilt_threshold_ = 0.0;  // rad

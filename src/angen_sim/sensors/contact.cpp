@@ -49,15 +49,14 @@ bool has(const std::vector<ContactPair>& pairs, const std::string& first,
 /// them since its last reading.
 class Contact : public Sensor {
  public:
-  Nanoseconds sample_period() const override { return debounce_.duration > 0 ? sample_period_ : 0; }
-
   void configure(Params& params, Wiring& wiring) override {
     params.noise("forces", "N", "of each component of a force");
     debounce_.duration = from_seconds(params.number(
         "debounce", 0.0, "s", "least duration of a touch or release that counts", {0.0, 1e6}));
-    sample_period_ =
+    const Nanoseconds period =
         from_seconds(1.0 / params.number("sample_rate", 100.0, "Hz",
                                          "how often it samples, given a debounce", {1e-3, 1e6}));
+    if (debounce_.duration > 0) sample_period_ = period;
     params.text("bumperTopicName", "/angen/contact/NAME", "where it publishes");
     if (debounce_.duration == 0) window_ = params.update_period();
     read_frame(params, wiring);
@@ -121,8 +120,7 @@ class Contact : public Sensor {
   bool lasting_ = true;                // all that it reported last touched then
   std::string frame_ = "world";        // frame of points and forces
   std::optional<LinkRef> frame_link_;  // none: it is the world
-  Nanoseconds sample_period_ = kSecond / 100;
-  std::optional<bool> pressed_;  // none before the first reading
+  std::optional<bool> pressed_;        // none before the first reading
 };
 
 ANGEN_REGISTER_SENSOR(

@@ -62,17 +62,13 @@ struct Scale : LazyReading {
 /// they give the weight on the table, and its center.
 class LoadCells : public Sensor {
  public:
-  Nanoseconds sample_period() const override { return sample_period_; }
-
   void configure(Params& params, Wiring& wiring) override {
     scale_.tare =
         params.number("tare", 0.0, "kg", "of the table itself, which is subtracted", kNotNegative);
-    const auto places = params.rows("tare_place", 2, "m", "x y of its center; 0 0");
-    if (places.size() > 1) throw params.error("tare_place", "load cells have one <tare_place>");
-    if (!places.empty()) {
-      scale_.tare_x = places[0][0];
-      scale_.tare_y = places[0][1];
-    }
+    const std::vector<double> place =
+        params.row("tare_place", {0.0, 0.0}, "m", "x y of its center");
+    scale_.tare_x = place[0];
+    scale_.tare_y = place[1];
     scale_.least = params.number(
         "least", 0.05, "kg", "a smaller weight has no place: x and y are not numbers", kPositive);
     step_ = params.number("event_step", 0.1, "kg", "a change by more is an event", kPositive);
@@ -131,9 +127,8 @@ class LoadCells : public Sensor {
 
   std::vector<ContactRef> collisions_;
   Scale scale_;
-  double step_ = 0.0;      // kg
-  double capacity_ = 0.0;  // kg
-  Nanoseconds sample_period_ = kSecond / 10;
+  double step_ = 0.0;                                      // kg
+  double capacity_ = 0.0;                                  // kg
   double last_ = std::numeric_limits<double>::infinity();  // kg
   double told_ = std::numeric_limits<double>::infinity();  // kg, at the last event
   bool has_told_ = false;

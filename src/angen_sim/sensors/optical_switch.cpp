@@ -48,8 +48,6 @@ struct Beam : LazyReading {
 /// A light barrier of two rays, closed while one of them is blocked.
 class OpticalSwitch : public Sensor {
  public:
-  Nanoseconds sample_period() const override { return sample_period_; }
-
   void configure(Params& params, Wiring&) override {
     beam_.fan = read_fan(params, default_fan());
     if (beam_.fan.size() != 2) {
@@ -117,7 +115,6 @@ class OpticalSwitch : public Sensor {
   Beam beam_;
   std::vector<Vec3> directions_;
   QuietNoise quiet_;
-  Nanoseconds sample_period_ = kSecond / 100;
   Ranges previous_;
   bool closed_ = false;
   bool steady_ = false;

@@ -1,7 +1,7 @@
 // libpressure_mat.so
 #include <algorithm>
-#include <sstream>
 
+#include "core/text.h"
 #include "plugin/registration.h"
 #include "plugin/view.h"
 #include "sensors/debounce.h"
@@ -18,8 +18,6 @@ constexpr double kStandardGravity = 9.80665;  // m/s^2, by which scales are mark
 /// A mat that closes its contact under a load, the force along its own -z.
 class PressureMat : public Sensor {
  public:
-  Nanoseconds sample_period() const override { return sample_period_; }
-
   void configure(Params& params, Wiring& wiring) override {
     threshold_ = params.number("threshold", 10.0, "kg", "it fires above this load", kPositive);
     release_ = params.number("release", 0.8 * threshold_, "kg",
@@ -37,10 +35,8 @@ class PressureMat : public Sensor {
     const bool loaded = pressed_ ? load > release_ : load > threshold_;
     if (debounce_.changes(pressed_, loaded, view.time())) {
       pressed_ = loaded;
-      std::ostringstream detail;
-      detail << "load " << load << " kg";
       reading.event = pressed_ ? "pressed" : "released";
-      reading.event_detail = detail.str();
+      reading.event_detail = text_of("load ", load, " kg");
       reading.urgent = true;
     }
     reading.set("pressed", pressed_);
@@ -70,7 +66,6 @@ class PressureMat : public Sensor {
   double threshold_ = 0.0;     // kg
   double release_ = 0.0;       // kg
   double noise_stddev_ = 0.0;  // kg
-  Nanoseconds sample_period_ = kSecond / 100;
   Debounce debounce_;
   bool pressed_ = false;
 };

@@ -1,7 +1,7 @@
 // libreed_contact.so
 #include <optional>
-#include <sstream>
 
+#include "core/text.h"
 #include "plugin/registration.h"
 #include "plugin/view.h"
 #include "plugin/wiring.h"
@@ -12,20 +12,16 @@ namespace angen::sensors {
 /// when it is a little farther away.
 class Reed : public Sensor {
  public:
-  Nanoseconds sample_period() const override { return sample_period_; }
-
   void configure(Params& params, Wiring& wiring) override {
     const std::string link =
         params.text("magnet_link", "", "link of the same model that carries the magnet");
-    const auto places =
-        params.rows("magnet", 3, "m", "x y z of the magnet in the frame of its link; 0 0 0");
+    magnet_ = Vec3::Map(
+        params.row("magnet", {0.0, 0.0, 0.0}, "m", "x y z of the magnet in the frame of its link")
+            .data());
     operate_ = params.number("operate_distance", 0.015, "m", "closes when it is nearer", kPositive);
     release_ =
         params.number("release_distance", 0.02, "m", "opens when it is farther", {operate_, 1e3});
     sample_period_ = read_sample_period(params);
-
-    if (places.size() > 1) throw params.error("magnet", "a reed contact has one <magnet>");
-    if (!places.empty()) magnet_ = Vec3(places[0][0], places[0][1], places[0][2]);
     if (link.empty()) {
       throw params.error("magnet_link",
                          "a reed contact needs the <magnet_link> that moves past it");
@@ -42,10 +38,8 @@ class Reed : public Sensor {
     const double distance = (magnet - view.pose().position).norm();
     const bool closed = closed_.value_or(false) ? distance <= release_ : distance <= operate_;
     if (closed_ && closed != *closed_) {
-      std::ostringstream detail;
-      detail << "magnet at " << distance << " m";
       reading.event = closed ? "closed" : "opened";
-      reading.event_detail = detail.str();
+      reading.event_detail = text_of("magnet at ", distance, " m");
       reading.urgent = true;
     }
     closed_ = closed;
@@ -62,7 +56,6 @@ class Reed : public Sensor {
   Vec3 magnet_ = Vec3::Zero();  // m, in its link
   double operate_ = 0.0;        // m
   double release_ = 0.0;        // m
-  Nanoseconds sample_period_ = kSecond / 100;
   std::optional<bool> closed_;  // none before the first sample
 };
 

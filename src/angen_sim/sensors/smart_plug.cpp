@@ -31,9 +31,8 @@ struct Metering : LazyReading {
 /// A metering plug: the power of the device that it feeds, and the energy since its start.
 class SmartPlug : public Sensor {
  public:
-  Nanoseconds sample_period() const override { return kSecond / 50; }
-
   void configure(Params& params, Wiring&) override {
+    sample_period_ = kSecond / 50;
     metering_.load = params.text("load", "", "the device that it feeds, as lamp/kitchen0");
     const std::size_t bar = metering_.load.find('/');
     kind_ = metering_.load.substr(0, bar);
