@@ -14,47 +14,16 @@ namespace angen::physics {
 
 namespace {
 
-constexpr double kSoftest = 1e-8;  // least CFM of a contact: keeps redundant points solvable
 constexpr std::size_t kManyJoints = 256;
 constexpr std::size_t kMaxInStep = 20000;      // points
 constexpr std::size_t kMaxInMeshes = 500'000;  // tests, some tenths of a second
-constexpr double kDeepest = 0.25;              // share of a box's thickness, at rest
 constexpr double kUp = 0.9;                    // z of a unit normal: on a floor
-constexpr double kPush =
-    50.0;  // m/s^2, at which a soft contact lifts a body that is deep in the floor
-
-constexpr double kWheelSettles = 2e-3;  // s, of the springs of wheels
-constexpr double kSide = 0.5;           // |z| of the normal at a body's side, at most
-// m/s, at which a yielding side parts from what presses on it: DART's threshold of bouncing.
-constexpr double kRebound = 0.1;
-
-// m/N, by which the side of a body yields to another that a joint to the world moves; 0 if it does
-// not. A latched one is as rigid as the wall.
-double side_yield(const Geom& geom, const Geom& other, const Vec3& normal) {
-  const double stiffness = geom.body->side_stiffness;
-  if (stiffness <= 0.0 || !other.body->dynamic() || std::abs(normal.z()) >= kSide) return 0.0;
-  const std::vector<Joint*>& joints = other.body->mechanism->joints;
-  const bool presses =
-      other.body->mechanism->anchored() &&
-      std::none_of(joints.begin(), joints.end(), [](const Joint* j) { return j->latched; });
-  return presses ? 1.0 / stiffness : 0.0;
-}
-
 bool joined(const Body& a, const Body& b) {
   const Body& moving = a.dynamic() ? a : b;
   const Body& other = a.dynamic() ? b : a;
   return std::any_of(moving.joints.begin(), moving.joints.end(), [&](const Joint* joint) {
     return joint->first == &other || joint->second == &other;
   });
-}
-
-// N/m, of a contact that carries a mechanism with many wheels; 0 if rigid. Rigid ones may give any
-// loads: a wheel that the error of a joint has lifted by a nanometer would carry nothing from then.
-double stiffness_by_wheels(const Geom& a, const Geom& b) {
-  const auto own = [](const Geom& geom) {
-    return geom.body->mechanism == nullptr ? 0.0 : geom.body->mechanism->stiffness;
-  };
-  return std::max(own(a), own(b));
 }
 
 const MeshBoxes& boxes_of(const Geom& geom) {
@@ -119,12 +88,6 @@ bool without_passes(const Contacts::Pair& pair) {
 
 }  // namespace
 
-double parting_speed(const Geom& a, const Geom& b, const dContactGeom& at) {
-  const Vec3 position = ode::vec(at.pos);
-  const Vec3 velocity = a.body->velocity_at(position) - b.body->velocity_at(position);
-  return velocity.dot(ode::vec(at.normal));
-}
-
 bool may_touch(const Geom& a, const Geom& b) {
   const Body& one = *a.body;
   const Body& two = *b.body;
@@ -133,17 +96,17 @@ bool may_touch(const Geom& a, const Geom& b) {
   return a.self_collides && b.self_collides && !joined(one, two);
 }
 
-Contacts::Contacts(const desc::Physics& settings, const Vec3& gravity)
-    : step_(to_seconds(settings.step)) {
+Contacts::Contacts(const desc::Physics& settings, const Vec3& gravity) {
+  settings_.step = to_seconds(settings.step);
   set(settings, gravity);
 }
 
 void Contacts::set(const desc::Physics& settings, const Vec3& gravity) {
-  gravity_ = gravity;
-  erp_ = settings.erp;
-  cfm_ = std::max(settings.cfm, kSoftest);
-  surface_layer_ = settings.contact_surface_layer;
-  fastest_ = settings.contact_max_correcting_vel;
+  settings_.gravity = gravity;
+  settings_.erp = settings.erp;
+  settings_.cfm = settings.cfm;
+  settings_.surface_layer = settings.contact_surface_layer;
+  settings_.fastest = settings.contact_max_correcting_vel;
 }
 
 void Contacts::use(dWorldID world) {
@@ -205,79 +168,25 @@ void Contacts::make_joints() {
   feedback_.assign(found_.size(), dJointFeedback{});
   sum_loads();
   start_grips();
-  for (const Pair& pair : pairs_) {
-    for (std::size_t i = 0; i < pair.count; ++i) make_joint(pair, pair.begin + i, true);
-  }
+  for (const Pair& pair : pairs_) make_joints_of(pair, true);
 }
 
 void Contacts::make_joints_again(bool push) {
   dJointGroupEmpty(group_.get());
   for (const Pair& pair : pairs_) {
-    if (!pair.first->body->again && !pair.second->body->again) continue;
-    for (std::size_t i = 0; i < pair.count; ++i) make_joint(pair, pair.begin + i, push);
+    if (pair.first->body->again || pair.second->body->again) make_joints_of(pair, push);
   }
 }
 
-void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
-  const Geom& a = *pair.first;
-  const Geom& b = *pair.second;
-  dContact contact{};
-  contact.geom = found_[index];
-  dSurfaceParameters& s = contact.surface;
-  s.mode = dContactSoftERP | dContactSoftCFM;
-  s.soft_erp = erp_;
-  const PointShare& share = shares_[index];
-  s.soft_cfm = std::max(cfm_ / share.stiffness, share.least_cfm);
-  set_friction(contact, pair, index);
-  double fastest = fastest_;
-  const Vec3 normal = ode::vec(contact.geom.normal);
-  const double side = std::max(side_yield(a, b, normal), side_yield(b, a, normal));
-  const double parts_at = std::min({a.fastest, b.fastest, side > 0.0 ? kRebound : dInfinity});
-  if (std::min(a.restitution, b.restitution) > 0.0) {
-    s.mode |= dContactBounce;
-    s.bounce = bounce(a, b, contact.geom);
-    s.bounce_vel = kBounceSpeed;
+void Contacts::make_joints_of(const Pair& pair, bool push) {
+  const ContactLaw law(*pair.first, *pair.second, pair.count, settings_);
+  for (std::size_t i = pair.begin; i < pair.begin + pair.count; ++i) {
+    dContact contact{};
+    contact.geom = found_[i];
+    set_friction(contact, pair, i);
+    law.apply(shares_[i], push, contact);
+    attach(contact, pair, i);
   }
-  const bool is_soft = a.stiffness || b.stiffness || side > 0.0;
-  const double wheels = stiffness_by_wheels(a, b);
-  if (!is_soft && wheels > 0.0 && contact.geom.depth < surface_layer_) {
-    // The spring is pressed by all of the depth: ODE takes the layer off.
-    contact.geom.depth = surface_layer_ + std::max(0.0, contact.geom.depth - share.depth);
-    s.soft_erp = step_ / (step_ + kWheelSettles);
-    s.soft_cfm = 1.0 / (share.spring * wheels * (step_ + kWheelSettles));
-    return attach(contact, pair, index);
-  }
-  if (is_soft) {
-    const double yield =
-        (side * static_cast<double>(pair.count) + (a.stiffness ? 1.0 / *a.stiffness : 0.0) +
-         (b.stiffness ? 1.0 / *b.stiffness : 0.0)) /
-        share.stiffness;
-    const double damping = share.stiffness * (a.damping.value_or(0.0) + b.damping.value_or(0.0));
-    s.soft_erp = step_ / (step_ + damping * yield);
-    s.soft_cfm = std::max(kSoftest, 1.0 / (step_ / yield + damping));
-    // In a step it gains this share of the speed of parting: a soft spring pushes as deep as it is.
-    const double gained = step_ / s.soft_cfm * (a.body->inverse_mass() + b.body->inverse_mass());
-    fastest *= 1.0 + 1.0 / gained;
-    if (std::isfinite(parts_at)) {
-      const bool parts = parting_speed(a, b, contact.geom) >= parts_at;
-      fastest = parts ? 0.0 : std::min(fastest, kPush * step_ * (1.0 + 1.0 / gained));
-    }
-  } else {
-    fastest = std::min(fastest, parts_at);
-  }
-  if (a.min_depth || b.min_depth) {  // instead of the layer that ODE takes off all depths
-    const double depth = std::min(std::max(a.min_depth.value_or(0.0), b.min_depth.value_or(0.0)),
-                                  kDeepest * std::min(a.thickness, b.thickness));
-    contact.geom.depth += surface_layer_ - depth;
-  }
-  if (!is_soft) {
-    const double overlap = contact.geom.depth - surface_layer_;
-    for (Body* body : {a.body, b.body}) body->overlap = std::max(body->overlap, overlap);
-    if (!pushes) contact.geom.depth = std::min(contact.geom.depth, surface_layer_);
-  }
-  const double deepest = surface_layer_ + fastest * step_ / s.soft_erp;
-  contact.geom.depth = std::min(contact.geom.depth, deepest);
-  attach(contact, pair, index);
 }
 
 /// ODE wants a moving body first, and the normal towards it.
@@ -492,13 +401,14 @@ void Contacts::align(dContact& contact, const Pair& pair) const {
   const Vec3 slip = across(normal, a.velocity_at(position) - b.velocity_at(position));
   const double inverse = a.inverse_mass() + b.inverse_mass();
   const auto found = loads_.find(mechanisms_of(pair));
-  Vec3 load = slip / (step_ * inverse);  // N, on the first body
+  Vec3 load = slip / (settings_.step * inverse);  // N, on the first body
   if (found == loads_.end()) {
     const double falls = (a.dynamic() ? 1.0 : 0.0) - (b.dynamic() ? 1.0 : 0.0);
-    load += falls / inverse * across(normal, gravity_);
+    load += falls / inverse * across(normal, settings_.gravity);
   } else {
     const Load& last = found->second;
-    const double stopped = kStopSteps * contact.surface.mu * last.pressed * step_ * inverse;
+    const double stopped =
+        kStopSteps * contact.surface.mu * last.pressed * settings_.step * inverse;
     if (slip.norm() > std::max(stopped, kMinSlip)) {  // m/s
       contact.surface.mu2 = 0.0;
       return set_direction(contact, slip.normalized());
@@ -608,31 +518,6 @@ void Contacts::Grip::correct(double gave, bool lower) {
     error = now;
     pressed += corrected * now;
   }
-}
-
-namespace {
-
-Vec3 free_fall(const Body& body, const Vec3& gravity) {
-  return !body.dynamic() || body.floats || body.mechanism->anchored() ? Vec3(Vec3::Zero())
-                                                                      : gravity;
-}
-
-}  // namespace
-
-// The restitution is a share of the speed at the surface. A tick finds bodies deeper by the way
-// since they touched; gravity has worked on that way, and will on the way back. Speeds are those
-// between two ticks.
-double Contacts::bounce(const Geom& a, const Geom& b, const dContactGeom& at) const {
-  const double restitution = std::min(a.restitution, b.restitution);
-  const Vec3 fall = free_fall(*a.body, gravity_) - free_fall(*b.body, gravity_);
-  const double pull = -fall.dot(ode::vec(at.normal));  // m/s^2
-  const double closing = -parting_speed(a, b, at);
-  const double speed = closing + 0.5 * step_ * pull;
-  const double work = 2.0 * pull * at.depth;
-  const bool came_now = at.depth <= speed * step_ && work < speed * speed;
-  if (pull == 0.0 || closing < kBounceSpeed || !came_now) return restitution;
-  const double leaves = restitution * restitution * (speed * speed - work) + work;
-  return std::max(0.0, std::sqrt(std::max(0.0, leaves)) - 0.5 * step_ * pull) / closing;
 }
 
 }  // namespace angen::physics

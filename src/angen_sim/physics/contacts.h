@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/contact.h"
+#include "physics/contact_law.h"
 #include "physics/model.h"
 #include "physics/wheel_line.h"
 
@@ -13,11 +14,6 @@ namespace angen::physics {
 /// True when two geoms are allowed to touch: not of one body, not both static, not joined, and of
 /// one model only if both collide with their own.
 bool may_touch(const Geom& a, const Geom& b);
-
-constexpr double kBounceSpeed = 0.05;  // m/s, nothing bounces below it
-
-/// m/s, along the normal of a contact.
-double parting_speed(const Geom& a, const Geom& b, const dContactGeom& at);
 
 /// Contacts: pairs of awake bodies, which each step computes again, and pairs that fell asleep.
 class Contacts {
@@ -36,7 +32,7 @@ class Contacts {
   void set(const desc::Physics& settings, const Vec3& gravity);
 
   /// s, of the steps from now on.
-  void set_step(double step) { step_ = step; }
+  void set_step(double step) { settings_.step = step; }
 
   /// Whether bodies on joints touched nothing in the last step, and upright bodies only static
   /// shapes below them, and other things if both have been idle for so many steps, and no motor
@@ -72,7 +68,7 @@ class Contacts {
   bool revise_friction(bool lower);
 
   /// m/s, at which deep contacts separate.
-  double fastest() const { return fastest_; }
+  double fastest() const { return settings_.fastest; }
 
   /// Reads the forces of the step and takes the contact joints away.
   void finish();
@@ -157,21 +153,14 @@ class Contacts {
   void start_grips();
   const ContactPoint& nearest_before(const Pair& pair, const Vec3& at) const;
   bool revise(std::size_t index, bool lower);
-  void make_joint(const Pair& pair, std::size_t index, bool pushes);
-  /// Share of the speed of two bodies towards each other with which they part.
-  double bounce(const Geom& a, const Geom& b, const dContactGeom& at) const;
+  void make_joints_of(const Pair& pair, bool push);
   void attach(dContact& contact, const Pair& pair, std::size_t index);
   void set_friction(dContact& contact, const Pair& pair, std::size_t index);
   void align(dContact& contact, const Pair& pair) const;
   void read_forces(const Pair& pair);
 
   dWorldID world_ = nullptr;
-  double step_;
-  Vec3 gravity_;
-  double erp_;
-  double cfm_;
-  double surface_layer_;  // m
-  double fastest_;        // m/s
+  ContactSettings settings_;
   ode::JointGroupHandle group_;
   std::size_t most_joints_ = 0;  // most joints that group_ has held
   std::size_t in_meshes_ = 0;    // tests of meshes against each other in this step
