@@ -17,4 +17,11 @@ void erase_if(List& list, Matches&& matches) {
   list.erase(std::remove_if(list.begin(), list.end(), matches), list.end());
 }
 
+/// Sorts a list, and keeps each entry once.
+template <class List>
+void sort_unique(List& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
 }  // namespace angen

@@ -4,6 +4,7 @@
 
 #include "core/diagnostics.h"
 #include "core/limits.h"
+#include "core/lists.h"
 #include "physics/build.h"
 #include "physics/impl.h"
 #include "physics/joints.h"
@@ -141,8 +142,7 @@ void World::Impl::arrive(ModelRecord& model) {
 void World::Impl::note_placed(const ModelRecord& model) {
   placed.insert(placed.end(), model.link_ids.begin(), model.link_ids.end());
   moved.insert(moved.end(), model.link_ids.begin(), model.link_ids.end());
-  std::sort(moved.begin(), moved.end());
-  moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+  sort_unique(moved);
 }
 
 void World::move(ModelId id, const Pose& by) {

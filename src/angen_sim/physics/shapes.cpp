@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/diagnostics.h"
+#include "core/lists.h"
 
 namespace angen::physics {
 
@@ -43,8 +44,7 @@ Eigen::Matrix3Xd corners_of(const TriangleMesh& mesh) {
       corners.push_back({at.x(), at.y(), at.z()});
     }
   }
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  sort_unique(corners);
   const auto count = static_cast<Eigen::Index>(corners.size());
   return Eigen::Map<const Eigen::Matrix3Xf>(corners.front().data(), 3, count).cast<double>();
 }

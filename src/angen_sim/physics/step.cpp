@@ -78,8 +78,7 @@ void World::Impl::take_step(std::int64_t tick, std::int64_t count) {
     if (slept || !stopped.empty()) contacts.put_to_rest();
     list_is_old = true;
   }
-  std::sort(moved.begin(), moved.end());
-  moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+  sort_unique(moved);
 }
 
 // Each body that an awake body touches is awake too, and has its own pairs tested:

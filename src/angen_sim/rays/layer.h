@@ -28,6 +28,11 @@ struct SceneQuery {
   /// interval.
   bool prepare(const Vec3& from, const Vec3& towards, double nearest, double farthest,
                Mobilities among);
+  /// From one point to another, without `margin` (m) at both.
+  bool prepare_between(const Vec3& from, const Vec3& to, double margin, Mobilities among) {
+    const double length = (to - from).norm();
+    return prepare(from, (to - from) / length, margin, length - margin, among);
+  }
   bool prepare(const Ray& ray, Mobilities among) {
     return prepare(ray.origin, ray.direction, ray.min, ray.max, among);
   }

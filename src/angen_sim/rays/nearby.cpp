@@ -8,9 +8,7 @@ namespace angen::rays {
 
 bool Nearby::blocked(const Vec3& from, const Vec3& to, double margin, Mobilities among) const {
   SceneQuery q;
-  const double length = (to - from).norm();
-  const Vec3 direction = (to - from) / length;
-  if (!q.prepare(from, direction, margin, length - margin, among)) return false;
+  if (!q.prepare_between(from, to, margin, among)) return false;
   Intersection found;
   return std::any_of(solids_.begin(), solids_.end(), [&](const Solid* solid) {
     return q.wants(*solid, true) &&

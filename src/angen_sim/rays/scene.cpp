@@ -323,10 +323,8 @@ Eigen::AlignedBox3d Scene::bounds(ShapeId shape) const {
 
 bool Scene::blocked(const Vec3& from, const Vec3& to, double margin, Mobilities among) const {
   SceneQuery q;
-  const double length = (to - from).norm();
-  const Vec3 direction = (to - from) / length;
   impl_->prepare(among);
-  return q.prepare(from, direction, margin, length - margin, among) && impl_->any(q, among);
+  return q.prepare_between(from, to, margin, among) && impl_->any(q, among);
 }
 
 Nearby Scene::near(const Eigen::AlignedBox3d& box) const {
@@ -457,8 +455,7 @@ std::vector<std::uint32_t> Scene::standing_changes(std::uint64_t& mark) const {
   }
   const auto first = static_cast<std::ptrdiff_t>(known - impl_->forgotten);
   indices.assign(impl_->changes.begin() + first, impl_->changes.end());
-  std::sort(indices.begin(), indices.end());
-  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  sort_unique(indices);
   return indices;
 }
 

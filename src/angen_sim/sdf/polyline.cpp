@@ -90,8 +90,7 @@ class Prism {
   void add_caps() {
     std::vector<double> cuts;
     for (const Edge& edge : edges_) cuts.insert(cuts.end(), {edge.low.y(), edge.high.y()});
-    std::sort(cuts.begin(), cuts.end());
-    cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+    sort_unique(cuts);
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) add_strip(cuts[i], cuts[i + 1]);
   }
 
