@@ -95,6 +95,23 @@ std::optional<double> parse_finite(const std::string& text) {
 
 std::optional<int> parse_integer(const std::string& text) { return parse<int>(text); }
 
+Numbers numbers_in(const std::string& text) {
+  Numbers found;
+  const char* blanks = " \t\r\n\f\v";
+  for (std::size_t at = text.find_first_not_of(blanks); at != std::string::npos;) {
+    const std::size_t end = text.find_first_of(blanks, at);
+    const std::string word = text.substr(at, end == std::string::npos ? end : end - at);
+    const std::optional<double> value = parse_number(word);
+    if (!value) {
+      found.bad = word;
+      return found;
+    }
+    found.values.push_back(*value);
+    at = end == std::string::npos ? end : text.find_first_not_of(blanks, end);
+  }
+  return found;
+}
+
 std::string number_text(double value) {
   if (std::isnan(value)) return "nan";  // whatever its sign
   char buffer[32];

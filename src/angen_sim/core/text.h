@@ -4,6 +4,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace angen {
 
@@ -27,6 +28,13 @@ std::optional<double> parse_number(const std::string& text);
 /// parse_number(), but none for infinity and NaN.
 std::optional<double> parse_finite(const std::string& text);
 std::optional<int> parse_integer(const std::string& text);
+
+/// The numbers of a text, up to the first word that is not one.
+struct Numbers {
+  std::vector<double> values;
+  std::string bad;  // the first word that is not a number, empty when all are
+};
+Numbers numbers_in(const std::string& text);
 
 /// The shortest text that parse_number() reads as the same value.
 std::string number_text(double value);

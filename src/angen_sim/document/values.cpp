@@ -8,23 +8,6 @@
 
 namespace angen::load {
 
-Numbers numbers_in(const std::string& text) {
-  Numbers found;
-  const char* blanks = " \t\r\n\f\v";
-  for (std::size_t at = text.find_first_not_of(blanks); at != std::string::npos;) {
-    const std::size_t end = text.find_first_of(blanks, at);
-    const std::string word = text.substr(at, end == std::string::npos ? end : end - at);
-    const std::optional<double> value = parse_number(word);
-    if (!value) {
-      found.bad = word;
-      return found;
-    }
-    found.values.push_back(*value);
-    at = end == std::string::npos ? end : text.find_first_not_of(blanks, end);
-  }
-  return found;
-}
-
 std::vector<double> numbers_of(const Element& element, std::size_t count) {
   const Numbers found = numbers_in(element.text);
   const std::string want = count == 1 ? "one number" : std::to_string(count) + " numbers";

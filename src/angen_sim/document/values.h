@@ -5,16 +5,10 @@
 
 #include "core/element.h"
 #include "core/pose.h"
+#include "core/text.h"
 
 /// Numbers, flags and poses out of elements' texts; a wrong one throws Error with file and line.
 namespace angen::load {
-
-/// The numbers of a text, up to the first word that is not one.
-struct Numbers {
-  std::vector<double> values;
-  std::string bad;  // the first word that is not a number, empty when all are
-};
-Numbers numbers_in(const std::string& text);
 
 /// Exactly `count` finite numbers.
 std::vector<double> numbers_of(const Element& element, std::size_t count);

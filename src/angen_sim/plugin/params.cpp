@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
 
 #include "core/limits.h"
 #include "core/lists.h"
@@ -51,26 +50,24 @@ void collect(const Element& parent, const std::string& path, std::vector<const E
   }
 }
 
-std::vector<double> numbers_in(const Element& given, const std::string& path, std::size_t count,
-                               const std::string& unit) {
+std::vector<double> row_in(const Element& given, const std::string& path, std::size_t count,
+                           const std::string& unit) {
   const auto rejected = [&](const std::string& what) {
     return Error(given.source, "<" + path + "> has " + what);
   };
-  std::istringstream words(given.text);
-  std::vector<double> row;
-  std::string word;
-  while (words >> word) {
-    const std::optional<double> value = parse_finite(word);
-    if (!value) throw rejected(word.insert(0, 1, '"').append("\", must be a finite number"));
-    const std::string problem = limit_problem(limit_of_unit(unit), *value);
-    if (!problem.empty()) throw rejected(word.append("; ").append(problem));
-    row.push_back(*value);
+  const Numbers found = numbers_in(given.text);
+  if (!found.bad.empty()) throw rejected("\"" + found.bad + "\", must be a finite number");
+  for (const double value : found.values) {
+    const std::string text = number_text(value);
+    if (!std::isfinite(value)) throw rejected("\"" + text + "\", must be a finite number");
+    const std::string problem = limit_problem(limit_of_unit(unit), value);
+    if (!problem.empty()) throw rejected(text + "; " + problem);
   }
-  if (row.size() != count) {
-    throw rejected(std::to_string(row.size()) + " numbers, must have " + std::to_string(count) +
-                   (unit.empty() ? "" : " (" + unit + ")"));
+  if (found.values.size() != count) {
+    throw rejected(std::to_string(found.values.size()) + " numbers, must have " +
+                   std::to_string(count) + (unit.empty() ? "" : " (" + unit + ")"));
   }
-  return row;
+  return found.values;
 }
 
 }  // namespace
@@ -184,7 +181,7 @@ std::vector<std::vector<double>> Params::rows(const std::string& path, std::size
   note(path, std::to_string(count) + " numbers, any number of times", "", unit, doc);
   std::vector<std::vector<double>> result;
   for (const Element* given : all(path)) {
-    result.push_back(numbers_in(*given, path, count, unit));
+    result.push_back(row_in(*given, path, count, unit));
   }
   return result;
 }
@@ -197,7 +194,7 @@ std::vector<double> Params::row(const std::string& path, const std::vector<doubl
   }
   const Element* given =
       take(path, std::to_string(fallback.size()) + " numbers", numbers, unit, doc);
-  return given == nullptr ? fallback : numbers_in(*given, path, fallback.size(), unit);
+  return given == nullptr ? fallback : row_in(*given, path, fallback.size(), unit);
 }
 
 std::vector<std::string> Params::names(const std::string& path) const {

@@ -140,6 +140,19 @@ TEST(Params, RowsAreReadInOrderAndMustBeWhole) {
             "test.sdf:1: <waypoint> has 3 numbers, must have 4 (m)");
 }
 
+TEST(Params, ARowIsGivenOnceOrIsTheFallback) {
+  Params params(plugin_element({{"position", "0 1 2"}, {"magnet", "1"}, {"magnet", "2"}}));
+  EXPECT_EQ(params.row("position", {7, 7, 7}, "m", ""), (std::vector<double>{0, 1, 2}));
+  EXPECT_EQ(params.row("place", {0.5, 0}, "m", ""), (std::vector<double>{0.5, 0}));
+  EXPECT_EQ(params.docs().back().fallback, "0.5 0");
+  EXPECT_EQ(complaint([&] {
+              params.row("position", {0, 0}, "m", "");
+            }),
+            "test.sdf:1: <position> has 3 numbers, must have 2 (m)");
+  EXPECT_EQ(complaint([&] { params.row("magnet", {0}, "m", ""); }),
+            "test.sdf:1: <magnet> is given twice, one is enough");
+}
+
 TEST(Params, TheUpdateRateBecomesAPeriod) {
   const Element sensor = element("sensor", "", {element("update_rate", "20")});
   EXPECT_EQ(Params(plugin_element({}), &sensor).update_period(), 50'000'000);
