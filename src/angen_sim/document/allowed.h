@@ -22,10 +22,13 @@ struct SearchPaths {
   DefaultDialect default_dialect = DefaultDialect::kOwn;
 
   /// ANGEN_MODEL_PATH, GAZEBO_MODEL_PATH, `beside`, the installed worlds/models;
-  /// GAZEBO_RESOURCE_PATH for resources; ROS_PACKAGE_PATH; ANGEN_ALLOW_PATHS=true;
+  /// GAZEBO_RESOURCE_PATH for resources; ROS_PACKAGE_PATH; ANGEN_ALLOW_PATHS=true or `allow_any`;
   /// ANGEN_STRICT=true|false, kAuto without it.
-  static SearchPaths from_environment(const std::string& beside = "");
+  static SearchPaths from_environment(const std::string& beside = "", bool allow_any = false);
 };
+
+/// The folder of models that comes with a world's file.
+std::string models_beside(const std::string& world);
 
 /// The files that a document may name: those of the model and resource paths, of packages on
 /// ROS_PACKAGE_PATH, and in its own folder, wherever symbolic links lead. A folder of a path, or

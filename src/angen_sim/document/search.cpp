@@ -161,7 +161,11 @@ bool may_name(const std::string& path, const std::string& file, const Source& at
 
 }  // namespace
 
-SearchPaths SearchPaths::from_environment(const std::string& beside) {
+std::string models_beside(const std::string& world) {
+  return (fs::absolute(world).parent_path() / "models").string();
+}
+
+SearchPaths SearchPaths::from_environment(const std::string& beside, bool allow_any) {
   SearchPaths paths;
   add_path_list("ANGEN_MODEL_PATH", paths.models);
   add_path_list("GAZEBO_MODEL_PATH", paths.models);
@@ -172,7 +176,7 @@ SearchPaths SearchPaths::from_environment(const std::string& beside) {
   paths.models.push_back(fs::weakly_canonical(shipped, failed).string());
   add_path_list("GAZEBO_RESOURCE_PATH", paths.resources);
   add_path_list("ROS_PACKAGE_PATH", paths.packages);
-  paths.allow_any = allow_paths();
+  paths.allow_any = allow_any || allow_paths();
   paths.default_dialect = dialect_of_variable(std::getenv("ANGEN_STRICT"));
   return paths;
 }

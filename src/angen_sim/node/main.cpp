@@ -81,11 +81,6 @@ bool wait_for_master() {
   return true;
 }
 
-std::string folder_of(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  return slash == std::string::npos ? "." : path.substr(0, slash);
-}
-
 /// Throws Error if it does not load; prints warnings on stderr.
 angen::desc::World read(const std::string& path) {
   if (path.empty()) throw angen::Error("'': not a path; give the file of a world");
@@ -307,7 +302,7 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
   }
   settings.odometry_in_world = odom_parent == "world";
   settings.replay = replay.get();
-  settings.models = replay ? replay->models() : folder_of(path) + "/models";
+  settings.models = replay ? replay->models() : angen::load::models_beside(path);
   settings.topics = angen::node::topics_named(param_or<std::string>("~topics", "sensor"));
   const auto rescue_path = param_or<std::string>("~rescue", default_rescue_path());
   const double seed_given = number_param("~seed", kDefaultSeed, 0.0);

@@ -28,17 +28,6 @@ std::size_t index_of(const sim::SharedArray<Entry>& entries, const std::string& 
               join_names(known));
 }
 
-std::string folder_of(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  return slash == std::string::npos ? "." : path.substr(0, slash);
-}
-
-load::SearchPaths search_paths(const std::string& beside, bool allow_paths) {
-  load::SearchPaths paths = load::SearchPaths::from_environment(beside);
-  paths.allow_any = paths.allow_any || allow_paths;
-  return paths;
-}
-
 template <class Entry>
 World::Brief brief(const Entry& entry, const Reading* reading, Nanoseconds stamp) {
   const Kind& kind = entry.plugin->kind();
@@ -60,7 +49,7 @@ std::atomic<bool>& interrupted() {
 
 World::World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalog> catalog,
              const std::string& log, bool allow_paths)
-    : paths_(search_paths(folder_of(path) + "/models", allow_paths)),
+    : paths_(load::SearchPaths::from_environment(load::models_beside(path), allow_paths)),
       owned_(std::make_unique<sim::Simulation>(load::world(path, allow_paths), seed,
                                                std::move(catalog))),
       simulation_(*owned_) {
@@ -76,7 +65,7 @@ World::World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalo
 
 World::World(const std::string& text, const std::string& name, std::uint64_t seed,
              std::shared_ptr<Catalog> catalog, bool allow_paths)
-    : paths_(search_paths("", allow_paths)),
+    : paths_(load::SearchPaths::from_environment("", allow_paths)),
       owned_(std::make_unique<sim::Simulation>(load::world_from_text(text, name, paths_), seed,
                                                std::move(catalog))),
       simulation_(*owned_) {

@@ -25,18 +25,15 @@ std::string file_hash(const std::string& path) {
   }
 }
 
-load::SearchPaths paths_of(const std::string& models) {
-  return load::SearchPaths::from_environment(models);
-}
-
 Origin origin_of(const std::string& world, bool allow_any) {
   const fs::path file = fs::absolute(world).lexically_normal();
-  return {file.string(), load::world_text(world, allow_any),
-          (file.parent_path() / "models").string()};
+  return {file.string(), load::world_text(world, allow_any), load::models_beside(file.string())};
 }
 
 Recorder::Recorder(std::string file, const Origin& origin, sim::Simulation& simulation)
-    : path_(std::move(file)), simulation_(simulation), paths_(paths_of(origin.models)) {
+    : path_(std::move(file)),
+      simulation_(simulation),
+      paths_(load::SearchPaths::from_environment(origin.models)) {
   file_ = open(path_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_APPEND | O_CLOEXEC, 0644);
   if (file_ < 0) {
     const std::string why =

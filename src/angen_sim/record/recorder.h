@@ -72,7 +72,4 @@ class Recorder {
 /// The hash of a file that a log names; "" if it cannot be read.
 std::string file_hash(const std::string& path);
 
-/// Search paths of a log's models, besides the usual folders.
-load::SearchPaths paths_of(const std::string& models);
-
 }  // namespace angen::record

@@ -34,7 +34,7 @@ bool is_near(const Pose& text, const Pose& exact) {
 // is here, which would have it searched as well.
 std::string models_beside_world(const LogHeader& header) {
   if (!is_plain_file(header.world)) return "";
-  return fs::path(header.models) == folder_of(header.world) / "models" ? header.models : "";
+  return fs::path(header.models) == load::models_beside(header.world) ? header.models : "";
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ Replay::Replay(Log log, std::shared_ptr<Catalog> catalog, ReplaySettings setting
     : log_(std::move(log)),
       settings_(settings),
       models_(models_beside_world(log_.header)),
-      paths_(paths_of(models_)) {
+      paths_(load::SearchPaths::from_environment(models_)) {
   const LogHeader& header = log_.header;
   const Located located = this->located(header.sdf, header.files, 1);
   desc::World world = load::world_from_text(located.sdf, log_.path, located.paths);

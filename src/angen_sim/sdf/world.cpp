@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -21,8 +20,6 @@
 #include "sdf/reader.h"
 
 namespace angen::load {
-
-namespace fs = std::filesystem;
 
 const Element* chosen_physics(const Element& world) {
   const Element* chosen = nullptr;
@@ -361,10 +358,7 @@ desc::World describe_world(Reading& reading) {
 }
 
 SearchPaths paths_beside(const std::string& path, bool allow_any) {
-  SearchPaths paths =
-      SearchPaths::from_environment((fs::absolute(path).parent_path() / "models").string());
-  paths.allow_any = paths.allow_any || allow_any;
-  return paths;
+  return SearchPaths::from_environment(models_beside(path), allow_any);
 }
 
 }  // namespace
