@@ -12,6 +12,14 @@ namespace angen::robots {
 
 constexpr double kExact = 1e-6;  // rad; a covariance of zeros says that it is not known
 
+std::vector<ContactRef> own_collisions(Wiring& wiring) {
+  std::vector<ContactRef> collisions;
+  for (const std::string& name : wiring.collision_names()) {
+    collisions.push_back(wiring.collision(name));
+  }
+  return collisions;
+}
+
 std::vector<double> numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 std::vector<double> numbers(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }

@@ -134,6 +134,9 @@ Vec3 three_numbers(Params& params, const char* path, const std::string& unit, co
 /// Adds normally distributed errors.
 Vec3 with_errors(const Vec3& value, const Vec3& stddev, Rng& rng);
 
+/// All collisions of the sensor's own link.
+std::vector<ContactRef> own_collisions(Wiring& wiring);
+
 std::vector<double> numbers(const Vec3& v);
 std::vector<double> numbers(const Quat& q);  // x, y, z, w
 

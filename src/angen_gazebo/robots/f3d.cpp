@@ -23,9 +23,7 @@ class F3d : public Sensor {
     const std::string frame = params.text("frameName", "world", "frame_id of its message");
     frame_ = frame.empty() ? "world" : frame;
     link_ = wiring.link("");
-    for (const std::string& name : wiring.collision_names()) {
-      collisions_.push_back(wiring.collision(name));
-    }
+    collisions_ = own_collisions(wiring);
   }
 
   void read(const View& view, Hits, Rng&, Reading& reading) override {

@@ -9,6 +9,7 @@
 
 #include "core/lists.h"
 #include "plugin/registration.h"
+#include "plugin/touches.h"
 #include "plugin/view.h"
 #include "plugin/wiring.h"
 #include "robots/joint_states.h"
@@ -81,54 +82,27 @@ void warn_missing(Params& params, const char* path, const char* what, const std:
                         " sensor of that name");
 }
 
-/// What touches some collisions now, or did since the last reading.
-class Touch {
- public:
-  /// Watches the collisions of the contact sensor that the parameter names. Returns whether there
-  /// are any; warns of a name that the model's contact sensors do not have.
-  bool watch(const char* path, const std::string& name, Params& params, Wiring& wiring) {
-    window_ = params.update_period();
-    const std::optional<SensorPart> sensor = wiring.sensor(name);
-    const Element* contact = sensor ? sensor->element.child("contact") : nullptr;
-    if (contact == nullptr) {
-      if (!name.empty()) warn_missing(params, path, "contact", name);
-      return false;
-    }
-    for (const Element& child : contact->children) {
-      if (child.name != "collision") continue;
-      try {
-        collisions_.push_back(wiring.collision(sensor->link, child.text));
-      } catch (const Error& unknown) {
-        params.warn(path, "sensor '" + name + "': " + unknown.diagnostics().front().message);
-      }
-    }
-    return !collisions_.empty();
+/// The collisions of the contact sensor that the parameter names; warns of a name that the model's
+/// contact sensors do not have.
+std::vector<ContactRef> watched_by(const char* path, const std::string& name, Params& params,
+                                   Wiring& wiring) {
+  std::vector<ContactRef> collisions;
+  const std::optional<SensorPart> sensor = wiring.sensor(name);
+  const Element* contact = sensor ? sensor->element.child("contact") : nullptr;
+  if (contact == nullptr) {
+    if (!name.empty()) warn_missing(params, path, "contact", name);
+    return collisions;
   }
-  void watch_link(Wiring& wiring) {
-    for (const std::string& name : wiring.collision_names()) {
-      collisions_.push_back(wiring.collision(name));
+  for (const Element& child : contact->children) {
+    if (child.name != "collision") continue;
+    try {
+      collisions.push_back(wiring.collision(sensor->link, child.text));
+    } catch (const Error& unknown) {
+      params.warn(path, "sensor '" + name + "': " + unknown.diagnostics().front().message);
     }
   }
-  bool watches() const { return !collisions_.empty(); }
-
-  std::vector<ContactPair> pairs(const View& view) {
-    std::vector<ContactPair> all;
-    lasting_ = true;
-    for (const ContactRef collision : collisions_) {
-      std::vector<ContactPair> found = view.contacts_within(collision, window_);
-      if (found.size() != view.contacts(collision).size()) lasting_ = false;
-      for (ContactPair& pair : found) all.push_back(std::move(pair));
-    }
-    return all;
-  }
-  /// Whether all of the last pairs touch still.
-  bool lasting() const { return lasting_; }
-
- private:
-  std::vector<ContactRef> collisions_;
-  Nanoseconds window_ = 0;
-  bool lasting_ = true;
-};
+  return collisions;
+}
 
 }  // namespace
 
@@ -232,7 +206,9 @@ class KobukiBumper : public Sensor {
   void configure(Params& params, Wiring& wiring) override {
     const KobukiSettings s = read_kobuki(params);
     link_ = wiring.link("");
-    if (!touch_.watch(kBumperName, s.bumper, params, wiring)) touch_.watch_link(wiring);
+    const Nanoseconds window = params.update_period();
+    const std::vector<ContactRef> named = watched_by(kBumperName, s.bumper, params, wiring);
+    touch_.watch(named.empty() ? own_collisions(wiring) : named, window);
   }
   void read(const View& view, Hits, Rng&, Reading& reading) override {
     const Pose to_base = view.link(link_).pose.inverse();
@@ -262,7 +238,7 @@ class KobukiBumper : public Sensor {
     return bearing > 0.0 ? 0 : 2;
   }
 
-  Touch touch_;
+  Touches touch_;
   LinkRef link_;
 };
 
@@ -280,13 +256,14 @@ class KobukiWheelDrop : public Sensor {
   void configure(Params& params, Wiring& wiring) override {
     const KobukiSettings s = read_kobuki(params);
     for (std::size_t i = 0; i < kWheels.size(); ++i) {
-      touches_.at(i).watch(kDropNames.at(i), s.drops.at(i), params, wiring);
+      const Nanoseconds window = params.update_period();
+      touches_.at(i).watch(watched_by(kDropNames.at(i), s.drops.at(i), params, wiring), window);
     }
   }
   void read(const View& view, Hits, Rng&, Reading& reading) override {
     for (std::size_t i = 0; i < kWheels.size(); ++i) {
-      Touch& touch = touches_.at(i);
-      reading.set(kWheels.at(i), touch.watches() && touch.pairs(view).empty());
+      Touches& touch = touches_.at(i);
+      reading.set(kWheels.at(i), touch.any() && touch.pairs(view).empty());
     }
   }
   Nanoseconds idle_until(const Ahead&) const override {
@@ -294,7 +271,7 @@ class KobukiWheelDrop : public Sensor {
   }
 
  private:
-  std::array<Touch, kWheels.size()> touches_;
+  std::array<Touches, kWheels.size()> touches_;
 };
 
 /// Looks at the floor along the first ray of each of three ray sensors, as Gazebo's plug-in does.

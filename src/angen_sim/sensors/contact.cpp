@@ -1,9 +1,9 @@
 // libgazebo_ros_bumper.so
-#include <algorithm>
 #include <optional>
 #include <string>
 
 #include "plugin/registration.h"
+#include "plugin/touches.h"
 #include "plugin/view.h"
 #include "plugin/wiring.h"
 #include "sensors/debounce.h"
@@ -36,13 +36,6 @@ struct Lists {
   }
 };
 
-bool has(const std::vector<ContactPair>& pairs, const std::string& first,
-         const std::string& second) {
-  return std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) {
-    return pair.first == first && pair.second == second;
-  });
-}
-
 }  // namespace
 
 /// All bodies that touch some collisions of its link, also sleeping ones, and those that touched
@@ -58,22 +51,13 @@ class Contact : public Sensor {
                                          "how often it samples, given a debounce", {1e-3, 1e6}));
     if (debounce_.duration > 0) sample_period_ = period;
     params.text("bumperTopicName", "/angen/contact/NAME", "where it publishes");
-    if (debounce_.duration == 0) window_ = params.update_period();
+    const Nanoseconds window = debounce_.duration == 0 ? params.update_period() : 0;
     read_frame(params, wiring);
-    collisions_ = read_watched(params, wiring, "a contact sensor");
+    touches_.watch(read_watched(params, wiring, "a contact sensor"), window);
   }
 
   void read(const View& view, Hits, Rng&, Reading& reading) override {
-    std::vector<ContactPair> pairs;
-    lasting_ = true;
-    for (const ContactRef collision : collisions_) {
-      std::vector<ContactPair> found = view.contacts_within(collision, window_);
-      if (found.size() != view.contacts(collision).size()) lasting_ = false;
-      for (ContactPair& pair : found) {
-        // Two watched collisions that touch each other see the same pair from both sides.
-        if (!has(pairs, pair.second, pair.first)) pairs.push_back(std::move(pair));
-      }
-    }
+    const std::vector<ContactPair> pairs = touches_.pairs(view);
     const bool touched = !pairs.empty();
     if (!pressed_) pressed_ = touched;
     if (debounce_.changes(*pressed_, touched, view.time())) {
@@ -98,7 +82,7 @@ class Contact : public Sensor {
 
   /// 0 while it waits for the end of a debounce, or has contacts that have ended.
   Nanoseconds idle_until(const Ahead&) const override {
-    return !debounce_.waits() && lasting_ ? kForever : 0;
+    return !debounce_.waits() && touches_.lasting() ? kForever : 0;
   }
 
  private:
@@ -114,10 +98,8 @@ class Contact : public Sensor {
     }
   }
 
-  std::vector<ContactRef> collisions_;
+  Touches touches_;
   Debounce debounce_;
-  Nanoseconds window_ = 0;             // contacts that ended before are not reported
-  bool lasting_ = true;                // all that it reported last touched then
   std::string frame_ = "world";        // frame of points and forces
   std::optional<LinkRef> frame_link_;  // none: it is the world
   std::optional<bool> pressed_;        // none before the first reading
