@@ -60,6 +60,13 @@ struct Reading {
   std::string event;    // set when something worth an event happened: "motion", "opened"
   std::string event_detail;
 
+  /// Has it sent at once, with that event.
+  void announce(std::string what, std::string detail = "") {
+    urgent = true;
+    event = std::move(what);
+    event_detail = std::move(detail);
+  }
+
   template <class T>
   void set(const char* name, T value) {
     for (auto& [key, old] : fields) {

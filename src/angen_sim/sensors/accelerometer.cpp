@@ -79,7 +79,7 @@ class Accelerometer : public Sensor {
       if (!moving_) {
         moving_ = true;
         speed_ = rise_ = 0.0;
-        say("moved", reading);
+        reading.announce("moved");
       }
     }
     if (!moving_) return;
@@ -94,9 +94,9 @@ class Accelerometer : public Sensor {
     const bool lower = rise_ < -lift_threshold_;
     if (higher || lower) {
       lifted_ = height_ > lift_threshold_;
-      say(higher ? "lifted" : "put_down", reading);
+      reading.announce(higher ? "lifted" : "put_down");
     } else {
-      say("rests", reading);
+      reading.announce("rests");
     }
     if (!lifted_) height_ = 0.0;
   }
@@ -106,12 +106,7 @@ class Accelerometer : public Sensor {
     const bool tilted = tilted_ ? tilt > 0.8 * tilt_threshold_ : tilt > tilt_threshold_;
     if (tilted == tilted_) return;
     tilted_ = tilted;
-    say(tilted ? "tilted" : "upright", reading);
-  }
-
-  static void say(const char* event, Reading& reading) {
-    reading.event = event;
-    reading.urgent = true;
+    reading.announce(tilted ? "tilted" : "upright");
   }
 
   LinkRef link_;

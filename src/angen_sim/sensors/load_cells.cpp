@@ -117,9 +117,8 @@ class LoadCells : public Sensor {
     last_ = weight;
     if (!settled_ || std::abs(weight - told_) < step_) return;
     if (has_told_) {
-      reading.event = weight > told_ ? "placed" : "removed";
-      reading.event_detail = std::to_string(std::lround(1000.0 * (weight - told_))) + " g";
-      reading.urgent = true;
+      reading.announce(weight > told_ ? "placed" : "removed",
+                       std::to_string(std::lround(1000.0 * (weight - told_))) + " g");
     }
     has_told_ = true;
     told_ = weight;

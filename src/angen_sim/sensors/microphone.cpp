@@ -107,8 +107,7 @@ class Microphone : public Sensor {
     const double level = to_decibels(sum);
     const bool loud = level > (loud_ ? threshold_ - kHysteresis : threshold_);
     if (loud != loud_) {
-      reading.event = loud ? "loud" : "quiet";
-      reading.urgent = true;
+      reading.announce(loud ? "loud" : "quiet");
     }
     loud_ = loud;
     reading.set("level", level);

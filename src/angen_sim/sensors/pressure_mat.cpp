@@ -35,9 +35,7 @@ class PressureMat : public Sensor {
     const bool loaded = pressed_ ? load > release_ : load > threshold_;
     if (debounce_.changes(pressed_, loaded, view.time())) {
       pressed_ = loaded;
-      reading.event = pressed_ ? "pressed" : "released";
-      reading.event_detail = text_of("load ", load, " kg");
-      reading.urgent = true;
+      reading.announce(pressed_ ? "pressed" : "released", text_of("load ", load, " kg"));
     }
     reading.set("pressed", pressed_);
     reading.set("load", load);

@@ -38,9 +38,7 @@ class Reed : public Sensor {
     const double distance = (magnet - view.pose().position).norm();
     const bool closed = closed_.value_or(false) ? distance <= release_ : distance <= operate_;
     if (closed_ && closed != *closed_) {
-      reading.event = closed ? "closed" : "opened";
-      reading.event_detail = text_of("magnet at ", distance, " m");
-      reading.urgent = true;
+      reading.announce(closed ? "closed" : "opened", text_of("magnet at ", distance, " m"));
     }
     closed_ = closed;
     reading.set("closed", closed);

@@ -74,8 +74,7 @@ class SmartPlug : public Sensor {
     metering_.energy = metering_.energy_at(at);
     metering_.since = at;
     if ((power > standby_) != (metering_.power > standby_)) {
-      reading.event = power > standby_ ? "on" : "off";
-      reading.urgent = true;
+      reading.announce(power > standby_ ? "on" : "off");
     }
     metering_.power = power;
   }

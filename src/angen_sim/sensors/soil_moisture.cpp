@@ -33,8 +33,7 @@ class SoilMoisture : public Sensor {
     }
     const bool dry = moisture < dry_below_;
     if (dry != dry_) {
-      reading.event = dry ? "dry" : "wet";
-      reading.urgent = true;
+      reading.announce(dry ? "dry" : "wet");
     }
     dry_ = dry;
     reading.set("moisture", moisture);

@@ -187,9 +187,8 @@ void Pyroelectric::read(const View& view, Hits, Rng& rng, Reading& reading) {
   if (quiet_until_ > view.time()) heat_.rest();
   state_.write(signal, reading);
   if (state_.motion == was_on) return;
-  reading.urgent = true;
-  reading.event = state_.motion ? "motion" : "still";
-  reading.event_detail = alarm ? "false alarm" : text_of("signal ", 1e6 * signal, " uV");
+  reading.announce(state_.motion ? "motion" : "still",
+                   alarm ? "false alarm" : text_of("signal ", 1e6 * signal, " uV"));
 }
 
 Nanoseconds Pyroelectric::idle_until(const Ahead&) const {
