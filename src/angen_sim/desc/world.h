@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/anatomy.h"
@@ -88,6 +89,17 @@ struct Light {
   std::optional<double> level;  // percent at the start, of a lamp without a plug-in
   Source source;
 };
+
+/// Whether they shine alike under one name, wherever they are described.
+inline bool operator==(const Light& a, const Light& b) {
+  const auto numbers = [](const Light& light) {
+    return std::tie(light.name, light.type, light.intensity, light.range, light.inner_angle,
+                    light.outer_angle, light.width, light.height, light.length, light.radius,
+                    light.half_angle, light.photometry, light.cast_shadows);
+  };
+  return numbers(a) == numbers(b) && a.pose == b.pose && a.diffuse == b.diffuse &&
+         a.direction == b.direction;
+}
 
 struct Sensor {
   std::string name;

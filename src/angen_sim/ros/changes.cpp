@@ -83,16 +83,6 @@ Numbers by_model(const Numbers& models, const sim::SharedArray<Entry>& before,
   return numbers;
 }
 
-bool equal(const desc::Light& a, const desc::Light& b) {
-  const auto numbers = [](const desc::Light& light) {
-    return std::tie(light.name, light.type, light.intensity, light.range, light.inner_angle,
-                    light.outer_angle, light.width, light.height, light.length, light.radius,
-                    light.half_angle, light.photometry, light.cast_shadows);
-  };
-  return numbers(a) == numbers(b) && a.pose == b.pose && a.diffuse == b.diffuse &&
-         a.direction == b.direction;
-}
-
 /// Lights of the world's own, which are before all others.
 void relate_own(Numbers& numbers, const sim::SharedArray<sim::LightEntry>& before,
                 const sim::SharedArray<sim::LightEntry>& now) {
@@ -100,7 +90,7 @@ void relate_own(Numbers& numbers, const sim::SharedArray<sim::LightEntry>& befor
   std::uint32_t at = 0;
   for (std::uint32_t i = 0; i < now.size() && is_own(now[i]); ++i) {
     for (std::uint32_t j = at; j < before.size() && is_own(before[j]); ++j) {
-      if (!equal(before[j].light, now[i].light)) continue;
+      if (!(before[j].light == now[i].light)) continue;
       relate(numbers, j, i);
       at = j + 1;
       break;

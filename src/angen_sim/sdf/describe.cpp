@@ -92,17 +92,6 @@ void add_visuals(const Element& element, const Pose& pose, Session& session, des
   paint(shapes.back(), element.source, session, link.visuals.back().material);
 }
 
-// The pose of one <camera> of several on its sensor.
-Pose pose_of(const Element& camera) {
-  Pose pose;
-  const Element* given = camera.child("pose");
-  if (given == nullptr) return pose;
-  const std::vector<double> v = numbers_of(*given, 6);
-  pose.position = {v[0], v[1], v[2]};
-  pose.rotation = from_rpy(v[3], v[4], v[5]);
-  return pose;
-}
-
 // A multicamera is as many cameras, each with its topics below its name. As in Gazebo, only the
 // right one of a pair has a baseline.
 std::vector<desc::Sensor> sensors_of(const Element& element, const Pose& pose, Session& session) {
@@ -115,7 +104,7 @@ std::vector<desc::Sensor> sensors_of(const Element& element, const Pose& pose, S
     const std::string name = name_of(camera);
     one.name = all.name + "_" + name;
     one.type = "camera";
-    one.pose = pose * pose_of(camera);
+    one.pose = pose * child_pose(camera);
     remove_children(one.element, "camera");
     one.element.children.push_back(camera);
     std::string scoped = all.plugin_element.child_text("cameraName");

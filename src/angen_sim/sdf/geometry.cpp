@@ -77,18 +77,12 @@ Shape heightmap(const Reader& element, Pose& pose, Session& session) {
   Shape shape;
   shape.type = Shape::Type::kHeightmap;
   const Element& uri = element.need("uri");
-  element.need("size");
-  const Vec3 size = element.vector("size", {}, Range::positive(limits::kLength));
+  const Vec3 size = element.need_vector("size", Range::positive(limits::kLength));
   const Vec3 at = element.vector("pos", Vec3::Zero(), Range::any(limits::kPosition));
   const std::string file = need_uri(uri.text, "heightmap", uri.source, session);
   shape.heights = read_heightmap(file, size, uri.source);
   pose.position += pose.rotation * at;
   return shape;
-}
-
-double length_of(const Reader& element, const char* key) {
-  element.need(key);
-  return element.number(key, 0.0, Range::size());
 }
 
 // `pose` is turned or moved where SDF says more than Shape does (a plane's normal, a heightmap's
@@ -103,9 +97,8 @@ Shape shape_of(const Reader& element, Pose& pose, Session& session) {
   if (name == "plane") return plane(element, pose);
   if (name == "heightmap") return heightmap(element, pose, session);
   if (name == "box") {
-    element.need("size");
     shape.type = Shape::Type::kBox;
-    shape.size = element.vector("size", {}, Range::size());
+    shape.size = element.need_vector("size", Range::size());
     return shape;
   }
   const auto type = round.find(name);
@@ -115,8 +108,10 @@ Shape shape_of(const Reader& element, Pose& pose, Session& session) {
     return shape;  // none, as a mesh that is missing
   }
   shape.type = type->second;
-  shape.radius = length_of(element, "radius");
-  if (shape.type != Shape::Type::kSphere) shape.length = length_of(element, "length");
+  shape.radius = element.need_number("radius", Range::size());
+  if (shape.type != Shape::Type::kSphere) {
+    shape.length = element.need_number("length", Range::size());
+  }
   return shape;
 }
 

@@ -151,9 +151,8 @@ desc::Storey storey_of(const Element& element, const Pose& frame, Session& sessi
                 "<angen:storey> has no number from -1000 to 1000; write number=\"0\"");
   }
   storey.number = *value;
-  reader.need("angen:elevation");
   storey.elevation =
-      frame.position.z() + reader.number("angen:elevation", 0.0, Range::any(limits::kPosition));
+      frame.position.z() + reader.need_number("angen:elevation", Range::any(limits::kPosition));
   storey.height = reader.number("angen:height", Range::positive(limits::kLength));
   return storey;
 }
@@ -164,8 +163,7 @@ desc::Opening opening_of(const Element& element, const Pose& frame, Session& ses
   opening.source = element.source;
   opening.name = label_of(element);
   opening.pose = floor_pose(reader.need("angen:pose"), frame);
-  reader.need("angen:width");
-  opening.width = reader.number("angen:width", 0.0, Range::positive(limits::kLength));
+  opening.width = reader.need_number("angen:width", Range::positive(limits::kLength));
   opening.height = reader.number("angen:height", 2.1, Range::positive(limits::kLength));
   return opening;
 }

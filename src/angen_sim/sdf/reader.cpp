@@ -86,6 +86,16 @@ const Element& Reader::need(const std::string& key) const {
   throw Error(element_->source, "<" + element_->name + "> has no <" + key + ">; give it one");
 }
 
+double Reader::need_number(const std::string& key, const Range& range) const {
+  need(key);
+  return number(key, 0.0, range);
+}
+
+Vec3 Reader::need_vector(const std::string& key, const Range& range) const {
+  need(key);
+  return vector(key, Vec3::Zero(), range);
+}
+
 const std::string* Reader::attribute(const std::string& key) const {
   const std::string* found = element_ == nullptr ? nullptr : element_->attribute(key);
   if (found != nullptr) session_->read_attributes.emplace(element_, key);

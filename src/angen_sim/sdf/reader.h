@@ -55,6 +55,8 @@ class Reader {
   Reader block(const std::string& key) const { return {child(key), *session_}; }
   /// A child that must be there.
   const Element& need(const std::string& key) const;
+  double need_number(const std::string& key, const Range& range) const;
+  Vec3 need_vector(const std::string& key, const Range& range) const;
   const std::string* attribute(const std::string& key) const;
 
   double number(const std::string& key, double fallback, const Range& range = {}) const;

@@ -49,11 +49,6 @@ Element inertial_element(const desc::Inertial& inertial) {
   return element;
 }
 
-bool equal(const desc::Light& a, const desc::Light& b) {
-  return a.pose == b.pose && a.diffuse == b.diffuse && a.direction == b.direction &&
-         a.cast_shadows == b.cast_shadows;
-}
-
 void write_light(const desc::Light& light, Element& element) {
   replace_child(element, element_of("pose", pose_text(light.pose)));
   replace_child(element, element_of("diffuse", vector_text(light.diffuse.cast<double>()) + " 1"));
@@ -69,7 +64,7 @@ void write_link(const desc::Link& read, const desc::Link& now, Element& element)
     replace_child(element, element_of("gravity", now.gravity ? "true" : "false"));
   }
   for (std::size_t i = 0; i < std::min(read.lights.size(), now.lights.size()); ++i) {
-    if (equal(read.lights[i], now.lights[i])) continue;
+    if (read.lights[i] == now.lights[i]) continue;
     for (Element& child : element.children) {
       if (child.name == "light" && name_of(child) == now.lights[i].name) {
         write_light(now.lights[i], child);
@@ -183,7 +178,7 @@ void write_lights(const desc::World& read, const std::vector<LightState>& now, E
     if (part.name != "light") continue;
     const desc::Light& light = *state_of(part)->light;
     for (const desc::Light& before : read.lights) {
-      if (before.name == light.name && !equal(before, light)) write_light(light, part);
+      if (before.name == light.name && !(before == light)) write_light(light, part);
     }
   }
   for (const LightState& state : now) {
