@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <chrono>
 
+#include "node/wall_second.h"
 #include "ros/convert.h"
 
 namespace angen::node {
 namespace {
-
-constexpr std::chrono::seconds kWallSecond(1);
 
 Nanoseconds process_time() {
   timespec now{};

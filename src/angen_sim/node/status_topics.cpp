@@ -18,9 +18,6 @@ namespace angen::node {
 namespace {
 
 constexpr std::chrono::milliseconds kStill(100);
-constexpr std::chrono::seconds kStatusPeriod(1);
-
-double seconds(Pacer::Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
 template <class Value>
 void fill(const Value& value, Value& field) {
@@ -143,12 +140,9 @@ void Stats::start() {
 
 void Stats::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
   if (timing_) ticks_.add(watch_.lap());
-  if (now - sent_ < kStatusPeriod) return;
-  const double wall = seconds(now - sent_);
-  const double simulated = to_seconds(snapshot.time - sent_time_);
-  sent_ = now;
-  sent_time_ = snapshot.time;
-  publisher_.publish([&] { return message_of(snapshot, now, std::max(0.0, simulated / wall)); });
+  const std::optional<double> factor = wall_.end(snapshot.time, now);
+  if (!factor) return;
+  publisher_.publish([&] { return message_of(snapshot, now, *factor); });
 }
 
 angen_msgs::Stats Stats::message_of(const sim::Snapshot& snapshot, Pacer::Clock::time_point now,
@@ -252,18 +246,15 @@ Diagnostics::Diagnostics(ros::NodeHandle& node)
 void Diagnostics::publish(const sim::Snapshot& snapshot, double rate,
                           Pacer::Clock::time_point now) {
   note_faults(snapshot);
-  if (now - sent_ < kStatusPeriod) return;
-  const double wall = seconds(now - sent_);
-  const double factor = std::max(0.0, to_seconds(snapshot.time - sent_time_) / wall);
+  const std::optional<double> factor = wall_.end(snapshot.time, now);
+  if (!factor) return;
   publisher_.publish([&] {
     diagnostic_msgs::DiagnosticArray message;
     message.header.stamp = to_ros(snapshot.time);
-    message.status = {time_status(snapshot, rate, factor), physics_status(snapshot),
+    message.status = {time_status(snapshot, rate, *factor), physics_status(snapshot),
                       sensor_status(snapshot)};
     return message;
   });
-  sent_ = now;
-  sent_time_ = snapshot.time;
   failed_steps_ = snapshot.counts.failed_steps;
 }
 

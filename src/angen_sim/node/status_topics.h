@@ -13,6 +13,7 @@
 
 #include "core/stopwatch.h"
 #include "node/tick_times.h"
+#include "node/wall_second.h"
 #include "ros/lazy_publisher.h"
 #include "ros/pacer.h"
 #include "ros/readings.h"
@@ -49,8 +50,7 @@ class Stats {
 
   LazyPublisher publisher_;
   Pacer::Clock::time_point start_ = Pacer::Clock::now();
-  Pacer::Clock::time_point sent_ = start_;
-  Nanoseconds sent_time_ = 0;
+  WallSeconds wall_;
   Stopwatch watch_;
   bool timing_ = false;
   TickTimes ticks_;
@@ -117,8 +117,7 @@ class Diagnostics {
   Status sensor_status(const sim::Snapshot& snapshot) const;
 
   LazyPublisher publisher_;
-  Pacer::Clock::time_point sent_ = Pacer::Clock::now();
-  Nanoseconds sent_time_ = 0;
+  WallSeconds wall_;
   std::uint64_t failed_steps_ = 0;             // at the last message
   std::map<std::string, std::string> faults_;  // the last one of each sensor
 };

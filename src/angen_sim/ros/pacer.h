@@ -9,6 +9,8 @@
 
 namespace angen::node {
 
+constexpr std::chrono::seconds kWallSecond(1);
+
 /// An error message for a rate with steps of that length; empty if it is valid. Calls wait for the
 /// next tick.
 inline std::string rate_problem(double rate, Nanoseconds step) {

@@ -6,13 +6,12 @@
 
 #include "ros/convert.h"
 #include "ros/kinds/states.h"
+#include "ros/pacer.h"
 
 namespace angen::node {
 namespace {
 
 constexpr Nanoseconds kTransformPeriod = kSecond / 50;
-constexpr std::chrono::seconds kWholePeriod(
-    1);  // period of fixed frames; wall time, so also in a pause
 
 void add(tf2_msgs::TFMessage& message, Nanoseconds time, const std::string& parent,
          const std::string& child, const Pose& pose) {
@@ -95,7 +94,7 @@ void Transforms::on_structure(const sim::Snapshot& snapshot,
   robots_ = robots;
 }
 
-bool Transforms::whole_is_due() const { return Pacer::Clock::now() - whole_sent_ >= kWholePeriod; }
+bool Transforms::whole_is_due() const { return Pacer::Clock::now() - whole_sent_ >= kWallSecond; }
 
 void Transforms::fix(Nanoseconds now, const FrameTree* before) {
   tf2_msgs::TFMessage news;
