@@ -60,7 +60,7 @@ void ReadingLog::add_skipped(const sim::Snapshot& before, Nanoseconds end) {
 }
 
 void ReadingLog::add(const sim::SensorEntry& entry, const Reading& reading, Nanoseconds stamp) {
-  Fields& known = known_[entry.kind + "/" + entry.name];
+  Fields& known = known_[sim::full_name(entry)];
   for (const auto& [name, value] : reading.fields) {
     std::optional<Cell> cell = cell_of(value);
     if (!cell) continue;

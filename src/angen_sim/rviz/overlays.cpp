@@ -166,9 +166,9 @@ void Overlays::add_sensor(const sim::Structure& structure, std::uint32_t sensor)
       structure, entry.model, (described_pose(structure, entry.link) * entry.pose).position.z());
   const RosKind& kind = ros_kind(entry);
   if (rays_of(entry)) {
-    put(beams_, entry.kind + "/" + entry.name, std::move(overlay));
+    put(beams_, sim::full_name(entry), std::move(overlay));
   } else if (kind.caption && !entry.on_demand()) {
-    put(captions_, entry.kind + "/" + entry.name, std::move(overlay));
+    put(captions_, sim::full_name(entry), std::move(overlay));
   }
 }
 
@@ -185,7 +185,7 @@ void Overlays::add_device(const sim::Structure& structure, std::uint32_t device)
   overlay.offset.position = kOverModel;
   overlay.storey = scene::storey_suffix(structure, entry.model,
                                         structure.models[entry.model]->pose.position.z());
-  put(captions_, entry.kind + "/" + entry.name, std::move(overlay));
+  put(captions_, sim::full_name(entry), std::move(overlay));
 }
 
 void Overlays::add_label(const sim::Structure& structure, std::uint32_t device) {
@@ -206,7 +206,7 @@ void Overlays::add_label(const sim::Structure& structure, std::uint32_t device) 
     overlay.offset.position = model.links.front().pose.inverse() * place;
   }
   const std::string text = travels ? entry.name : entry.kind + " " + entry.name;
-  Overlay& kept = put(labels_, entry.kind + "/" + entry.name, std::move(overlay));
+  Overlay& kept = put(labels_, sim::full_name(entry), std::move(overlay));
   show(kept,
        text_marker(text, travels ? kMoverTextHeight : kDeviceTextHeight,
                    color(1.0F, 0.9F, 0.7F, 1.0F)),

@@ -86,7 +86,7 @@ std::vector<std::string> Building::device_names(const std::string& kind) const {
   std::vector<std::string> names;
   for (const LiveModel* live : with_devices()) {
     for (const DeviceInstance& device : live->devices) {
-      if (kind.empty()) names.push_back(Registry::key_of(device));
+      if (kind.empty()) names.push_back(full_name(device));
       if (device.kind == kind) names.push_back(device.name);
     }
   }

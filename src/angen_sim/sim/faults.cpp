@@ -25,8 +25,6 @@ const Field* alarm_of(const SensorEntry& entry) {
   return at == fields.end() ? nullptr : &*at;
 }
 
-std::string key_of(const SensorEntry& entry) { return entry.kind + "/" + entry.name; }
-
 std::shared_ptr<const Reading> stamped(const Reading& reading, Nanoseconds stamp) {
   auto made = std::make_shared<Reading>(reading);
   made->stamp = stamp;
@@ -50,7 +48,7 @@ std::string events_text(const std::vector<Event>& events, bool is_news) {
 std::size_t Faults::add(const SensorEntry& entry, const std::vector<Fault>& faults,
                         Nanoseconds now) {
   std::size_t given = 0;
-  const std::string key = key_of(entry);
+  const std::string key = full_name(entry);
   const bool alarms = alarm_of(entry) != nullptr;
   for (const Fault& fault : faults) {
     if (fault.kind == Fault::Kind::kFalseAlarm && !alarms) continue;
@@ -72,7 +70,7 @@ void Faults::follow(std::shared_ptr<const Structure> structure, Nanoseconds now)
   for (std::size_t i = 0; i < structure_->sensors.size(); ++i) {
     const SensorEntry& entry = structure_->sensors[i];
     if (entry.faults.empty() && channels_.empty()) continue;
-    const std::string key = key_of(entry);
+    const std::string key = full_name(entry);
     here.insert(key);
     if (!entry.faults.empty() && known_.insert(key).second) add(entry, entry.faults, now);
     const auto channel = channels_.find(key);
@@ -93,7 +91,7 @@ void Faults::give(const std::string& pattern, const std::string& text, Nanosecon
   if (!off && faults.empty()) throw Error("no fault; write one as dropout share=0.1, or Off");
   std::vector<const SensorEntry*> found;
   for (const SensorEntry& entry : structure_->sensors) {
-    const std::string key = key_of(entry);
+    const std::string key = full_name(entry);
     if (fnmatch(pattern.c_str(), entry.name.c_str(), 0) == 0 ||
         fnmatch(pattern.c_str(), key.c_str(), 0) == 0) {
       found.push_back(&entry);
@@ -105,7 +103,7 @@ void Faults::give(const std::string& pattern, const std::string& text, Nanosecon
   std::size_t given = 0;
   for (const SensorEntry* entry : found) {
     if (off) {
-      channels_.erase(key_of(*entry));
+      channels_.erase(full_name(*entry));
     } else {
       given += add(*entry, faults, now);
     }

@@ -58,7 +58,7 @@ void Registry::check(const LiveModel& live) const {
 void Registry::add(LiveModel& live) {
   if (!live.is_light) models_[live.desc->name] = &live;
   for (const DeviceInstance& device : live.devices) {
-    devices_[key_of(device)] = &live;
+    devices_[full_name(device)] = &live;
     std::vector<LiveModel*>& with = with_device_[device.name];
     if (with.empty() || with.back() != &live) with.push_back(&live);
   }
@@ -68,7 +68,7 @@ void Registry::add(LiveModel& live) {
 void Registry::remove(const LiveModel& live) {
   if (!live.is_light) models_.erase(live.desc->name);
   for (const DeviceInstance& device : live.devices) {
-    devices_.erase(key_of(device));
+    devices_.erase(full_name(device));
     std::vector<LiveModel*>& with = with_device_[device.name];
     erase_if(with, [&](const auto& each) { return each == &live; });
     if (with.empty()) with_device_.erase(device.name);

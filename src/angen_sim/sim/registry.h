@@ -16,9 +16,9 @@ class Registry {
   void check(const SensorInstance& sensor) const;
 
   void add(LiveModel& live);
-  void add(const SensorInstance& sensor, LiveModel& live) { sensors_[key_of(sensor)] = &live; }
+  void add(const SensorInstance& sensor, LiveModel& live) { sensors_[full_name(sensor)] = &live; }
   void remove(const LiveModel& live);
-  void remove(const SensorInstance& sensor) { sensors_.erase(key_of(sensor)); }
+  void remove(const SensorInstance& sensor) { sensors_.erase(full_name(sensor)); }
   void clear() { *this = {}; }
 
   /// Null if there is none; a light of the world is none.
@@ -29,20 +29,14 @@ class Registry {
   /// The models with devices of that name, of any kind, in the order in which they were added.
   std::vector<LiveModel*> with_devices(const std::string& name) const;
 
-  /// KIND/NAME of a device or sensor.
-  template <class Instance>
-  static std::string key_of(const Instance& instance) {
-    return instance.kind + "/" + instance.name;
-  }
-
  private:
   using ByName = std::unordered_map<std::string, LiveModel*>;
 
   static LiveModel* find(const ByName& all, const std::string& name);
 
   ByName models_;
-  ByName devices_;                                                        // by key
-  ByName sensors_;                                                        // by key
+  ByName devices_;                                                        // by full name
+  ByName sensors_;                                                        // by full name
   std::unordered_map<std::string, std::vector<LiveModel*>> with_device_;  // by the device's name
 };
 

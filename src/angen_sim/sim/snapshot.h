@@ -70,6 +70,12 @@ struct SensorInfo {
   bool on_demand() const { return plugin->kind().is_on_demand; }
 };
 
+/// KIND/NAME of a device or sensor.
+template <class Instance>
+std::string full_name(const Instance& instance) {
+  return instance.kind + "/" + instance.name;
+}
+
 struct SensorEntry : SensorInfo {
   std::uint32_t model = 0;
   std::uint32_t link = 0;  // index in Structure::links
