@@ -7,6 +7,7 @@
 #include "core/nearest.h"
 #include "core/text.h"
 #include "gazebo/server.h"
+#include "ros/convert.h"
 
 namespace angen::node::gazebo {
 
@@ -98,11 +99,7 @@ std::string frame_named(const sim::Structure& structure, const std::string& name
 }
 
 Pose pose_of(const geometry_msgs::Pose& message) {
-  Pose pose;
-  pose.position = vector_of(message.position);
-  const geometry_msgs::Quaternion& q = message.orientation;
-  pose.rotation = Quat(q.w, q.x, q.y, q.z);
-  if (!pose.finite()) throw Error("the pose contains a number that is not finite");
+  Pose pose = to_pose(message);
   const bool empty = pose.rotation.coeffs().isZero(0.0);
   pose.rotation.coeffs() =
       empty ? Quat::Identity().coeffs() : pose.rotation.coeffs().stableNormalized();

@@ -158,12 +158,8 @@ std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
 }
 
 // A quaternion of zeros means no rotation.
-Pose to_pose(const geometry_msgs::Pose& message) {
-  Pose pose;
-  pose.position = {message.position.x, message.position.y, message.position.z};
-  const geometry_msgs::Quaternion& q = message.orientation;
-  pose.rotation = Quat(q.w, q.x, q.y, q.z);
-  if (!pose.finite()) throw Error("the pose contains a number that is not finite");
+Pose pose_in(const geometry_msgs::Pose& message) {
+  Pose pose = to_pose(message);
   const double norm = pose.rotation.norm();
   if (norm == 0.0) {
     pose.rotation = Quat::Identity();
@@ -179,8 +175,7 @@ Pose to_pose(const geometry_msgs::Pose& message) {
 std::string state_of(const sim::Snapshot& snapshot, const std::string& target) {
   const sim::SharedArray<sim::DeviceEntry>& devices = snapshot.structure->devices;
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    const bool named =
-        devices[i].name == target || devices[i].kind + "/" + devices[i].name == target;
+    const bool named = devices[i].name == target || sim::full_name(devices[i]) == target;
     if (named && snapshot.devices[i] != nullptr) {
       return summary(devices[i].plugin->kind(), *snapshot.devices[i]);
     }
@@ -278,7 +273,7 @@ sim::Action Services::spawn_action(const angen_msgs::Spawn::Request& request) {
   check_name(request.name);
   if (trimmed(request.xml).empty()) throw Error("nothing to spawn: xml is empty");
   if (!valid_utf8(request.xml)) throw Error("xml is not UTF-8");
-  const Pose pose = to_pose(request.pose);
+  const Pose pose = pose_in(request.pose);
   const bool lone_sensor = load::is_sensor(request.xml);
   if (lone_sensor && request.on.empty()) {
     throw Error("a lone <sensor> needs a link: give `on` as MODEL::LINK");

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/diagnostics.h"
 #include "core/pose.h"
 #include "core/time.h"
 
@@ -51,6 +52,15 @@ inline geometry_msgs::Pose to_ros(const Pose& pose) {
   out.position = to_point(pose.position);
   out.orientation = to_ros(pose.rotation);
   return out;
+}
+
+/// Its quaternion as it is, whatever its length. Throws Error for a number that is not finite.
+inline Pose to_pose(const geometry_msgs::Pose& message) {
+  const geometry_msgs::Quaternion& q = message.orientation;
+  const Pose pose{{message.position.x, message.position.y, message.position.z},
+                  Quat(q.w, q.x, q.y, q.z)};
+  if (!pose.finite()) throw Error("the pose contains a number that is not finite");
+  return pose;
 }
 
 inline geometry_msgs::Transform to_transform(const Pose& pose) {

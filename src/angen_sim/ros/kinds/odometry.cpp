@@ -11,11 +11,15 @@
 namespace angen::node {
 namespace {
 
+void fill_pose(const Reading& reading, geometry_msgs::Pose& pose) {
+  pose.position = to_point(vector_in(reading, "position"));
+  pose.orientation = to_ros(orientation_in(reading));
+}
+
 /// The label's frame is the odometry's, its name the frame that it moves.
 void fill(const Reading& reading, const Label& label, nav_msgs::Odometry& message) {
   message.child_frame_id = label.name;
-  message.pose.pose.position = to_point(vector_in(reading, "position"));
-  message.pose.pose.orientation = to_ros(orientation_in(reading));
+  fill_pose(reading, message.pose.pose);
   message.twist.twist.linear.x = reading.get<double>("forward");
   message.twist.twist.linear.y = reading.get<double>("left");
   message.twist.twist.angular.z = reading.get<double>("turn");
@@ -39,8 +43,7 @@ void fill_transform(const Reading& reading, const Label& label,
 /// of the link.
 void fill_truth(const Reading& reading, const Label& label, nav_msgs::Odometry& message) {
   message.child_frame_id = label.name;
-  message.pose.pose.position = to_point(vector_in(reading, "position"));
-  message.pose.pose.orientation = to_ros(orientation_in(reading));
+  fill_pose(reading, message.pose.pose);
   message.twist.twist.linear = to_vector(vector_in(reading, "velocity"));
   message.twist.twist.angular = to_vector(vector_in(reading, "angular_velocity"));
 }
