@@ -106,60 +106,70 @@ namespace {
 
 using dynamic_reconfigure::Config;
 
-struct Parameter {
-  const char* name;
-  const char* type;  // "double", "int", "bool"
-  const char* description;
-  double low;
-  double high;
-};
-
-// Names, types and ranges are those of gazebo_ros.
-constexpr Parameter kParameters[] = {
-    {"time_step", "double", "Step, s; fixed while the world runs", 0, 10},
-    {"max_update_rate", "double", "Steps per wall second; 0: no limit", -1, 1000},
-    {"gravity_x", "double", "Gravity along x, m/s^2", -100, 100},
-    {"gravity_y", "double", "Gravity along y, m/s^2", -100, 100},
-    {"gravity_z", "double", "Gravity along z, m/s^2", -100, 100},
-    {"auto_disable_bodies", "bool", "Kept only: bodies at rest always fall asleep", 0, 1},
-    {"sor_pgs_precon_iters", "int", "Kept only", 0, 10000},
-    {"sor_pgs_iters", "int", "Iterations of the solver that repeats failed steps", 0, 10000},
-    {"sor_pgs_w", "double", "Kept only", 0, 5},
-    {"sor_pgs_rms_error_tol", "double", "Kept only", -1, 10000},
-    {"cfm", "double", "Constraint force mixing of contacts and joints", 0, 10},
-    {"erp", "double", "Error reduction of contacts", 0, 10},
-    {"contact_surface_layer", "double", "Depth that is left to contacts, m", 0, 10},
-    {"contact_max_correcting_vel", "double", "Speed at which contacts part, m/s", 0, 10000000},
-    {"max_contacts", "int", "Kept only", 0, 10000000},
-};
-
 using Request = gazebo_msgs::SetPhysicsProperties::Request;
 
-// Reads or writes the member that a parameter names; `set` is null to read.
+// Reads or writes a member; `set` is null to read.
 template <class T>
 double access(T& member, const double* set) {
   if (set != nullptr) member = static_cast<T>(*set);
   return static_cast<double>(member);
 }
 
-double value_of(Request& r, const std::string& name, const double* set = nullptr) {
-  gazebo_msgs::ODEPhysics& ode = r.ode_config;
-  if (name == "time_step") return access(r.time_step, set);
-  if (name == "max_update_rate") return access(r.max_update_rate, set);
-  if (name == "gravity_x") return access(r.gravity.x, set);
-  if (name == "gravity_y") return access(r.gravity.y, set);
-  if (name == "gravity_z") return access(r.gravity.z, set);
-  if (name == "auto_disable_bodies") return access(ode.auto_disable_bodies, set);
-  if (name == "sor_pgs_precon_iters") return access(ode.sor_pgs_precon_iters, set);
-  if (name == "sor_pgs_iters") return access(ode.sor_pgs_iters, set);
-  if (name == "sor_pgs_w") return access(ode.sor_pgs_w, set);
-  if (name == "sor_pgs_rms_error_tol") return access(ode.sor_pgs_rms_error_tol, set);
-  if (name == "cfm") return access(ode.cfm, set);
-  if (name == "erp") return access(ode.erp, set);
-  if (name == "contact_surface_layer") return access(ode.contact_surface_layer, set);
-  if (name == "contact_max_correcting_vel") return access(ode.contact_max_correcting_vel, set);
-  return access(ode.max_contacts, set);
+template <auto member>
+double of_request(Request& request, const double* set) {
+  return access(request.*member, set);
 }
+
+template <auto member>
+double of_gravity(Request& request, const double* set) {
+  return access(request.gravity.*member, set);
+}
+
+template <auto member>
+double of_ode(Request& request, const double* set) {
+  return access(request.ode_config.*member, set);
+}
+
+struct Parameter {
+  const char* name;
+  const char* type;  // "double", "int", "bool"
+  const char* description;
+  double low;
+  double high;
+  double (*access)(Request& request, const double* set);
+};
+
+// Names, types and ranges are those of gazebo_ros.
+constexpr Parameter kParameters[] = {
+    {"time_step", "double", "Step, s; fixed while the world runs", 0, 10,
+     &of_request<&Request::time_step>},
+    {"max_update_rate", "double", "Steps per wall second; 0: no limit", -1, 1000,
+     &of_request<&Request::max_update_rate>},
+    {"gravity_x", "double", "Gravity along x, m/s^2", -100, 100,
+     &of_gravity<&geometry_msgs::Vector3::x>},
+    {"gravity_y", "double", "Gravity along y, m/s^2", -100, 100,
+     &of_gravity<&geometry_msgs::Vector3::y>},
+    {"gravity_z", "double", "Gravity along z, m/s^2", -100, 100,
+     &of_gravity<&geometry_msgs::Vector3::z>},
+    {"auto_disable_bodies", "bool", "Kept only: bodies at rest always fall asleep", 0, 1,
+     &of_ode<&gazebo_msgs::ODEPhysics::auto_disable_bodies>},
+    {"sor_pgs_precon_iters", "int", "Kept only", 0, 10000,
+     &of_ode<&gazebo_msgs::ODEPhysics::sor_pgs_precon_iters>},
+    {"sor_pgs_iters", "int", "Iterations of the solver that repeats failed steps", 0, 10000,
+     &of_ode<&gazebo_msgs::ODEPhysics::sor_pgs_iters>},
+    {"sor_pgs_w", "double", "Kept only", 0, 5, &of_ode<&gazebo_msgs::ODEPhysics::sor_pgs_w>},
+    {"sor_pgs_rms_error_tol", "double", "Kept only", -1, 10000,
+     &of_ode<&gazebo_msgs::ODEPhysics::sor_pgs_rms_error_tol>},
+    {"cfm", "double", "Constraint force mixing of contacts and joints", 0, 10,
+     &of_ode<&gazebo_msgs::ODEPhysics::cfm>},
+    {"erp", "double", "Error reduction of contacts", 0, 10, &of_ode<&gazebo_msgs::ODEPhysics::erp>},
+    {"contact_surface_layer", "double", "Depth that is left to contacts, m", 0, 10,
+     &of_ode<&gazebo_msgs::ODEPhysics::contact_surface_layer>},
+    {"contact_max_correcting_vel", "double", "Speed at which contacts part, m/s", 0, 10000000,
+     &of_ode<&gazebo_msgs::ODEPhysics::contact_max_correcting_vel>},
+    {"max_contacts", "int", "Kept only", 0, 10000000,
+     &of_ode<&gazebo_msgs::ODEPhysics::max_contacts>},
+};
 
 void add(Config& config, const Parameter& parameter, double value) {
   const std::string type = parameter.type;
@@ -200,7 +210,7 @@ Request request_of(const gazebo_msgs::GetPhysicsProperties::Response& now) {
 
 Config config_of_now(PhysicsProperties& physics) {
   Request now = request_of(physics.get());
-  return config_of([&](const Parameter& parameter) { return value_of(now, parameter.name); });
+  return config_of([&](const Parameter& parameter) { return parameter.access(now, nullptr); });
 }
 
 dynamic_reconfigure::ConfigDescription description_of(PhysicsProperties& physics) {
@@ -232,7 +242,7 @@ void set_in(Request& request, const std::string& name, const std::string& type, 
   }
   if (std::isnan(value)) throw Error("the parameter " + name + " is not a number");
   const double bounded = std::clamp(value, found->low, found->high);
-  value_of(request, name, &bounded);
+  found->access(request, &bounded);
 }
 
 }  // namespace
