@@ -18,16 +18,19 @@
                                                               "angen::Plugin");      \
   }
 
+#define ANGEN_DESCRIBED_AS(...)               \
+  const angen::Kind& kind() const override {  \
+    using angen::Kind;                        \
+    static const Kind described(__VA_ARGS__); \
+    return described;                         \
+  }
+
 /// A sensor class and its kind, with no Plugin subclass to write: ANGEN_REGISTER_SENSOR(Type, NAME,
 /// DOC), or ANGEN_REGISTER_SENSOR(Type, Kind(NAME, DOC).number(…)…). Put it into the class's
 /// namespace.
 #define ANGEN_REGISTER_SENSOR(Type, ...)                                        \
   struct Type##Plugin : angen::Plugin {                                         \
-    const angen::Kind& kind() const override {                                  \
-      using angen::Kind;                                                        \
-      static const Kind described(__VA_ARGS__);                                 \
-      return described;                                                         \
-    }                                                                           \
+    ANGEN_DESCRIBED_AS(__VA_ARGS__)                                             \
     std::unique_ptr<angen::Sensor> make_sensor(angen::Params&) const override { \
       return std::make_unique<Type>();                                          \
     }                                                                           \
@@ -41,11 +44,7 @@
 /// the ModelInfo `model`: its main device has the model's own name.
 #define ANGEN_REGISTER_PART(Type, model_name, ...)                                                 \
   struct Type##Plugin : angen::Plugin {                                                            \
-    const angen::Kind& kind() const override {                                                     \
-      using angen::Kind;                                                                           \
-      static const Kind described(__VA_ARGS__);                                                    \
-      return described;                                                                            \
-    }                                                                                              \
+    ANGEN_DESCRIBED_AS(__VA_ARGS__)                                                                \
     bool serves(const angen::ModelInfo&) const override { return true; }                           \
     std::string instance_name(const angen::ModelInfo& model) const override { return model_name; } \
     std::unique_ptr<angen::Device> make_device() const override {                                  \
