@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/limits.h"
+#include "core/named.h"
 #include "core/text.h"
 #include "sim/building.h"
 #include "sim/entities.h"
@@ -154,14 +155,12 @@ class Apply {
     const desc::Model& described = *model.model->desc;
     const std::string name = edit.of.substr(std::min(edit.of.size(), described.name.size() + 2));
     bool found = false;
-    for (std::uint32_t i = 0; i < described.links.size(); ++i) {
-      if (described.links[i].name != name) continue;
-      building_.pushes().clear_link(*model.model, i);
+    if (const auto link = index_in(described.links, name)) {
+      building_.pushes().clear_link(*model.model, *link);
       found = true;
     }
-    for (std::uint32_t i = 0; i < described.joints.size(); ++i) {
-      if (described.joints[i].name != name) continue;
-      building_.pushes().clear_joint(*model.model, i);
+    if (const auto joint = index_in(described.joints, name)) {
+      building_.pushes().clear_joint(*model.model, *joint);
       found = true;
     }
     if (!found) throw Error("'" + printable(edit.of) + "' is neither a link nor a joint");
