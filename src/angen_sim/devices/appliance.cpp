@@ -85,7 +85,7 @@ class Appliance : public Device {
     state.set("on", on_);
     state.set("level", level_);
     state.set("power", power());
-    report_sound(state);
+    full_sound_.report(sound(), state);
   }
 
  private:
@@ -95,10 +95,10 @@ class Appliance : public Device {
     return idle_power_ + (full_power_ - idle_power_) * share;
   }
 
-  void report_sound(Reading& state) const {
-    if (!on_) return full_sound_.report_silence(state);
-    const double share = std::pow(level_ / 100.0, control_.sound_exponent);
-    full_sound_.report(full_sound_.level() + 10.0 * std::log10(share), state);
+  double sound() const {
+    if (!on_) return Sound::kSilent;
+    return full_sound_.level() +
+           10.0 * std::log10(std::pow(level_ / 100.0, control_.sound_exponent));
   }
 
   Control control_ = kControls[0];

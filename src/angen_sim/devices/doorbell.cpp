@@ -42,11 +42,7 @@ class Doorbell : public Device {
   void report(const View&, Reading& state) const override {
     state.set("ringing", left_ > 0);
     state.set("rings", rings_);
-    if (left_ > 0) {
-      sound_.report(sound_.level(), state);
-    } else {
-      sound_.report_silence(state);
-    }
+    sound_.report(left_ > 0 ? sound_.level() : Sound::kSilent, state);
   }
 
  private:

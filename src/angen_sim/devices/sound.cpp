@@ -1,8 +1,5 @@
 #include "devices/sound.h"
 
-#include <limits>
-#include <utility>
-
 namespace angen::devices {
 
 void Sound::configure(Params& params, double level, const char* level_doc) {
@@ -11,10 +8,6 @@ void Sound::configure(Params& params, double level, const char* level_doc) {
                                "of its sound: 1 in free air, 2 on a floor or wall, 4 in an edge",
                                {0.1, 1000.0});
   position_ = params.row("position", position_, "m", "x y z in the model's frame where it sounds");
-}
-
-void Sound::report_silence(Reading& state) const {
-  report(-std::numeric_limits<double>::infinity(), state);
 }
 
 void Sound::report(double level, Reading& state) const {

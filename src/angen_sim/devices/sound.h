@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "plugin/plugin.h"
@@ -9,13 +10,14 @@ namespace angen::devices {
 /// The sound of a device, which microphones hear: its parameters, and its fields.
 class Sound {
  public:
+  static constexpr double kSilent = -std::numeric_limits<double>::infinity();  // dB
+
   /// `level` (dB over 1 pW) is the default.
   void configure(Params& params, double level, const char* level_doc);
   /// dB over 1 pW.
   double level() const { return level_; }
 
-  /// The fields of a device that is silent, and of one whose sound has that level.
-  void report_silence(Reading& state) const;
+  /// The fields of a device whose sound has that level now.
   void report(double level, Reading& state) const;
 
   /// Adds the fields to a kind.
