@@ -15,8 +15,8 @@ struct ContactSettings {
   double fastest = 0.0;        // m/s, at which deep contacts separate
 };
 
-/// How two geoms push each other apart at their points of contact: as rigid bodies, on the springs
-/// of wheels, or by their stiffness and damping.
+/// How two geoms push each other apart at their points of contact: as rigid bodies, by stiffness
+/// and damping, or by the springs of wheels.
 class ContactLaw {
  public:
   /// The geoms touch at that many points.
