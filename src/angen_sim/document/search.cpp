@@ -162,7 +162,7 @@ bool may_name(const std::string& path, const std::string& file, const Source& at
 }  // namespace
 
 std::string models_beside(const std::string& world) {
-  return (fs::absolute(world).parent_path() / "models").string();
+  return world.empty() ? "" : (fs::absolute(world).parent_path() / "models").string();
 }
 
 SearchPaths SearchPaths::from_environment(const std::string& beside, bool allow_any) {

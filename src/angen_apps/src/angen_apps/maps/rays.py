@@ -12,5 +12,6 @@ def sees(world: Any, origin: np.ndarray, points: np.ndarray, near: float = 0.0) 
     """
     lines = points - origin
     far = np.maximum(np.linalg.norm(lines, axis=1), 1e-6)
-    ranges = world.cast(np.broadcast_to(origin, points.shape), lines / far[:, None], far)
+    ways = np.where(far[:, None] > 1e-6, lines / far[:, None], [0.0, 0.0, 1.0])  # not to itself
+    ranges = world.cast(np.broadcast_to(origin, points.shape), ways, far)
     return np.asarray(ranges >= far - near - 1e-6)
