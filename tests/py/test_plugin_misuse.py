@@ -91,34 +91,78 @@ def test_a_second_thread_gets_an_error(world, use):
     assert w.time == pytest.approx(0.01)
 
 
-def test_ctrl_c_in_a_plug_in_ends_the_run_and_not_the_sensor(world):
+def interrupt():
+    os.kill(os.getpid(), signal.SIGINT)
+
+
+def test_ctrl_c_in_a_plug_in_ends_the_run_and_not_the_call(world):
     def read(self, view, ranges, rng):
+        value = rng.gaussian()
         if view.time > 0.5 and not sent:
             sent.append(view.time)
-            os.kill(os.getpid(), signal.SIGINT)
+            interrupt()
             for _ in range(1000):
-                time.sleep(0.001)
-        return {'x': view.time}
+                time.sleep(0.0001)
+        calls.append(view.time)
+        return {'x': value}
 
-    sent = []
+    sent, calls = [], []
     w = made(world, read=read)
     with pytest.raises(KeyboardInterrupt):
         w.run(100.0)
-    assert 0.5 < w.time < 1.0 and w.sensor('misused', 'eye')['x'] == pytest.approx(sent[0])
+    assert 0.5 < w.time == pytest.approx(sent[0]) == pytest.approx(calls[-1])
     w.run(1.0)
-    assert 'error' not in w.sensor('misused', 'eye')
+    assert 'error' not in w.sensor('misused', 'eye') and len(calls) == len(set(calls))
+    calm = made(world, read=lambda self, view, ranges, rng: {'x': rng.gaussian()})
+    calm.run(w.time)
+    assert calm.sensor('misused', 'eye')['x'] == w.sensor('misused', 'eye')['x']
 
 
-def test_one_that_is_always_interrupted_fails(world):
+def test_a_second_ctrl_c_ends_a_call_that_does_not_end(world):
     def read(self, view, ranges, rng):
-        raise KeyboardInterrupt
+        while True:
+            interrupt()
+            time.sleep(0.001)
 
     w = made(world, read=read)
-    with pytest.raises(angen.Error, match='KeyboardInterrupt'):
-        w.run(0.1)
     with pytest.raises(KeyboardInterrupt):
-        w.run(0.1)
-    w.run(0.1)
+        try:
+            w.run(0.1)
+        except angen.Error:
+            time.sleep(1.0)
+    w.run(1.0)
+    assert 'KeyboardInterrupt' in w.sensor('misused', 'eye')['error']
+
+
+def test_ctrl_c_reaches_a_command_at_once(world):
+    members = {'serves': staticmethod(lambda *_: True), 'command': lambda *_: interrupt()}
+    angen.register('asked.py', 'asked', type('Asked', (angen.Device,), members))
+    w = world('<model name="m"><static>true</static><link name="l"/>'
+              '<plugin name="p" filename="asked.py"/></model>')
+    with pytest.raises(KeyboardInterrupt):
+        try:
+            w.command('asked', 'm', 'Go')
+        except angen.Error:
+            time.sleep(1.0)
+    w.run(1.0)
+    assert w.time == pytest.approx(1.0)
+
+
+def test_ctrl_c_of_one_world_ends_no_other_thread(world):
+    def read(self, view, ranges, rng):
+        if view.time > 0.5 and not sent:
+            sent.append(view.time)
+            interrupt()
+        return {}
+
+    sent, other = [], world('')
+    thread = threading.Thread(target=other.run, args=(5.0,))
+    w = made(world, read=read)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        w.run(100.0)
+    thread.join()
+    assert other.time == pytest.approx(5.0)
 
 
 @pytest.mark.parametrize('members, says', [

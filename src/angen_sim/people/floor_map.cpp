@@ -8,6 +8,7 @@
 #include <queue>
 #include <utility>
 
+#include "core/lists.h"
 #include "plugin/view.h"
 
 namespace angen::people {
@@ -103,8 +104,7 @@ std::vector<double> FloorMap::other_heights(const View& view) const {
       }
     }
   }
-  std::sort(heights.begin(), heights.end());
-  heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+  sort_unique(heights);
   return heights;
 }
 
@@ -131,8 +131,7 @@ void FloorMap::scan_lines(const std::vector<double>& heights, const View& view, 
         spans.emplace_back(c.enter, c.leave);
       }
     }
-    std::sort(spans.begin(), spans.end());  // most walls are alike at all heights
-    spans.erase(std::unique(spans.begin(), spans.end()), spans.end());
+    sort_unique(spans);  // most walls are alike at all heights
     for (const auto& [enter, leave] : spans) add_span(from + enter * ahead, from + leave * ahead);
   }
 }

@@ -247,7 +247,7 @@ void Surroundings::remove_gone(const View& view, const Vec3& feet, std::vector<V
     const double length = way.norm();
     if (length > kSight) return false;
     const Vec3 direction(way.x() / length, way.y() / length, 0.0);
-    const auto is_held = [&](double height) {  // mostly at the first one
+    const auto is_held = [&](double height) {  // the first one mostly meets it
       const Vec3 eye = feet + height * Vec3::UnitZ();
       return is_obstacle(cast({eye, direction, kOwn, length + kBeyond}));
     };

@@ -113,7 +113,7 @@ double ContactLaw::soften(const PointShare& share, double side, double parts_at,
   return parts ? 0.0 : std::min(fastest, kPush * step * (1.0 + 1.0 / gained));
 }
 
-// Instead of the layer that ODE takes off all depths.
+// ODE takes a layer off all depths; this makes that layer the least depth of the surfaces.
 void ContactLaw::set_min_depth(dContactGeom& at) const {
   if (!a_.min_depth && !b_.min_depth) return;
   const double depth = std::min(std::max(a_.min_depth.value_or(0.0), b_.min_depth.value_or(0.0)),

@@ -18,6 +18,7 @@ constexpr std::size_t kManyJoints = 256;
 constexpr std::size_t kMaxInStep = 20000;      // points
 constexpr std::size_t kMaxInMeshes = 500'000;  // tests, some tenths of a second
 constexpr double kUp = 0.9;                    // z of a unit normal: on a floor
+
 bool joined(const Body& a, const Body& b) {
   const Body& moving = a.dynamic() ? a : b;
   const Body& other = a.dynamic() ? b : a;

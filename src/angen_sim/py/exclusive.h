@@ -2,8 +2,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include <utility>
-
 #include "core/diagnostics.h"
 
 namespace angen::py {
@@ -14,15 +12,17 @@ class Exclusive {
  public:
   class Busy {
    public:
-    explicit Busy(const Exclusive& used)
-        : used_(used), before_(std::exchange(used.is_busy_, true)) {}
-    ~Busy() { used_.is_busy_ = before_; }
+    /// Throws Error if another call is in progress.
+    explicit Busy(const Exclusive& used) : used_(used) {
+      used.require_idle();
+      used.is_busy_ = true;
+    }
+    ~Busy() { used_.is_busy_ = false; }
     Busy(const Busy&) = delete;
     Busy& operator=(const Busy&) = delete;
 
    private:
     const Exclusive& used_;
-    bool before_;
   };
 
   /// Throws Error if another call is in progress.

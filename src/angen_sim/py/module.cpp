@@ -77,7 +77,7 @@ std::vector<Entity> entities(const World& world, const std::string& kind) {
   return all;
 }
 
-// In slices so that Ctrl-C ends a long run; until `take` returns true.
+// In slices, so that a signal ends a long run; until `take` returns true.
 template <class F>
 void advance(const World& world, std::uint64_t ticks, F&& take) {
   constexpr std::uint64_t kSlice = 10000;
@@ -86,11 +86,11 @@ void advance(const World& world, std::uint64_t ticks, F&& take) {
   while (ticks > 0 && !stops) {
     const std::uint64_t slice = std::min(ticks, kSlice);
     {
+      const Interrupts interrupts;
       const pyb::gil_scoped_release release;
-      stops = take(slice);
+      stops = take(slice, interrupts);
     }
     ticks -= slice;
-    if (interrupted().exchange(false)) PyErr_SetInterrupt();
     if (PyErr_CheckSignals() != 0) throw pyb::error_already_set();
   }
 }
@@ -141,14 +141,17 @@ void bind_world(pyb::module_& module) {
       .def(
           "step",
           [](World& w, std::uint64_t ticks) {
-            advance(w, ticks, [&](std::uint64_t n) { return w.step(n); });
+            advance(w, ticks, [&](std::uint64_t n, const Interrupts& interrupts) {
+              return w.step(n, interrupts);
+            });
           },
           pyb::arg("ticks") = 1, "Advances by ticks, each of them taken.")
       .def(
           "run",
           [](World& w, double seconds, bool long_steps, bool until_event) {
-            advance(w, w.ticks_in(seconds),
-                    [&](std::uint64_t n) { return w.run(n, long_steps, until_event); });
+            advance(w, w.ticks_in(seconds), [&](std::uint64_t n, const Interrupts& interrupts) {
+              return w.run(n, long_steps, until_event, interrupts);
+            });
           },
           pyb::arg("seconds"), pyb::arg("long_steps") = false, pyb::arg("until_event") = false,
           "Advances by simulated seconds; ticks in which nothing happens are leapt over. With "

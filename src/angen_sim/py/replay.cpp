@@ -24,6 +24,7 @@ class Replay : public record::Replay, public Exclusive {
   }
   std::unique_ptr<World> take() {
     if (present_) throw Error("its present world is in use");
+    const Busy busy(*this);
     return std::make_unique<World>(take_simulation(), log().header.models);
   }
 
@@ -39,10 +40,10 @@ bool advance_replay(Replay& replay, double seconds) {
   const Nanoseconds end = replay.simulation().snapshot()->time + duration(seconds);
   while (!replay.done() && replay.simulation().snapshot()->time < end) {
     {
+      const Interrupts interrupts;
       const pyb::gil_scoped_release release;
       replay.advance_to(end);
     }
-    if (interrupted().exchange(false)) PyErr_SetInterrupt();
     if (PyErr_CheckSignals() != 0) throw pyb::error_already_set();
   }
   return !replay.done();

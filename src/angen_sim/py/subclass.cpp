@@ -36,19 +36,16 @@ class Held {
   pyb::object object_;
 };
 
-// An exception of a Python method becomes an Error, as of any plug-in. Ctrl-C is not the plug-in's:
-// the call is made again, and the run ends after this tick.
+// An exception of a Python method becomes an Error, as of any plug-in.
 template <class F>
 auto with_python(F&& call) {
   const pyb::gil_scoped_acquire gil;
-  for (bool is_first = true;; is_first = false) {
-    try {
-      return call();
-    } catch (pyb::error_already_set& error) {
-      const bool is_interrupt = error.matches(PyExc_KeyboardInterrupt);
-      if (is_interrupt) interrupted() = true;
-      if (!is_interrupt || !is_first) throw Error(one_line(error));
-    }
+  try {
+    return call();
+  } catch (pyb::error_already_set& error) {
+    const std::string problem = one_line(error);  // runs Python code, in which Ctrl-C would be lost
+    if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();
+    throw Error(problem);
   }
 }
 

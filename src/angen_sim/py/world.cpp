@@ -42,11 +42,6 @@ World::Brief brief(const Entry& entry, const Reading* reading, Nanoseconds stamp
 
 }  // namespace
 
-std::atomic<bool>& interrupted() {
-  static std::atomic<bool> is_interrupted{false};
-  return is_interrupted;
-}
-
 World::World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalog> catalog,
              const std::string& log, bool allow_paths)
     : paths_(load::SearchPaths::from_environment(load::models_beside(path), allow_paths)),
@@ -137,7 +132,8 @@ void World::close() {
 }
 
 template <class Advance>
-bool World::advance(std::uint64_t ticks, bool until_event, Advance&& advance) {
+bool World::advance(std::uint64_t ticks, bool until_event, const Interrupts& interrupts,
+                    Advance&& advance) {
   require_open();
   if (ticks == 0) return false;
   const auto ticket = std::make_shared<sim::Ticket>();
@@ -146,20 +142,21 @@ bool World::advance(std::uint64_t ticks, bool until_event, Advance&& advance) {
   bool stops = false;
   while (snapshot_->tick < last && !stops) {
     take(advance(last * snapshot_->step));
-    stops = (until_event && !snapshot_->events.empty()) || interrupted();
+    stops = (until_event && !snapshot_->events.empty()) || interrupts.came();
   }
   if (stops) ticket->withdraw();
   raise_failure();
   return stops;
 }
 
-bool World::step(std::uint64_t ticks) {
-  return advance(ticks, false, [&](Nanoseconds) { return simulation_.tick(); });
+bool World::step(std::uint64_t ticks, const Interrupts& interrupts) {
+  return advance(ticks, false, interrupts, [&](Nanoseconds) { return simulation_.tick(); });
 }
 
-bool World::run(std::uint64_t ticks, bool long_steps, bool until_event) {
+bool World::run(std::uint64_t ticks, bool long_steps, bool until_event,
+                const Interrupts& interrupts) {
   if (long_steps && recorder_) throw Error("long steps cannot be recorded: a replay has none");
-  return advance(ticks, until_event,
+  return advance(ticks, until_event, interrupts,
                  [&](Nanoseconds end) { return simulation_.leap(leap_limit(end), long_steps); });
 }
 
@@ -184,6 +181,10 @@ std::uint64_t World::ticks_in(double seconds) const {
 void World::drain(sim::Action action) {
   require_open();
   const Busy busy(*this);
+  execute(std::move(action));
+}
+
+void World::execute(sim::Action action) {
   std::future<sim::Outcome> outcome = simulation_.post(std::move(action));
   take(simulation_.tick());
   const sim::Outcome result = outcome.get();
@@ -227,8 +228,9 @@ sim::Motion World::motion(const std::string& entity) const {
 }
 
 void World::reset() {
+  require_open();
   const Busy busy(*this);
-  drain(sim::Reset{});
+  execute(sim::Reset{});
   fingerprint_ = {};
   begin();
 }

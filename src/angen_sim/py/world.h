@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include "py/convert.h"
 #include "py/exclusive.h"
+#include "py/interrupts.h"
 #include "py/reading_log.h"
 #include "record/fingerprint.h"
 #include "record/recorder.h"
@@ -20,10 +20,6 @@ namespace angen::py {
 
 /// Converts seconds from Python; Error if they are negative, not finite, or beyond the limit.
 Nanoseconds duration(double seconds);
-
-/// Whether Ctrl-C has come in the code of a plug-in: step() and run() end, and their caller raises
-/// it.
-std::atomic<bool>& interrupted();
 
 /// A simulation as Python sees it: loads, steps, commands, reads.
 class World : public Exclusive {
@@ -42,12 +38,11 @@ class World : public Exclusive {
   /// Continues a simulation that has run already, of a world whose models are found in `models`.
   World(std::unique_ptr<sim::Simulation> simulation, const std::string& models);
 
-  /// Takes each tick. Returns whether it was interrupted.
-  bool step(std::uint64_t ticks);
+  /// Takes each tick. Returns whether it has ended before `ticks`, as Ctrl-C came.
+  bool step(std::uint64_t ticks, const Interrupts& interrupts);
   /// Runs ticks, leaping over those without a change; for `long_steps` see Simulation::leap.
-  void run(std::uint64_t ticks) { run(ticks, false, false); }
-  /// Whether it has ended with an event, or was interrupted, before `ticks`.
-  bool run(std::uint64_t ticks, bool long_steps, bool until_event);
+  /// Returns whether it has ended before `ticks`, with an event or as Ctrl-C came.
+  bool run(std::uint64_t ticks, bool long_steps, bool until_event, const Interrupts& interrupts);
   std::uint64_t ticks_in(double seconds) const;
 
   /// Throw Error if the simulator rejects the action.
@@ -100,9 +95,11 @@ class World : public Exclusive {
 
  private:
   void begin();
-  /// Takes ticks by advance(END) until there are none or, with `until_event`, one has an event.
+  /// Takes ticks by advance(END), until there are none, Ctrl-C came or, with `until_event`, one has
+  /// an event.
   template <class Advance>
-  bool advance(std::uint64_t ticks, bool until_event, Advance&& advance);
+  bool advance(std::uint64_t ticks, bool until_event, const Interrupts& interrupts,
+               Advance&& advance);
   Brief brief_sensor(std::size_t index) const;
   Brief brief_device(std::size_t index) const;
   void require_open() const;
@@ -110,7 +107,9 @@ class World : public Exclusive {
   static void note(const std::vector<Diagnostic>& found, std::vector<std::string>& to);
   static void note(std::string text, std::vector<std::string>& to);
   void note_warnings(const sim::Snapshot& snapshot);
+  /// Executes an action, as the only call in progress.
   void drain(sim::Action action);
+  void execute(sim::Action action);
   /// Error if a plug-in has thrown since; the world has continued without it.
   void raise_failure();
   void take(std::shared_ptr<const sim::Snapshot> snapshot);

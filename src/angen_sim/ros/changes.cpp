@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
-#include <tuple>
 #include <unordered_map>
 
 namespace angen::node {

@@ -135,7 +135,7 @@ void DueSensors::activate_changed(const Engines& engines, const SensorScheduler:
   }
 }
 
-/// Without the sensors that were idle until then and were activated since.
+/// The soonest end of the idle times of the sensors that are still idle.
 void DueSensors::renew_idle_until(SensorScheduler::Group& group) const {
   group.idle_until = kForever;
   for (const std::uint32_t index : group.idle) {

@@ -19,9 +19,9 @@ class SensorScheduler {
     Schedule schedule;                  // schedule of all its sensors
     std::vector<std::uint32_t> active;  // ascending
     std::vector<std::uint32_t> idle;    // idle sensors, ascending
-    Nanoseconds idle_until = kForever;  // until then none of these is to be queried
-    bool queries_devices = false;       // whether some of these do …
-    StateChanges::Fields fields = 0;    // … and by which fields
+    Nanoseconds idle_until = kForever;  // until then no idle sensor is to be queried
+    bool queries_devices = false;       // whether some idle sensors query devices
+    StateChanges::Fields fields = 0;    // fields by which they do
     MoverIndex::Moment checked = 0;     // idle ones were activated for all changes before
 
     bool publishes(Nanoseconds now) const {

@@ -1,7 +1,6 @@
 #include "tf/tf.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "ros/convert.h"

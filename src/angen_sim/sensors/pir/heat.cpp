@@ -257,7 +257,7 @@ Heat::Scan& Heat::scan_of(const rays::WarmShape& shape) {
   return found;
 }
 
-// Found when they are needed: not of one that stays hidden.
+// They are computed when first needed; a surface that stays hidden needs none.
 const std::vector<Window>& Heat::windows_of(Scan& found) const {
   if (found.windows) return *found.windows;
   found.windows.emplace();
