@@ -5,20 +5,30 @@
 summary=()
 matched=0 # whether a test had the words in its name
 suite() { # NAME COMMAND...
-  local name=$1 began=$SECONDS verdict=ok
+  local name=$1 began=$SECONDS verdict=ok seconds
   shift
   printf '\n== %s\n' "$name"
   "$@" || verdict=FAILED
-  summary+=("$(printf '%-14s  %-6s  %4d s' "$name" "$verdict" $((SECONDS - began)))")
+  seconds=$((SECONDS - began))
+  [[ ! -e $said/$name.seconds ]] || seconds=$(<"$said/$name.seconds")
+  summary+=("$(printf '%-14s  %-6s  %4d s' "$name" "$verdict" "$seconds")")
 }
 
 # Suites of one process run side by side; the lines of each are printed at its turn.
 single=" clang-format flake8 mypy tsc catkin-lint "
 declare -A begun=() # process of each, with the id of its group
 said=               # folder with the lines of each
+timed() { # NAME WORDS
+  local began=$SECONDS code=0
+  "check_${1//-/_}" "$2" || code=$?
+  echo $((SECONDS - began)) >"$said/$1.seconds"
+  return $code
+}
+
 begin() { # NAME WORDS
+  [[ -z ${begun[$1]:-} ]] || return 0 # given twice
   set -m # a group of its own
-  "check_${1//-/_}" "$2" >"$said/$1" 2>&1 </dev/null &
+  timed "$@" >"$said/$1" 2>&1 </dev/null &
   begun[$1]=$!
   set +m
 }
@@ -31,7 +41,7 @@ finish() { # NAME
   return $code
 }
 
-end_begun() { # when Ctrl-C ends the tests
+end_begun() { # also if Ctrl-C ends the tests
   local process
   for process in "${begun[@]}"; do kill -- "-$process" 2>/dev/null || true; done
   rm -rf "$said"

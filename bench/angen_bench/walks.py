@@ -7,6 +7,7 @@ from math import hypot
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Mapping
 
+from angen_apps.maps.cells import cell_of
 from angen_bench.free_map import free_map, solids
 from angen_tools.common.geometry import local, turned
 
@@ -38,13 +39,10 @@ class Floor:
 
     def part(self, x: float, y: float, roomy: bool) -> int:
         """The number of the part that a place is in, below 0 if it is in none."""
-        row, column = self.parts.cell(x, y)
-        rows, columns = self.parts.cells.shape
-        if not (0 <= row < rows and 0 <= column < columns):
+        cell = cell_of(self.parts, (x, y))
+        if cell is None or (roomy and self.roomy.cells[cell] < 0):
             return -1
-        if roomy and self.roomy.cells[row, column] < 0:
-            return -1
-        return int(self.parts.cells[row, column])
+        return int(self.parts.cells[cell])
 
 
 def spots(floor: Floor, door: Mapping[str, Any]) -> tuple[Spot, Spot] | None:

@@ -87,7 +87,8 @@ def catalog() -> set[str]:
 def events() -> set[str]:
     """Words of all events of the simulator, by its source, and of a generated day."""
     sources = ''.join(path.read_text() for path in (PAGE.parents[1] / 'angen_sim').rglob('*.[ch]*'))
-    said = re.findall(r'\b(?:event(?: = |\()|announce\()((?:(?!, "|;)[\s\S])*)|'  # the first argument
+    # the first argument of each call
+    said = re.findall(r'\b(?:event(?: = |\()|announce\()((?:(?!, "|;)[\s\S])*)|'
                       r'(?:\.events\(|IdChanges \w+\{|Events\[\] = )([^;)}]*)|'
                       r'(?:"world", )+("[^"]*")|world_event\(([^;)]*)|'
                       r'\bsay\(([^;]*), reading\)', sources)

@@ -33,13 +33,13 @@ def test_the_files_have_the_map(tmp_path: Path, capsys: pytest.CaptureFixture[st
     world.write_text(sdf(solid('upper', '0 0 3.9 0 0 0', '4 4 0.2'),
                          solid('box', '1 -0.5 4.5 0 0 0', '0.5 2 1'),
                          solid('wall', '-2 0 4.5 0 0 0', '0.1 4 1')))
-    stem = tmp_path / 'up.1'
+    stem = tmp_path / 'new' / 'up.1'  # the folder is made
     assert cli.run(['map', str(world), '--floor', '0', '-o', str(stem)]) == 0
     grid = make_map(load_world(str(world)), 0)
     assert capsys.readouterr().out == (
         f'wrote {stem}.pgm and {stem}.yaml: floor 0, '
         f'{grid.cells.shape[1]} x {grid.cells.shape[0]} cells of 0.05 m\n')
-    read = read_as_map_server(tmp_path / 'up.1.yaml')
+    read = read_as_map_server(tmp_path / 'new' / 'up.1.yaml')
     assert (read.cells == grid.cells).all() and set(read.cells.flat) == {FREE, OCCUPIED, UNKNOWN}
     assert read.resolution == grid.resolution
     assert read.origin == pytest.approx(grid.origin, abs=1e-6)

@@ -13,7 +13,7 @@ import angen
 from angen_apps.plan.apartment import apartment
 from angen_apps.plan.furnished import furnish
 from angen_apps.plan.model import Piece, Plan, Room, Storey
-from angen_apps.plan.polygons import overlap, rectangle
+from angen_apps.plan.polygons import base, overlap
 from angen_apps.plan.tower import building
 from angen_apps.plan.writer import write_world
 from angen_tools.common.failure import Failure
@@ -56,19 +56,14 @@ def test_every_apartment_of_a_building_has_a_kitchen_with_its_things() -> None:
     assert all({'stove', 'sink', 'fridge', 'table', 'chair'} <= set(found) for found in kitchens)
 
 
-def outline(piece: Piece) -> list[tuple[float, float]]:
-    return rectangle(piece.x, piece.y, piece.yaw, (-piece.depth / 2, -piece.width / 2),
-                     (piece.depth / 2, piece.width / 2))
-
-
 @pytest.mark.parametrize('seed', range(6))
 def test_pieces_are_apart_and_within_their_rooms(seed: int) -> None:
     storey, = apartment(1 + seed % 5, 1, seed).storeys
     for one, other in combinations(storey.pieces, 2):
-        assert overlap(outline(one), outline(other)) <= 0.0, (one, other)
+        assert overlap(base(one), base(other)) <= 0.0, (one, other)
     for piece in storey.pieces:
         rooms = {room.name for room in storey.rooms
-                 if any(contains(room.polygon, x, y) for x, y in outline(piece))}
+                 if any(contains(room.polygon, x, y) for x, y in base(piece))}
         assert len(rooms) == 1, piece
 
 

@@ -46,7 +46,7 @@ def test_many_seeds_end_every_time(ends: None, tmp_path: Path, monkeypatch: pyte
     monkeypatch.setattr(command, 'survey', survey)
     monkeypatch.setattr(command.run, 'search', search)
     monkeypatch.setattr(command, 'draw_times', lambda *_: None)
-    monkeypatch.setattr(command.gc, 'collect', lambda: 0)  # of the tests' modules, 0.1 s a search
+    monkeypatch.setattr(command.gc, 'collect', lambda: 0)  # 0.1 s a search, for modules of tests
     for _ in range(5):
         assert command.seek_seeds(None, None, range(1, 13), 600.0, tmp_path, json=False) == 0
         rows = (tmp_path / 'seek.csv').read_text().splitlines()[1:]

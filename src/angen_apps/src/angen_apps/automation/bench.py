@@ -15,7 +15,7 @@ from angen_apps.automation.entities import Entities, Entity
 from angen_apps.automation.home import House
 from angen_apps.automation.scenario import Expectation, Scenario
 from angen_apps.automation.services import NOTES, order_of
-from angen_apps.residents.light import LATITUDE
+from angen_apps.residents.light import latitude_of
 from angen_tools.common.catalog import kinds
 from angen_tools.common.failure import Failure, WrongWords
 from angen_tools.common.nearest import did_you_mean
@@ -87,7 +87,7 @@ class HomeAssistant:
         self.needs = set(_names(self.automations))
 
     def begin(self, bench: Bench) -> None:
-        sky = Sky(bench.house.start, bench.house.site.home.latitude or LATITUDE)
+        sky = Sky(bench.house.start, latitude_of(bench.house.site.home))
         self.engine = Engine(self.automations, bench.entities, sky, bench.order, bench.now)
 
     @property

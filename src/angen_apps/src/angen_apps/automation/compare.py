@@ -10,7 +10,7 @@ from angen_apps.automation.bench import Record
 from angen_apps.automation.claims import (ANYONE, Claim, Part, Spans, both, inverse, power_used,
                                           total, union)
 from angen_apps.automation.judge import FAILED, Verdict
-from angen_apps.residents.light import in_room
+from angen_apps.residents.light import daylight_in
 from angen_tools.common.clock import DAY
 from angen_tools.common.files import pyplot, save_figure
 
@@ -104,7 +104,7 @@ def _dark(record: Record, room: str) -> Spans:
     end, home, start = record.lines.end, record.house.site.home, record.house.start
     since, steps = record.house.since, [STEP * i for i in range(math.ceil(end / STEP))]
     return union([[(time, min(time + STEP, end)) for time in steps
-                   if in_room(home, room, start.date(), since + time) < DARK]])
+                   if daylight_in(home, room, start.date(), since + time) < DARK]])
 
 
 def as_dict(scores: Sequence[Score], days: float) -> list[dict[str, Any]]:

@@ -91,7 +91,7 @@ def live(world: Path, name: str, days: int, who: list[tuple[str, Profile]], seed
          progress: Callable[[float], None] = lambda _: None, strict: bool = False) -> Data:
     """Has residents live in the home of a world's file; `strict`: Failure if they cannot do
     something there."""
-    site = Site(world, seed, placed, light)
+    site = Site(world, seed, placed, light, rare_air=not faulty)  # faults change each reading
     faults.give(site, list(faulty))
     first = start or first_day(site.home)
     household = Household(site.simulator, site.floors, seed, name, first)

@@ -87,9 +87,13 @@ def apartment(path: Path) -> None:
 
 
 class Site:
-    """A home to live in: world, description, floors, and its sensors by rule or of its own."""
+    """A home to live in: world, description, floors, and its sensors by rule or of its own.
 
-    def __init__(self, path: Path, seed: int, placed: bool = True, light: bool = False) -> None:
+    `rare_air`: the thermometers that it places read every AIR s only, which is cheaper.
+    """
+
+    def __init__(self, path: Path, seed: int, placed: bool = True, light: bool = False,
+                 rare_air: bool = False) -> None:
         with simulator() as angen:
             self.world = angen.World(str(path), seed)
             bare = angen.World(str(path), seed)
@@ -103,7 +107,7 @@ class Site:
         self.simulator = Simulator(InProcess(self.world, long_steps=True), self.home)
         if placed:
             self._clear()
-            _Placer(self, light).place()
+            _Placer(self, light, rare_air).place()
         self._heat()
         self.sensors = self.listed()
         if placed:
@@ -176,7 +180,7 @@ def _sample_rarely(root: etree._Element) -> None:
 
 
 def _read_rarely(root: etree._Element) -> None:
-    """A thermometer reads the air only as often as somebody looks at it."""
+    """Gives a thermometer the rate at which the recorder looks at it."""
     for rate in root.iter('update_rate'):
         rate.text = repr(1.0 / AIR)
 
@@ -184,8 +188,9 @@ def _read_rarely(root: etree._Element) -> None:
 class _Placer:
     """Places sensors by rule: over things and behind doors, at doors, in rooms, at the mains."""
 
-    def __init__(self, site: Site, light: bool) -> None:
-        self.site, self.light, self.world, self.home = site, light, site.world, site.home
+    def __init__(self, site: Site, light: bool, rare_air: bool) -> None:
+        self.site, self.light, self.rare_air = site, light, rare_air
+        self.world, self.home = site.world, site.home
         self.lived = [room for room in self.home.rooms
                       if room.storey in site.floors.grids
                       and room.use not in ('landing', 'outdoor')]
@@ -195,7 +200,8 @@ class _Placer:
             self._cells(room)
             if room.use in AREAS:
                 self._area(room)
-            self._spawn(_altered('model://temperature_sensor', _read_rarely),
+            thermometer = 'model://temperature_sensor'
+            self._spawn(_altered(thermometer, _read_rarely) if self.rare_air else thermometer,
                         f'{room.name}_temperature',
                         (*corner(room, 0), room.floor + 1.5, 0.0))
             if self.light:

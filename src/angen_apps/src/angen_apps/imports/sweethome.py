@@ -59,13 +59,13 @@ class _Home:
             raise self.xml.fail(self.root, 'has no <wall>; a home needs walls')
         for element in self.root.findall('room'):
             self._room(element)
-        for element in self._on_levels('doorOrWindow'):
+        for element in self._visible('doorOrWindow'):
             self._opening(element)
         self._join_layers()
         self._find_rooms()
-        for element in self._on_levels('light'):
+        for element in self._visible('light'):
             self._light(element)
-        for element in self._on_levels('pieceOfFurniture'):
+        for element in self._visible('pieceOfFurniture'):
             self._piece(element)
         compass = self.root.find('compass')
         north, latitude = pi / 2, None
@@ -177,7 +177,7 @@ class _Home:
     def _yaw(self, element: etree._Element) -> float:
         return -self.xml.number(element, 'angle', 0.0, -1e4, 1e4)
 
-    def _on_levels(self, tag: str) -> Iterator[etree._Element]:
+    def _visible(self, tag: str) -> Iterator[etree._Element]:
         """The pieces of furniture with a tag; one on a level that is missing is left out, and one
         that cannot be seen."""
         for element in self.root.iter(tag):

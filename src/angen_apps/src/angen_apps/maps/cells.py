@@ -1,4 +1,4 @@
-"""The cells of a grid that a mask (rows, columns) holds: at a place, near it, and together."""
+"""Cells of a grid that a mask (rows, columns) contains: at a place, near it, and connected ones."""
 from __future__ import annotations
 
 import numpy as np
@@ -16,14 +16,14 @@ def cell_of(grid: Grid, point: Point) -> tuple[int, int] | None:
 
 
 def has(grid: Grid, mask: np.ndarray, point: Point) -> bool:
-    """Whether the mask holds the cell of a point."""
+    """Whether the mask contains the cell of a point."""
     cell = cell_of(grid, point)
     return cell is not None and bool(mask[cell])
 
 
 def nearest(grid: Grid, mask: np.ndarray, point: Point, reach: float) -> Point | None:
-    """The point, if the mask holds its cell, or the middle of the nearest cell within `reach` (m)
-    that it holds."""
+    """The point, if the mask contains its cell; else the middle of the nearest cell in the mask, if
+    one is within `reach` (m)."""
     if has(grid, mask, point):
         return point
     rows, columns = np.nonzero(mask)
@@ -35,8 +35,8 @@ def nearest(grid: Grid, mask: np.ndarray, point: Point, reach: float) -> Point |
 
 
 def largest(mask: np.ndarray, reached: np.ndarray | None = None) -> np.ndarray:
-    """The largest connected part of a mask, of those that have one of the cells `reached`, if any
-    has."""
+    """The largest connected part of a mask. If some parts have cells in `reached`, the others do
+    not count: a niche or a room out of reach may be larger."""
     parts, count = label(mask, np.ones((3, 3)))
     if not count:
         return mask

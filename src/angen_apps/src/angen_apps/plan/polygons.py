@@ -24,7 +24,8 @@ def signed_area(polygon: Sequence[Point]) -> float:
 
 def inside(polygon: Sequence[Point], x: np.ndarray, y: np.ndarray,
            holes: Sequence[Sequence[Point]] = ()) -> np.ndarray:
-    """As geometry.contains(), of many points."""
+    """Whether each of the points x, y is in a polygon and in none of its holes, see
+    geometry.contains()."""
     (low_x, low_y), (high_x, high_y) = np.min(polygon, axis=0), np.max(polygon, axis=0)
     found = np.asarray((x >= low_x) & (x <= high_x) & (y >= low_y) & (y <= high_y))
     x, y = np.asarray(x)[found], np.asarray(y)[found]
@@ -33,9 +34,9 @@ def inside(polygon: Sequence[Point], x: np.ndarray, y: np.ndarray,
         if y0 == y1:
             continue
         odd ^= ((y0 > y) != (y1 > y)) & (x < (x1 - x0) * (y - y0) / (y1 - y0) + x0)
-    found[found] = odd
     for each in holes:
-        found &= ~inside(each, x, y)
+        odd &= ~inside(each, x, y)
+    found[found] = odd
     return found
 
 
@@ -140,7 +141,7 @@ def base(piece: Piece, front: float = 0.0) -> list[Point]:
 
 
 def to_segments(x: np.ndarray, y: np.ndarray, a: Point, b: Point) -> np.ndarray:
-    """As geometry.to_segment(), of many points."""
+    """The distance of each of the points x, y to a segment, see geometry.to_segment()."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     share = np.clip(((x - a[0]) * dx + (y - a[1]) * dy) / ((dx * dx + dy * dy) or 1.0), 0.0, 1.0)
     return np.hypot(x - a[0] - share * dx, y - a[1] - share * dy)

@@ -8,7 +8,7 @@ import math
 from typing import Any, Callable, Iterator
 
 from angen_apps.residents.floors import Floors
-from angen_apps.residents.light import in_room
+from angen_apps.residents.light import daylight_in
 from angen_apps.residents.moods import Day
 from angen_apps.residents.places import Places
 from angen_apps.residents.simulator import Simulator
@@ -132,4 +132,4 @@ class Household:
             if 'illuminance' in reading:
                 return float(reading['illuminance'])
         lit = any(self.simulator.state('lamp', lamp).get('on') for lamp in self.lamps.get(room, ()))
-        return (LIT if lit else 0.0) + in_room(self.home, room, *self.date(self.now))
+        return (LIT if lit else 0.0) + daylight_in(self.home, room, *self.date(self.now))

@@ -15,7 +15,7 @@ def latitude_of(home: Home) -> float:
     return LATITUDE if home.latitude is None else home.latitude
 
 
-def in_room(home: Home, room: str, day: datetime.date, seconds: float) -> float:
+def daylight_in(home: Home, room: str, day: datetime.date, seconds: float) -> float:
     """lx of daylight in a room; 0 in one without a window, where other rooms have some."""
     windows = [door for door in home.doors if door.kind == 'window']
     if windows and not any(room in door.rooms for door in windows):

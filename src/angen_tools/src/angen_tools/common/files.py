@@ -106,8 +106,8 @@ def _cut(part: Path) -> None:
 
 @contextmanager
 def later_signals() -> Iterator[None]:
-    """Ctrl-C, SIGTERM and SIGHUP wait for the end of this block, in which a stopped write would
-    leave a compressed file damaged, or a process be started and forgotten."""
+    """Ctrl-C, SIGTERM and SIGHUP wait for the end of this block: an interrupted write would damage
+    a compressed file, and a process that has just been started would be forgotten."""
     if threading.current_thread() is not threading.main_thread():
         yield  # signals interrupt the main thread only
         return

@@ -15,7 +15,7 @@ from angen_tools.common.text_file import read_text, shortened
 
 DEEPEST = 100  # levels of lists in lists: the composer of libyaml calls itself for each
 MOST = 1_000_000  # nodes and ends of lists: the composer takes memory for each
-SPAN = re.compile(r'([0-9.]+)(?:-([0-9.]+))? ?(s|min|h)')
+SPAN = re.compile(r'(\d+(?:\.\d+)?)(?:-(\d+(?:\.\d+)?))? ?(s|min|h)', re.ASCII)
 
 
 class Entries(dict[str, Any]):

@@ -77,7 +77,7 @@ def seconds(spans: list[tuple[float, float]], day: int) -> np.ndarray:
 
 
 def label(cells: np.ndarray, of: list[Period], day: int, named: Callable[[Period], Any]) -> None:
-    """Sets the seconds of a day (86400,) in which periods hold to what these are named."""
+    """Writes the name of each period into its seconds of a day (86400,)."""
     for period in of:
         first, last = period.start - day * DAY, period.end - day * DAY
         if last > 0 and first < DAY:
