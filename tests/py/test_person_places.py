@@ -15,7 +15,6 @@ WORLD = Path(__file__).resolve().parents[2] / 'worlds/angen.world'
 @pytest.fixture
 def w() -> angen.World:
     world = angen.World(str(WORLD), seed=1)
-    world.delete('turtlebot')  # it stands behind the entrance, in the way
     world.run(0.5)
     return world
 

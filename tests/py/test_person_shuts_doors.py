@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from math import hypot
+from pathlib import Path
 from typing import Any, Callable
 
 import pytest
@@ -10,6 +11,7 @@ import angen
 from sdf_text import box
 from test_person_other_doors import DOORS, WALL, door
 
+BUILDING = Path(__file__).resolve().parents[2] / 'worlds/angen.world'
 Make = Callable[..., angen.World]
 
 
@@ -73,6 +75,51 @@ def test_an_open_leaf_in_its_way_is_shut_at_once(world: Make, ahead: int) -> Non
     w.events()
     assert walk(w, 0.45 + 4.5 * ahead, -0.75, 20.0)['mode'] == 'CLOSED'  # 9 m at 1 m/s
     assert [e for _, source, _, e, _ in w.events() if source == 'ann'].count('blocked') <= 1
+
+
+def sent(w: angen.World, order: str, seconds: float) -> dict[str, Any]:
+    """The state of the person of the building, when it has ended what it was sent for."""
+    w.command('person', 'person', order)
+    end = w.time + seconds
+    w.run(0.5)
+    while w.time < end and w.device('person', 'person')['going']:
+        w.run(0.5)
+    return w.device('person', 'person')
+
+
+@pytest.mark.parametrize('goal, order', [('kitchen0', 'LeaveDoors'), ('3.5 5', 'LeaveDoors'),
+                                         ('kitchen0', 'CloseDoors')])
+def test_who_went_out_comes_in_past_a_robot_and_the_leaf(goal: str, order: str) -> None:
+    """The robot at its start and the open leaf of the entrance leave 0.5 m, too little to pass."""
+    w = angen.World(str(BUILDING), seed=1)
+    w.run(1.0)
+    assert not sent(w, 'GoTo -1.5 5', 40.0)['why']
+    w.command('person', 'person', order)
+    state = sent(w, f'GoTo {goal}', 30.0)
+    assert not state['going'] and not state['unreachable']
+    assert w.room_at(state['x'], state['y'], 0.5) == ('kitchen0' if goal == 'kitchen0'
+                                                      else 'entrance0')
+    assert w.device('door', 'entrance0')['mode'] == 'CLOSED'
+
+
+def test_a_person_goes_out_past_a_robot_and_a_leaf_that_stood_open() -> None:
+    w = angen.World(str(BUILDING), seed=1)
+    w.run(1.0)
+    w.command('door', 'entrance0', 'Open')
+    w.run(4.0)
+    state = sent(w, 'GoTo -1.5 5', 45.0)
+    assert not state['going'] and not state['unreachable'] and state['x'] < -1.4
+
+
+def test_what_is_named_is_what_leaves_no_way() -> None:
+    """The robot is in the swing of the leaf, which cannot be shut, and a cabinet is beside them."""
+    w = angen.World(str(BUILDING), seed=1)
+    w.run(1.0)
+    sent(w, 'GoTo -1.5 5', 40.0)
+    w.set_state('turtlebot', (1.35, 5.0, 0.0, 0.0, 0.0, 3.14))
+    state = sent(w, 'GoTo kitchen0', 60.0)
+    assert state['unreachable']
+    assert state['why'] in ('entrance_door0 is in its way', 'turtlebot is in its way')
 
 
 def test_it_says_that_it_goes_and_has_arrived(world: Make) -> None:

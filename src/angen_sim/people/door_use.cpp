@@ -40,6 +40,13 @@ constexpr int kRestDoublings = 7;
 constexpr double kSpots[] = {45.0, 35.0, 55.0, 25.0, 65.0, 15.0};
 constexpr double kDoubleSpots[] = {60.0, 70.0, 80.0};  // spots of a double door
 
+// Places to shut an open leaf: deg from the shut leaf, and m beyond its edge.
+constexpr double kShutFirst = 15.0;
+constexpr double kShutLast = 165.0;
+constexpr double kShutStep = 5.0;
+constexpr double kShutBeyond[] = {0.37, 0.52, 0.67, 0.97};
+constexpr double kHandleHeight = 1.05;
+
 double cross_of(const Surroundings::Vec2& a, const Surroundings::Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -77,6 +84,22 @@ bool is_taken(const View& view, const Vec3& feet, const Surroundings::Vec2& plac
   const std::vector<Other> others = others_near(view, feet);
   return std::any_of(others.begin(), others.end(),
                      [&](const Other& other) { return (other.at() - place).norm() < kBothStand; });
+}
+
+/// Whether a person at a place can shut an open leaf by hand: within reach, out of the swing, and
+/// on the side that the leaf opens to.
+bool can_shut_from(const View& view, double z, const DoorSeen& door,
+                   const Surroundings::Vec2& place) {
+  const Surroundings::Vec2 from_hinge = place - door.hinge;
+  const double away = from_hinge.norm();
+  if (away < door.width + kOutOfSwing - kAtSpot || away > kNearby) return false;
+  if (door.into.dot(from_hinge) < 0.0) return false;
+  const Surroundings::Vec2 edge = door.hinge + door.width * door.open;
+  const double height = z + kHandleHeight;
+  return view.rays()
+      .crossings({place.x(), place.y(), height}, {edge.x(), edge.y(), height},
+                 rays::only(rays::Mobility::kStatic))
+      .empty();
 }
 
 enum class Whose { kRobots, kAll };
@@ -153,6 +176,12 @@ std::optional<double> DoorSeen::way_to_leaf(const Vec2& at, const Vec2& to) cons
   return *share * (to - at).norm();
 }
 
+bool DoorSeen::has_on_leaf(const Vec2& point) const {
+  if (!is_open()) return false;
+  const double at = std::clamp(open.dot(point - hinge), 0.0, width);
+  return (point - hinge - at * open).norm() < kLeafSkin;
+}
+
 bool DoorSeen::hides(const Vec2& point, const Vec2& from) const {
   if (is_passable()) return false;
   const Vec2 offset = point - hinge;
@@ -196,6 +225,28 @@ std::optional<DoorSeen> door_on_way(const std::vector<DoorSeen>& doors,
     found = door;
   }
   return found;
+}
+
+std::vector<Surroundings::Vec2> places_to_shut(const View& view, const Vec3& feet,
+                                               const DoorSeen& door) {
+  using Vec2 = Surroundings::Vec2;
+  if (!door.is_open() || is_swing_taken(view, feet, door, Whose::kAll)) return {};
+  std::vector<Vec2> places{feet.head<2>()};
+  for (const double beyond : kShutBeyond) {
+    for (double degrees = kShutFirst; degrees <= kShutLast; degrees += kShutStep) {
+      const double angle = degrees * M_PI / 180.0;
+      const Vec2 away = std::cos(angle) * door.along + std::sin(angle) * door.into;
+      places.emplace_back(door.hinge + (door.width + beyond) * away);
+    }
+  }
+  const auto is_no_place = [&](const Vec2& place) {
+    return !can_shut_from(view, feet.z(), door, place) || is_taken(view, feet, place);
+  };
+  places.erase(std::remove_if(places.begin(), places.end(), is_no_place), places.end());
+  std::stable_sort(places.begin(), places.end(), [&](const Vec2& a, const Vec2& b) {
+    return (a - feet.head<2>()).squaredNorm() < (b - feet.head<2>()).squaredNorm();
+  });
+  return places;
 }
 
 Surroundings::Vec2 up_to_door(const View& view, const Vec3& feet, const Surroundings::Vec2& to) {
@@ -317,6 +368,8 @@ DoorUse::Advice DoorUse::update(const View& view, const Vec3& feet, const std::v
       return {Advice::Step::kWait, handle()};
     case Phase::kPassing:
       return pass(view, feet, outputs);
+    case Phase::kToLeaf:
+      return shut(view, feet, outputs);
     case Phase::kClosing: {
       const bool starts = view.time() - since_ < kStarts;
       const bool late = view.time() - since_ > kLongest;
@@ -425,6 +478,39 @@ DoorUse::Advice DoorUse::pass(const View& view, const Vec3& feet, Outputs& outpu
     reset();
     return {};
   }
+  enter(Phase::kClosing, view.time());
+  return {Advice::Step::kStand, handle()};
+}
+
+void DoorUse::go_and_shut(const DoorSeen& door, const Vec2& place, Nanoseconds now) {
+  door_ = door;
+  spot_ = place;
+  enter(Phase::kToLeaf, now);
+}
+
+bool DoorUse::wait_for_leaf(const View& view, const Vec3& feet) {
+  for (const DoorSeen& door : doors_seen(view, feet.z())) {
+    const bool swings = !door.slides && door.mode == "CLOSING";
+    if (!swings || !can_shut_from(view, feet.z(), door, feet.head<2>())) continue;
+    door_ = door;
+    enter(Phase::kClosing, view.time());
+    return true;
+  }
+  return false;
+}
+
+DoorUse::Advice DoorUse::shut(const View& view, const Vec3& feet, Outputs& outputs) {
+  const bool late = view.time() - since_ > kLongest;
+  if (late || !door_.is_open() || is_swing_taken(view, feet, door_, Whose::kRobots)) {
+    reset();
+    return {};
+  }
+  if (!can_shut_from(view, feet.z(), door_, feet.head<2>()) ||
+      is_swing_taken(view, feet, door_, Whose::kAll)) {
+    return {Advice::Step::kGo, spot_};
+  }
+  outputs.event("closes", door_.name);
+  outputs.command("door", door_.name, "CloseByHand");
   enter(Phase::kClosing, view.time());
   return {Advice::Step::kStand, handle()};
 }

@@ -33,6 +33,8 @@ struct DoorSeen {
   std::optional<double> way_to_leaf(const Vec2& at, const Vec2& to) const;
   /// Whether a person fits through.
   bool is_passable() const;
+  /// Whether a point is on the open leaf.
+  bool has_on_leaf(const Vec2& point) const;
   /// Whether a point is on the shut leaf, or behind it as seen from a place.
   bool hides(const Vec2& point, const Vec2& from) const;
 };
@@ -45,6 +47,11 @@ enum class Passable { kNo, kYes };
 std::optional<DoorSeen> door_on_way(const std::vector<DoorSeen>& doors,
                                     const Surroundings::Vec2& at, const Surroundings::Vec2& to,
                                     Passable passable = Passable::kNo);
+
+/// Places from which a person at `feet` can shut an open leaf, the nearest first: on the side that
+/// it opens to, and out of its swing. None if another or a robot is in that.
+std::vector<Surroundings::Vec2> places_to_shut(const View& view, const Vec3& feet,
+                                               const DoorSeen& door);
 
 /// Where a person at `feet` walks on the straight way to a place: up to a shut door, or all of it.
 Surroundings::Vec2 up_to_door(const View& view, const Vec3& feet, const Surroundings::Vec2& to);
@@ -75,6 +82,10 @@ class DoorUse {
   /// its way. Returns whether there are any.
   bool shut_nearby(const View& view, const Vec3& feet, Outputs& outputs,
                    const std::string& model = "") const;
+  /// Makes for a place from which it shuts an open leaf, and shuts it.
+  void go_and_shut(const DoorSeen& door, const Vec2& place, Nanoseconds now);
+  /// Waits until a leaf nearby is shut that just swings to; returns whether there is one.
+  bool wait_for_leaf(const View& view, const Vec3& feet);
   /// Whether it shuts the doors that it walks through.
   void close(bool closes) { closes_ = closes; }
   bool closes() const { return closes_; }
@@ -86,7 +97,7 @@ class DoorUse {
   const std::string& why() const { return why_; }
 
  private:
-  enum class Phase { kNone, kApproach, kOpening, kWaiting, kPassing, kClosing };
+  enum class Phase { kNone, kApproach, kOpening, kWaiting, kPassing, kToLeaf, kClosing };
 
   void look(const View& view, const Vec3& feet, const std::vector<Vec2>& places);
   Advice approach(const View& view, const Vec3& feet, Outputs& outputs);
@@ -94,6 +105,7 @@ class DoorUse {
   Advice wait_until_open(const View& view, const Vec3& feet);
   Advice fail(const View& view, const Vec3& feet, const std::string& why);
   Advice pass(const View& view, const Vec3& feet, Outputs& outputs);
+  Advice shut(const View& view, const Vec3& feet, Outputs& outputs);
   bool closes_off(const View& view, const Vec3& feet) const;
   bool is_in_swing(const Vec2& at) const;
   bool moves() const { return door_.mode == "OPENING" || door_.partner_mode == "OPENING"; }

@@ -13,6 +13,7 @@ constexpr double kNearGoal = 0.06;  // m: a place that fits instead of the goal
 constexpr double kOpenToll = 3.0;   // m that a door which it can open counts
 constexpr double kWaitToll = 30.0;  // m that another shut door counts
 constexpr double kSeenCell = 0.02;  // m
+constexpr int kPlacesTried = 8;     // to shut a leaf from
 constexpr double kItsBody = 0.35;   // m about one who walks on, who is no obstacle for long
 
 // Places behind a person that a passage may have, at most: 10 m.
@@ -50,12 +51,7 @@ bool Navigator::plan(const View& view, const Vec3& feet, const Vec2& to, bool wi
     }
   }
   const std::shared_ptr<const FloorMap> storey = maps_->find(view, feet, to);
-  FloorMap map = *storey;
-  if (with_seen) map.add_points(seen_);
-  for (const DoorSeen& door : doors) {
-    if (door.is_passable()) continue;
-    map.add_toll(door.hinge, door.edge(), opens_doors_ ? kOpenToll : kWaitToll);
-  }
+  FloorMap map = map_with(view, feet, to, with_seen ? seen_ : std::vector<Vec2>{});
   std::optional<std::vector<Vec2>> way = map.way(view, at, to, kNearGoal);
   if (!way && with_seen) return false;  // the former way is kept
   passages_.clear();
@@ -65,6 +61,17 @@ bool Navigator::plan(const View& view, const Vec3& feet, const Vec2& to, bool wi
   if (is_in_passage(at)) add_passage_behind(*storey, *way);
   route_.emplace(std::move(map), std::move(*way));
   return true;
+}
+
+FloorMap Navigator::map_with(const View& view, const Vec3& feet, const Vec2& to,
+                             const std::vector<Vec2>& points) const {
+  FloorMap map = *maps_->find(view, feet, to);
+  map.add_points(points);
+  for (const DoorSeen& door : doors_seen(view, feet.z())) {
+    if (door.is_passable()) continue;
+    map.add_toll(door.hinge, door.edge(), opens_doors_ ? kOpenToll : kWaitToll);
+  }
+  return map;
 }
 
 const Navigator::Vec2& Navigator::advance(const Vec2& at, const Vec2& to) {
@@ -129,6 +136,47 @@ std::string Navigator::why_not(const View& view, const Vec3& feet, const Vec2& t
   if (!map.is_free(to)) return "there is no room for a person";
   if (!map.has_floor(view, to, to)) return "there is no floor";
   return "no way leads there";
+}
+
+std::optional<Navigator::LeafInWay> Navigator::leaf_in_way(const View& view, const Vec3& feet,
+                                                           const Vec2& to) const {
+  if (!opens_doors_) return std::nullopt;
+  const Vec2 at = feet.head<2>();
+  for (const DoorSeen& door : doors_seen(view, feet.z())) {
+    if ((door.hinge - at).norm() > Surroundings::kSight) continue;
+    const std::vector<Vec2> places = places_to_shut(view, feet, door);
+    if (places.empty()) continue;
+    Navigator shut = *this;
+    shut.forget_leaf(door);
+    if (!map_with(view, feet, to, shut.seen_).way(view, at, to, kNearGoal)) continue;
+    FloorMap open = map_with(view, feet, to, seen_);
+    int tries = 0;
+    for (const Vec2& place : places) {
+      if (place == at) return LeafInWay{door, place};
+      if (!open.is_free(place) || ++tries > kPlacesTried) continue;
+      if (open.way(view, at, place, kNearGoal)) return LeafInWay{door, place};
+    }
+  }
+  return std::nullopt;
+}
+
+void Navigator::forget_leaf(const DoorSeen& door) {
+  const auto is_on_leaf = [&](const Vec2& point) { return door.has_on_leaf(point); };
+  seen_.erase(std::remove_if(seen_.begin(), seen_.end(), is_on_leaf), seen_.end());
+}
+
+std::string Navigator::what_blocks(const View& view, const Vec3& feet, const Vec2& to) const {
+  FloorMap map = map_with(view, feet, to, {});
+  const std::optional<std::vector<Vec2>> way = map.way(view, feet.head<2>(), to, kNearGoal);
+  if (!way) return "";
+  for (const Vec2& place : *way) {
+    for (const Vec2& point : seen_) {
+      if ((point - place).norm() >= FloorMap::kClearance) continue;
+      const std::string model = Surroundings::model_at(view, feet, point);
+      if (!model.empty()) return model;
+    }
+  }
+  return "";
 }
 
 bool Navigator::is_in_passage(const Vec2& at) const {

@@ -20,6 +20,12 @@ class Navigator {
  public:
   using Vec2 = Surroundings::Vec2;
 
+  /// An open leaf that leaves no way, and a place to shut it from.
+  struct LeafInWay {
+    DoorSeen door;
+    Vec2 place;  // m
+  };
+
   Navigator() = default;
   /// Whether the person opens doors.
   Navigator(std::shared_ptr<StoreyMaps> maps, bool opens_doors)
@@ -47,6 +53,13 @@ class Navigator {
   void note_obstacle(const Vec2& point) { seen_.push_back(point); }
   /// A door that does not open is a wall until the goal changes.
   void note_failed(const DoorSeen& door, std::string why);
+  /// The leaf without which a way would lead past what it has seen, if it can shut that.
+  std::optional<LeafInWay> leaf_in_way(const View& view, const Vec3& feet, const Vec2& to) const;
+  /// What it has seen of an open leaf counts no more.
+  void forget_leaf(const DoorSeen& door);
+  /// The model that can move and is the first on the way that leads to the goal without what it has
+  /// seen; empty if that is none.
+  std::string what_blocks(const View& view, const Vec3& feet, const Vec2& to) const;
   /// Why plan() found no way for a person at `feet`.
   std::string why_not(const View& view, const Vec3& feet, const Vec2& to) const;
   /// The narrow parts of the way, between what cannot move.
@@ -54,6 +67,9 @@ class Navigator {
   bool knows_obstacles() const { return !seen_.empty(); }
 
  private:
+  /// Of the storey, with points that it has seen and tolls of the doors that are shut.
+  FloorMap map_with(const View& view, const Vec3& feet, const Vec2& to,
+                    const std::vector<Vec2>& points) const;
   bool is_in_passage(const Vec2& at) const;
   void add_passage_behind(const FloorMap& map, std::vector<Vec2> way);
   void add_line(const Vec2& from, const Vec2& along, double length);

@@ -102,6 +102,7 @@ class Person : public Device {
   std::string what_holds(const Step& step) const;
   bool is_going() const;
   std::optional<double> way_to_leaf(const Step& step) const;
+  bool is_held_at_leaf(const Step& step) const;
   bool explore(const Step& step);
   void take_other_way(const Step& step);
 
@@ -111,6 +112,7 @@ class Person : public Device {
   bool stands_aside(Look look, const Step& step);
   void make_room(const Step& step);
   void wait(const Step& step);
+  bool makes_for_leaf(const Step& step);
   bool shuts_leaf(const Step& step);
   bool is_freed(const Progress::Wait& wait, const Step& step);
   void hold(const Vec2& at);

@@ -1,4 +1,5 @@
 // A person's way to where it was sent.
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,8 +16,9 @@ namespace angen::people {
 
 namespace {
 
-constexpr double kShutsFrom = 1.6;  // m from a leaf that is in its way
-constexpr double kUnseen = 0.3;     // m to an obstacle that it does not see
+constexpr double kShutsFrom = 1.6;   // m from a leaf that is in its way
+constexpr double kBesideLeaf = 1.5;  // m from its hinge
+constexpr double kUnseen = 0.3;      // m to an obstacle that it does not see
 
 std::string place_text(const Surroundings::Vec2& place) {
   return text_of(place.x(), " ", place.y());
@@ -90,7 +92,8 @@ void Person::run_errand(const Step& step) {
     const bool knows = navigator_.knows_obstacles();
     std::optional<double> leaf;
     if (knows || walker_.goes_round()) leaf = way_to_leaf(step);
-    const bool found = (!knows && !leaf) || explore(step);
+    const bool explores = knows || leaf || is_held_at_leaf(step);
+    const bool found = !explores || explore(step);
     if (!found && (!leaf || *leaf < kShutsFrom)) return wait(step);  // it walks up to a leaf
     walker_.aim_straight();
     if (found) {
@@ -135,7 +138,8 @@ std::string Person::why_no_way(const Step& step) const {
 // What blocks a person who makes no progress.
 std::string Person::what_holds(const Step& step) const {
   const Vec2 way = navigator_.target().value_or(errand_->to()) - step.at();
-  const std::string model = Surroundings::model_ahead(step.view, step.feet(), way.normalized());
+  std::string model = navigator_.what_blocks(step.view, step.feet(), errand_->to());
+  if (model.empty()) model = Surroundings::model_ahead(step.view, step.feet(), way.normalized());
   if (!model.empty()) return model + " is in its way";
   if (have_others_to_go(step.view, step.feet())) return "others are in its way";
   return why_no_way(step);
@@ -151,6 +155,15 @@ std::optional<double> Person::way_to_leaf(const Step& step) const {
     if (way && (!least || *way < *least)) least = way;
   }
   return least;
+}
+
+// Whether something holds it beside an open leaf, round which the way that it sees leads nowhere.
+bool Person::is_held_at_leaf(const Step& step) const {
+  if (!progress_.is_held() || !walker_.goes_round()) return false;
+  const std::vector<DoorSeen> doors = doors_seen(step.view, step.feet().z());
+  return std::any_of(doors.begin(), doors.end(), [&](const DoorSeen& door) {
+    return door.is_open() && (door.hinge - step.at()).norm() < kBesideLeaf;
+  });
 }
 
 // Once an obstacle has held it on its way, or at an open leaf, it plans again with all that it

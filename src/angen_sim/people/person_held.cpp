@@ -131,6 +131,19 @@ bool Person::shuts_leaf(const Step& step) {
   return !leaf.empty() && doors_.shut_nearby(step.view, step.feet(), step.outputs, leaf);
 }
 
+// Shuts the open leaf without which there would be a way, from where it is out of the swing; one
+// that swings to already may be that, too.
+bool Person::makes_for_leaf(const Step& step) {
+  if (!errand_ || !walker_.manner().rounds || doors_.is_busy()) return false;
+  if (doors_.wait_for_leaf(step.view, step.feet())) return true;
+  const std::optional<Navigator::LeafInWay> leaf =
+      navigator_.leaf_in_way(step.view, step.feet(), errand_->to());
+  if (!leaf) return false;
+  navigator_.forget_leaf(leaf->door);
+  doors_.go_and_shut(leaf->door, leaf->place, step.now());
+  return true;
+}
+
 bool Person::is_freed(const Progress::Wait& wait, const Step& step) {
   const bool plans = errand_ && !errand_->pushes();
   if (step.now() >= wait.blind_at && !plans) return true;
@@ -159,6 +172,7 @@ void Person::make_room(const Step& step) {
 }
 
 void Person::wait(const Step& step) {
+  if (makes_for_leaf(step)) return;
   const Vec2 at = step.at();
   hold(at);
   Progress::Wait wait = progress_.wait(step.now());

@@ -235,6 +235,22 @@ std::string Surroundings::model_ahead(const View& view, const Vec3& feet, const 
   return nearest->hit() ? view.model_of(nearest->shape) : "";
 }
 
+std::string Surroundings::model_at(const View& view, const Vec3& feet, const Vec2& point) {
+  const Vec2 way = point - feet.head<2>();
+  const std::vector<std::uint32_t> own = view.own_shapes();
+  const Vec3 end(point.x() + kBeyond * way.normalized().x(),
+                 point.y() + kBeyond * way.normalized().y(), feet.z());
+  for (const double height : kHeights) {
+    const Vec3 up = height * Vec3::UnitZ();
+    for (const rays::Crossing& c : view.rays().crossings(
+             feet + up, end + up, rays::kAll & ~rays::only(rays::Mobility::kStatic))) {
+      const bool is_own = std::count(own.begin(), own.end(), c.shape) > 0;
+      if (!is_own && std::abs(c.enter - way.norm()) < kBeyond) return view.model_of(c.shape);
+    }
+  }
+  return "";
+}
+
 void Surroundings::remove_gone(const View& view, const Vec3& feet, std::vector<Vec2>& points) {
   const rays::Scene& scene = view.rays();
   const auto cast = [&](const rays::Ray& ray) {

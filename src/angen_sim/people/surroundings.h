@@ -49,6 +49,9 @@ class Surroundings {
   /// direction; empty if it sees none.
   static std::string model_ahead(const View& view, const Vec3& feet, const Vec2& direction);
 
+  /// The model that can move and is at a point, as seen by a person at `feet`; empty if none is.
+  static std::string model_at(const View& view, const Vec3& feet, const Vec2& point);
+
   /// Removes the points that rays of a person at `feet` now pass.
   static void remove_gone(const View& view, const Vec3& feet, std::vector<Vec2>& points);
 
