@@ -46,3 +46,27 @@ def test_a_person_squeezes_past_another(world, aside):
     ann, bob = (w.device('person', name) for name in ('ann', 'bob'))
     assert ann['x'] > 4.8 and not ann['unreachable']
     assert np.hypot(bob['x'], bob['y'] - aside) < 0.01
+
+
+@pytest.mark.parametrize('goal', ['5.9 0', '5.95 0', '1.4 1', '5.85 3.85'])
+def test_a_goal_too_near_to_a_wall_is_known_at_once(world, goal):
+    """No place with room is so near to it that one who stands there has arrived."""
+    w = world(box('wall', '6.05 0 1.2 0 0 0', '0.1 10 2.4', True)
+              + box('north', '0 4.05 1.2 0 0 0', '12 0.1 2.4', True)
+              + box('pillar', '2 1 1.2 0 0 0', '1 1 2.4', True) + person('-2 0 0 0 0 0'))
+    w.run(0.5)
+    w.command('person', 'ann', f'GoTo {goal}')
+    w.run(0.2)
+    state = w.device('person', 'ann')
+    assert state['unreachable'] and state['why'] == 'there is no room for a person'
+
+
+@pytest.mark.parametrize('goal', ['5.85 0', '1.35 1', '5.8 3.8'])
+def test_a_goal_near_enough_to_a_place_with_room_is_reached(world, goal):
+    w = world(box('wall', '6.05 0 1.2 0 0 0', '0.1 10 2.4', True)
+              + box('north', '0 4.05 1.2 0 0 0', '12 0.1 2.4', True)
+              + box('pillar', '2 1 1.2 0 0 0', '1 1 2.4', True) + person('-2 0 0 0 0 0'))
+    w.run(0.5)
+    w.command('person', 'ann', f'GoTo {goal}')
+    w.run(15.0)
+    assert [e for _, source, _, e, _ in w.events() if source == 'ann' and e == 'arrived']

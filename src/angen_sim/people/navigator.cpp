@@ -47,7 +47,7 @@ bool Navigator::plan(const View& view, const Vec3& feet, const Vec2& to, bool wi
       route_.reset();
       passages_ = passages_of(strip, straight(at, to));
       if (is_in_passage(at)) add_passage_behind(*maps_->find(view, feet, to), straight(at, to));
-      return true;
+      return Surroundings::has_room(view, {to.x(), to.y(), feet.z()});
     }
   }
   const std::shared_ptr<const FloorMap> storey = maps_->find(view, feet, to);
@@ -57,6 +57,10 @@ bool Navigator::plan(const View& view, const Vec3& feet, const Vec2& to, bool wi
   passages_.clear();
   route_.reset();
   if (!way) return Surroundings::is_walkable(view, feet, to);
+  const bool is_known = storey->cells() > 0;
+  if (!with_seen && is_known && !Surroundings::has_room(view, {to.x(), to.y(), feet.z()})) {
+    return false;
+  }
   passages_ = passages_of(*storey, *way);
   if (is_in_passage(at)) add_passage_behind(*storey, *way);
   route_.emplace(std::move(map), std::move(*way));
@@ -135,6 +139,7 @@ std::string Navigator::why_not(const View& view, const Vec3& feet, const Vec2& t
   const FloorMap map(view, there, to, FloorMap::Extent::kStraight);
   if (!map.is_free(to)) return "there is no room for a person";
   if (!map.has_floor(view, to, to)) return "there is no floor";
+  if (!Surroundings::has_room(view, there)) return "there is no room for a person";
   return "no way leads there";
 }
 

@@ -17,6 +17,7 @@ namespace angen::people {
 namespace {
 
 constexpr double kShutsFrom = 1.6;   // m from a leaf that is in its way
+constexpr double kFalls = 3.5;       // m/s: a fall of 0.6 m
 constexpr double kBesideLeaf = 1.5;  // m from its hinge
 constexpr double kUnseen = 0.3;      // m to an obstacle that it does not see
 
@@ -75,6 +76,8 @@ void Person::run_errand(const Step& step) {
                      (is<Progress::Wait>() && have_others_to_go(step.view, step.feet()));
   const bool lingers = !there && errand.lingers(at, step.now(), waits, rests, speed_);
   if (lingers && !gave_up()) give_up(what_holds(step), step.outputs);
+  const bool falls = !ride_ && step.body.linear_velocity.z() < -kFalls;
+  if (falls && !errand.is_over()) give_up("it has fallen from its floor", step.outputs);
   if (there || gave_up()) {
     if (!rests) errand.stop_at(at);
     if (!gave_up()) arrive(step.outputs);
@@ -82,6 +85,7 @@ void Person::run_errand(const Step& step) {
     if (!rests) stand(step.outputs);
     return show(Mode::kStanding, step);
   }
+  walker_.look_down(step.view, step.feet());
   if (gives_way(step)) return;
   const Look look = is<WaitsAtDoor>() ? Look::kNone : walker_.look(step.view, step.feet());
   if (look != Look::kNone || !navigator_.target()) navigator_.advance(at, errand.to());
@@ -114,7 +118,7 @@ void Person::run_errand(const Step& step) {
 bool Person::plan(const Step& step, bool with_seen) {
   if (errand_->pushes()) {
     navigator_.go_straight();
-    return true;
+    return Surroundings::has_floor(step.view, step.feet(), errand_->to());
   }
   return navigator_.plan(step.view, step.feet(), errand_->to(), with_seen);
 }

@@ -23,6 +23,7 @@ constexpr Nanoseconds kRejoinWithin = 6 * kSecond;
 }  // namespace
 
 void Person::stroll(const Path::Place& place, const Step& step) {
+  walker_.look_down(step.view, step.feet());
   if (gives_way(step)) return;
   const bool near =
       walker_.rests() && place.still() && (Vec2(place.x, place.y) - step.at()).norm() < kPushedAway;

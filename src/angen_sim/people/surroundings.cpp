@@ -35,9 +35,16 @@ constexpr double kAbove = 0.2;      // m above its feet, where that look begins
 constexpr double kDrop = 0.4;       // m: it steps down less than this
 constexpr int kEdgeHalvings = 6;    // an edge is found to 1 or 2 cm
 
-constexpr float kSlope = 0.94F;     // cosine of 20 degrees: a less steep surface is walked up
-constexpr double kSlopeStep = 0.1;  // m, in which a slope is looked at …
-constexpr double kRise = 0.05;      // m … and rises or falls at most
+constexpr rays::Mobilities kFixed = rays::only(rays::Mobility::kStatic);
+constexpr double kRoomSight = 0.6;     // m around a goal, where it looks for room
+constexpr int kRoomDirections = 32;    // of these looks
+constexpr double kRoomAway = 0.13;     // m: a place that is nearer to a goal is as good
+constexpr int kRoomRings = 6;          // of such places
+constexpr double kNextSurface = 1e-6;  // m
+constexpr double kFloorAhead = 0.05;   // m, in which the floor of a straight way is looked at
+constexpr float kSlope = 0.94F;        // cosine of 20 degrees: a less steep surface is walked up
+constexpr double kSlopeStep = 0.1;     // m, in which a slope is looked at …
+constexpr double kRise = 0.05;         // m … and rises or falls at most
 constexpr double kStepsAhead[] = {0.35, 0.15, 0.0};  // m, of a step aside
 constexpr double kStepAside = 0.6;                   // m, at most
 
@@ -59,6 +66,56 @@ bool is_obstacle(const rays::Hit& hit) { return hit.hit() && hit.normal.z() < kS
 
 rays::Ray down_at(const Vec3& feet, const Vec2& place) {
   return {Vec3(place.x(), place.y(), feet.z() + kAbove), -Vec3::UnitZ(), 0.0, kAbove + kDrop};
+}
+
+Vec2 unit(int i, int count) {
+  const double angle = 2.0 * M_PI * i / count;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// The floor under a place, from a step above `z` to a drop below it, that is none of some models.
+std::optional<double> floor_below(const View& view, const Vec2& place, double z,
+                                  const std::vector<std::string>& but) {
+  rays::Ray down = down_at({place.x(), place.y(), z}, place);
+  std::vector<rays::Hit> hits;
+  for (std::size_t surface = 0; surface <= 2 * but.size(); ++surface) {
+    view.rays().cast({down}, hits);
+    if (!hits[0].hit()) return std::nullopt;
+    const bool is_floor =
+        but.empty() || std::count(but.begin(), but.end(), view.model_of(hits[0].shape)) == 0;
+    if (is_floor) return down.origin.z() - hits[0].range;
+    down.min = hits[0].range + kNextSurface;
+  }
+  return std::nullopt;
+}
+
+/// The model that a person at `feet` stands on; empty if it falls.
+std::string model_below(const View& view, const Vec3& feet) {
+  const std::vector<std::uint32_t> own = view.own_shapes();
+  rays::Ray down = down_at(feet, feet.head<2>());
+  std::vector<rays::Hit> hits;
+  for (std::size_t surface = 0; surface <= 2 * own.size(); ++surface) {
+    view.rays().cast({down}, hits);
+    if (!hits[0].hit()) break;
+    if (std::count(own.begin(), own.end(), hits[0].shape) == 0) {
+      return view.model_of(hits[0].shape);
+    }
+    down.min = hits[0].range + kNextSurface;
+  }
+  return "";
+}
+
+/// m along a unit direction to the end of the floor; none if that is not before `reach`.
+template <typename HasFloor>
+std::optional<double> edge_before(double reach, const HasFloor& has_floor) {
+  if (has_floor(reach) || has_floor(reach + kEdgeWide)) return std::nullopt;
+  double floor = 0.0;
+  double edge = reach;
+  for (int half = 0; half < kEdgeHalvings; ++half) {
+    const double middle = 0.5 * (floor + edge);
+    (has_floor(middle) ? floor : edge) = middle;
+  }
+  return edge;
 }
 
 class Grid {
@@ -215,6 +272,88 @@ void Surroundings::find_edges(const View& view, const Vec3& feet, std::vector<Ve
   }
 }
 
+void Surroundings::scan_floor(const View& view, const Vec3& feet) {
+  points_.clear();
+  const Vec2 at = feet.head<2>();
+  if (!floor_below(view, at, feet.z(), {})) return;  // it falls
+  const std::string below = model_below(view, feet);
+  for (int i = 0; i < kDirections; ++i) {
+    const Vec2 along = unit(i, kDirections);
+    rays_.clear();
+    for (const double height : kHeights) {
+      rays_.push_back({feet + height * Vec3::UnitZ(), {along.x(), along.y(), 0.0}, kOwn, kSight});
+    }
+    for (const double reach : kEdgesAt) {
+      const double sight = reach + kEdgeWide;
+      view.rays().cast(rays_, hits_, kFixed);
+      const auto is_near = [&](const rays::Hit& hit) { return hit.hit() && hit.range < sight; };
+      if (std::any_of(hits_.begin(), hits_.end(), is_near)) continue;
+      view.rays().cast(rays_, hits_);
+      std::vector<std::string> ahead;  // what it may push away from over the floor
+      for (const rays::Hit& hit : hits_) {
+        if (is_near(hit)) ahead.push_back(view.model_of(hit.shape));
+      }
+      ahead.erase(std::remove(ahead.begin(), ahead.end(), below), ahead.end());
+      const auto edge = edge_before(reach, [&](double away) {
+        return floor_below(view, at + away * along, feet.z(), ahead).has_value();
+      });
+      if (edge) points_.emplace_back(at + *edge * along);
+    }
+  }
+  fresh_ = points_.size();
+}
+
+bool Surroundings::has_floor(const View& view, const Vec3& feet, const Vec2& to) {
+  const Vec2 at = feet.head<2>();
+  const int steps = static_cast<int>(std::ceil((to - at).norm() / kFloorAhead));
+  double z = feet.z();
+  int missing = 0;
+  for (int i = 1; i <= steps; ++i) {
+    const std::optional<double> floor =
+        floor_below(view, at + (to - at) * (static_cast<double>(i) / steps), z, {});
+    missing = floor ? 0 : missing + 1;
+    z = floor.value_or(z);
+    if (missing * kFloorAhead > kEdgeWide) return false;
+  }
+  return missing == 0;
+}
+
+bool Surroundings::has_room(const View& view, const Vec3& place) {
+  const Vec2 at = place.head<2>();
+  std::vector<Vec2> points;
+  std::vector<rays::Hit> hits;
+  for (int i = 0; i < kRoomDirections; ++i) {
+    const Vec2 along = unit(i, kRoomDirections);
+    std::vector<rays::Ray> around;
+    for (const double height : kHeights) {
+      around.push_back(
+          {place + height * Vec3::UnitZ(), {along.x(), along.y(), 0.0}, 0.0, kRoomSight});
+    }
+    view.rays().cast(around, hits);
+    const bool is_hidden =
+        std::any_of(hits.begin(), hits.end(), [](const rays::Hit& hit) { return hit.hit(); });
+    view.rays().cast(around, hits, kFixed);
+    for (const rays::Hit& hit : hits) {
+      if (is_obstacle(hit)) points.emplace_back(at + hit.range * along);
+    }
+    if (is_hidden) continue;
+    const auto edge = edge_before(kRoomSight - kEdgeWide, [&](double away) {
+      return floor_below(view, at + away * along, place.z(), {}).has_value();
+    });
+    if (edge) points.emplace_back(at + *edge * along);
+  }
+  for (int ring = 0; ring <= kRoomRings; ++ring) {
+    for (int i = 0; i < kRoomDirections; ++i) {
+      const Vec2 there = at + kRoomAway * ring / kRoomRings * unit(i, kRoomDirections);
+      const bool is_free = std::none_of(points.begin(), points.end(), [&](const Vec2& point) {
+        return (point - there).norm() < FloorMap::kClearance;
+      });
+      if (is_free) return true;
+    }
+  }
+  return false;
+}
+
 std::string Surroundings::model_ahead(const View& view, const Vec3& feet, const Vec2& direction) {
   const Vec3 ahead(direction.x(), direction.y(), 0.0);
   std::vector<rays::Ray> ways;
@@ -347,7 +486,7 @@ bool Surroundings::is_walkable(const View& view, const Vec3& feet, const Vec2& t
     if (!crossed(next + kHead * Vec3::UnitZ(), next + kLow * Vec3::UnitZ()).empty()) return false;
     last = next;
   }
-  return true;
+  return has_room(view, last);
 }
 
 // At a distance from seen points, as it sees no more of an obstacle; close if there is no other

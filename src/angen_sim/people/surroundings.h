@@ -21,6 +21,9 @@ class Surroundings {
   /// Casts rays from a body at `feet` (world, m). Keeps the hits of the scan before.
   void scan(const View& view, const Vec3& feet);
 
+  /// Sees only where the floor ends, which things that can be pushed do not hide.
+  void scan_floor(const View& view, const Vec3& feet);
+
   /// The free way of a body of that half width along a unit direction, at most kSight: m.
   double free_way(const Vec2& from, const Vec2& direction, double body = kBody) const;
   /// Whether it would meet nothing on the straight way.
@@ -42,8 +45,14 @@ class Surroundings {
   std::optional<Vec2> way_aside(const Vec2& from, const Vec2& to) const;
 
   /// Whether a person at `feet` can walk straight to `to` on the static shapes below, up and down
-  /// slopes, past all others.
+  /// slopes, past all others, and has room there.
   static bool is_walkable(const View& view, const Vec3& feet, const Vec2& to);
+
+  /// Whether there is floor all the straight way of a person at `feet`, up and down slopes.
+  static bool has_floor(const View& view, const Vec3& feet, const Vec2& to);
+  /// Whether static shapes and the ends of the floor leave room for a person so near to a place
+  /// that it arrives there.
+  static bool has_room(const View& view, const Vec3& place);
 
   /// The model that can move and is nearest before a person at `feet` who looks along a unit
   /// direction; empty if it sees none.

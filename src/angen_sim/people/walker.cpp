@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "people/modes.h"
 #include "people/others.h"
@@ -20,7 +21,10 @@ constexpr double kComes = 0.1;       // m/s: who is slower stands
 constexpr double kPushSpeed = 0.3;   // m/s, against a thing that it shall push
 constexpr double kBarely = 0.05;     // m/s: slower than this it is stuck
 constexpr double kAlong = 0.2;       // share of a direction that leads along an obstacle
-constexpr double kTowards = 0.7;     // cosine, of a person who walks towards it
+constexpr double kRuns = 1.35;       // m/s
+constexpr double kHasStopped = 0.2;  // m/s
+constexpr double kFastest = std::numeric_limits<double>::infinity();
+constexpr double kTowards = 0.7;  // cosine, of a person who walks towards it
 constexpr int kScansPerPlan = 3;
 
 double turn_to(const Walker::Vec2& direction, const LinkView& body) {
@@ -42,8 +46,18 @@ Walker::Look Walker::look(const View& view, const Vec3& feet) {
   const bool plans = now % kScansPerPlan == 0 || now - looked_at_ > 1;
   looked_at_ = now;
   braking_.invalidate();
+  run_braking_.invalidate();
   surroundings_.scan(view, feet);
   return plans ? Look::kPlans : Look::kSees;
+}
+
+void Walker::look_down(const View& view, const Vec3& feet) {
+  if (!manner_.pushes) return;
+  const Nanoseconds now = view.time() / kScanPeriod;
+  if (now == looked_down_at_) return;
+  looked_down_at_ = now;
+  floor_braking_.invalidate();
+  floor_.scan_floor(view, feet);
 }
 
 const Surroundings& Walker::scan(const View& view, const Vec3& feet) {
@@ -85,7 +99,7 @@ std::optional<Walker::Vec2> Walker::way_past(const View& view, const Vec3& feet,
 
 void Walker::walk(const LinkView& body, const Vec2& to, double fastest, Outputs& outputs,
                   std::optional<double> turn) {
-  const Vec2 way = velocity(body.pose.position.head<2>(), to, fastest);
+  const Vec2 way = velocity(body, to, fastest);
   drive(way, turn ? *turn : turn_to(way, body), outputs);
 }
 
@@ -98,8 +112,10 @@ void Walker::stand(Outputs& outputs) {
   rests_ = true;
 }
 
-// It stops before obstacles that it sees, unless it shall push them.
-Walker::Vec2 Walker::velocity(const Vec2& at, const Vec2& to, double fastest) {
+// It stops before obstacles that it sees, unless it shall push them, and before the end of the
+// floor.
+Walker::Vec2 Walker::velocity(const LinkView& body, const Vec2& to, double fastest) {
+  const Vec2 at = body.pose.position.head<2>();
   const Vec2 way = aim_.value_or(to) - at;
   const double length = way.norm();
   if (length < 1e-9) return Vec2::Zero();
@@ -112,8 +128,21 @@ Walker::Vec2 Walker::velocity(const Vec2& at, const Vec2& to, double fastest) {
       allowed = braking_.limit(surroundings_, at, direction, speed);
     }
     speed = std::min(speed, manner_.pushes ? std::max(allowed, kPushSpeed) : allowed);
+    if (!manner_.pushes) speed = std::min(speed, limit_of_run(body));
+  }
+  if (manner_.pushes && !floor_.points().empty()) {
+    speed = std::min(speed, floor_braking_.limit(floor_, at, direction, speed));
   }
   return speed * direction;
+}
+
+// Who runs does not turn at once: it can stop on the way that it still moves, too.
+double Walker::limit_of_run(const LinkView& body) {
+  const Vec2 moves = body.linear_velocity.head<2>();
+  const double speed = moves.norm();
+  runs_ = speed > (runs_ ? kHasStopped : kRuns);
+  if (!runs_) return kFastest;
+  return run_braking_.limit(surroundings_, body.pose.position.head<2>(), moves / speed, speed);
 }
 
 // Without the part of a direction that leads to the nearest obstacle.

@@ -35,8 +35,10 @@ class Walker {
 
   /// Looks around if it is time for it. With each third look a way round is planned.
   Look look(const View& view, const Vec3& feet);
+  /// Looks where the floor ends, if it is time for it: who pushes walks on over all but that.
+  void look_down(const View& view, const Vec3& feet);
   /// Looks at once the next time.
-  void look_anew() { looked_at_ = -1; }
+  void look_anew() { looked_at_ = looked_down_at_ = -1; }
   /// Looks around now, apart from the usual looks.
   const Surroundings& scan(const View& view, const Vec3& feet);
   const Surroundings& surroundings() const { return surroundings_; }
@@ -62,7 +64,8 @@ class Walker {
 
  private:
   std::optional<Vec2> way_past(const View& view, const Vec3& feet, const Vec2& to) const;
-  Vec2 velocity(const Vec2& at, const Vec2& to, double fastest);
+  Vec2 velocity(const LinkView& body, const Vec2& to, double fastest);
+  double limit_of_run(const LinkView& body);
   Vec2 slid(const Vec2& at, const Vec2& direction) const;
   void drive(const Vec2& velocity, double turn, Outputs& outputs);
 
@@ -71,10 +74,15 @@ class Walker {
   Manner manner_;
   Surroundings surroundings_;
   Braking braking_;
+  Braking run_braking_;  // along the way that it moves
+  Surroundings floor_;   // its ends
+  Braking floor_braking_;
   std::optional<Vec2> aim_;     // the first place of a way round
   Nanoseconds looked_at_ = -1;  // the last look, as a multiple of kScanPeriod
-  double late_ = 0.0;           // s: the mean age of its velocity in longer steps
+  Nanoseconds looked_down_at_ = -1;
+  double late_ = 0.0;  // s: the mean age of its velocity in longer steps
   bool slides_ = false;
+  bool runs_ = false;
   bool rests_ = false;
 };
 
