@@ -67,7 +67,7 @@ class Navigator {
   bool knows_obstacles() const { return !seen_.empty(); }
 
  private:
-  /// Of the storey, with points that it has seen and tolls of the doors that are shut.
+  /// A map of the storey, with points that it has seen and tolls of the doors that are shut.
   FloorMap map_with(const View& view, const Vec3& feet, const Vec2& to,
                     const std::vector<Vec2>& points) const;
   bool is_in_passage(const Vec2& at) const;

@@ -131,8 +131,8 @@ bool Person::shuts_leaf(const Step& step) {
   return !leaf.empty() && doors_.shut_nearby(step.view, step.feet(), step.outputs, leaf);
 }
 
-// Shuts the open leaf without which there would be a way, from where it is out of the swing; one
-// that swings to already may be that, too.
+// Shuts the open leaf without which there would be a way, from where it is out of the swing, or
+// waits for one in motion.
 bool Person::makes_for_leaf(const Step& step) {
   if (!errand_ || !walker_.manner().rounds || doors_.is_busy()) return false;
   if (doors_.wait_for_leaf(step.view, step.feet())) return true;

@@ -37,9 +37,9 @@ constexpr int kEdgeHalvings = 6;    // an edge is found to 1 or 2 cm
 
 constexpr rays::Mobilities kFixed = rays::only(rays::Mobility::kStatic);
 constexpr double kRoomSight = 0.6;     // m around a goal, where it looks for room
-constexpr int kRoomDirections = 32;    // of these looks
+constexpr int kRoomDirections = 32;    // it looks in so many
 constexpr double kRoomAway = 0.13;     // m: a place that is nearer to a goal is as good
-constexpr int kRoomRings = 6;          // of such places
+constexpr int kRoomRings = 6;          // circles of such places
 constexpr double kNextSurface = 1e-6;  // m
 constexpr double kFloorAhead = 0.05;   // m, in which the floor of a straight way is looked at
 constexpr float kSlope = 0.94F;        // cosine of 20 degrees: a less steep surface is walked up
