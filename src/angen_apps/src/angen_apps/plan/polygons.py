@@ -68,6 +68,13 @@ def in_room(room: Room, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return found
 
 
+def from_segment(x: np.ndarray, y: np.ndarray, a: Point, b: Point) -> np.ndarray:
+    """The distances of places from the segment between two points."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    share = np.clip(((x - a[0]) * dx + (y - a[1]) * dy) / (dx * dx + dy * dy), 0.0, 1.0)
+    return np.hypot(x - a[0] - share * dx, y - a[1] - share * dy)
+
+
 def cleaned(polygon: Sequence[Point]) -> list[Point]:
     """Without corners that are within 2 mm of the one before, and without spikes."""
     points = [(round(x, 4), round(y, 4)) for x, y in polygon]

@@ -10,7 +10,7 @@ from angen import Grid
 from scipy.ndimage import label
 
 from angen_apps.maps.gridmap import FREE, make_map
-from angen_apps.plan.polygons import inside
+from angen_apps.plan.polygons import from_segment, inside
 from angen_apps.residents.fronts import Fronts
 from angen_apps.robot.doors import door_of
 from angen_apps.robot.planner import Door as Leaf, Point, distances
@@ -78,7 +78,8 @@ class Floors:
         beside = np.ones(passable.shape, bool)
         for door in (door for door in doors if door.kind == 'door'):
             leaf = self.leaves.get(door.name)
-            away = np.full(x.shape, BODY) if leaf is None else _away(leaf, x, y)
+            away = np.full(x.shape, BODY) if leaf is None else from_segment(
+                x, y, leaf.hinge, leaf.tip(leaf.open))
             past = beside if leaf is None else away >= BODY
             if not _passes(door, passable & past, x, y):
                 wide = np.minimum(clear, away)
@@ -246,13 +247,6 @@ def _opened(world: Any, home: Home) -> dict[str, Leaf]:
             turned = math.copysign(state['position'], state['opens'])
             leaves[name] = door_of(door, {**state, 'opens': turned})
     return leaves
-
-
-def _away(leaf: Leaf, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """The distances of places from an open leaf."""
-    (x0, y0), (x1, y1) = leaf.hinge, leaf.tip(leaf.open)
-    share = np.clip(((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / leaf.width ** 2, 0.0, 1.0)
-    return np.hypot(x - x0 - share * (x1 - x0), y - y0 - share * (y1 - y0))
 
 
 def _offsets(x: np.ndarray, y: np.ndarray, door: Door) -> tuple[np.ndarray, np.ndarray]:
