@@ -13,7 +13,9 @@ from typing import Any, Callable
 
 import pytest
 
-from angen_apps.data.checks import places as place_checks, sensors as sensor_checks
+from angen_apps.data.checks import labels as label_checks
+from angen_apps.data.checks import places as place_checks
+from angen_apps.data.checks import sensors as sensor_checks
 from angen_apps.data.formats import FORMATS
 from angen_apps.data.generate import HOME, MANIFEST, Job, make, sha256
 from angen_apps.data.validate import validate
@@ -429,3 +431,19 @@ def test_the_usual_speed_is_that_of_walks_and_not_of_who_waits(listed: float, fo
     place_checks._walls(findings, home)
     texts = [text for text in findings.wrong['no speed above their own'] if 'walks at' in text]
     assert texts == [f'ann walks at {found} times the speed in layout.json'] * bool(found)
+
+
+@pytest.mark.parametrize('phase, posture, seconds, found', [
+    ('does', 'stand', 12000.0, 1), ('waits', 'stand', 12000.0, 1), ('waits', 'stand', 1000.0, 0),
+    ('does', 'stand', 1000.0, 1), ('does', 'lie', 12000.0, 0)])
+def test_a_sleeper_who_stands_is_noticed_in_spite_of_a_note(
+        phase: str, posture: str, seconds: float, found: int) -> None:
+    """In r1-207 dora stood beside the bed for 3.4 h, as bert was on it."""
+    rows = [('0', f'{seconds}', 'sleep', phase, posture, 'dora: bert is on bedroom_bed0'),
+            (f'{seconds}', '86400', 'sleep', 'does', 'lie', '')]
+    home: Any = SimpleNamespace(people={'dora'}, truth=[
+        {'resident': 'dora', **dict(zip(('start', 'end', 'activity', 'phase', 'posture', 'note'),
+                                        row))} for row in rows])
+    findings = Findings()
+    label_checks._lies(findings, home)
+    assert findings.count == found
