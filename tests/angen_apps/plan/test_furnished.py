@@ -12,7 +12,8 @@ import pytest
 from scipy.ndimage import distance_transform_edt, label
 
 import angen
-from angen_apps.plan.apartment import apartment
+from angen_apps.plan.apartment import apartment, wing
+from angen_apps.plan.finish import finish
 from angen_apps.plan.furnished import furnish
 from angen_apps.plan.model import Piece, Plan, Room, Storey
 from angen_apps.plan.polygons import bounds, contains, inside, overlap, rectangle
@@ -131,8 +132,22 @@ def closed_off(plan: Plan) -> list[str]:
 
 def test_open_doors_that_close_off_a_room_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr('angen_apps.plan.furnished.VARIANTS', 1)
+    monkeypatch.setattr('angen_apps.plan.apartment.PAST_ENTRANCE', 0.0)
     with pytest.raises(Failure, match='seed 602: no place for a way between the doors in hall0'):
         apartment(1, 1, 602)
+
+
+@pytest.mark.parametrize('rooms', [1, 2, 5])
+def test_the_open_entrance_closes_off_no_door(rooms: int) -> None:
+    """A building has many halls: there is no other variant to wait for."""
+    for seed in range(40):
+        storey = wing(0, rooms, Random(seed), None)[0]
+        plan = finish(Plan('one', [storey], latitude=51.5))
+        assert not [text for text in furnish(storey, Random(seed)) if 'between' in text], seed
+        for room in plan.all_rooms():
+            door, = (o for o in storey.openings if o.kind == 'door' and o.name == room.name)
+            assert room.polygon[0][0] + 0.1 < door.x - door.width / 2 or room.use == 'hall'
+            assert door.x + door.width / 2 < room.polygon[1][0] - 0.1
 
 
 def test_residents_leave_nothing_out_behind_an_open_door(
