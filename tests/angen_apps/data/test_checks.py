@@ -13,6 +13,8 @@ from typing import Any, Callable
 
 import pytest
 
+from angen_apps.data.checks import labels as label_checks
+from angen_apps.data.checks import places as place_checks
 from angen_apps.data.checks import sensors as sensor_checks
 from angen_apps.data.formats import FORMATS
 from angen_apps.data.generate import HOME, MANIFEST, Job, make, sha256
@@ -408,3 +410,41 @@ def test_the_front_of_a_thing_is_in_its_room(room: str, checked: int) -> None:
     findings = Findings()
     sensor_checks._fronts(findings, home)
     assert findings.checked['who uses a thing opens it'] == checked
+
+
+@pytest.mark.parametrize('missed, passes, few', [
+    (0, 0, True), (4, 195, True), (9, 195, True), (10, 195, False), (3, 10, False),
+    (200, 10000, True), (260, 10000, False)])
+def test_a_share_of_few_walks_has_the_tolerance_of_their_number(missed: int, passes: int, few: bool
+                                                                ) -> None:
+    assert sensor_checks._is_few(missed, passes) == few
+
+
+@pytest.mark.parametrize('listed, found', [(1.0, ''), (1.8, '0.56'), (0.8, '1.25')])
+def test_the_usual_speed_is_that_of_walks_and_not_of_who_waits(listed: float, found: str) -> None:
+    """Ann walks 3 m at 1 m/s four times, and stands in the doorway for a minute after each."""
+    track = [{'resident': 'ann', 'time': f'{100 * walk + step * 0.4}', 'storey': '0',
+              'x': f'{min(step * 0.4, 3.2)}', 'y': '0.0'}
+             for walk in range(4) for step in range(150)]
+    home: Any = SimpleNamespace(speeds={'ann': listed}, names=['ann'], people={'ann'}, track=track,
+                                layout={'rooms': [], 'doors': []})
+    findings = Findings()
+    place_checks._walls(findings, home)
+    texts = [text for text in findings.wrong['no speed above their own'] if 'walks at' in text]
+    assert texts == [f'ann walks at {found} times the speed in layout.json'] * bool(found)
+
+
+@pytest.mark.parametrize('phase, posture, seconds, found', [
+    ('does', 'stand', 12000.0, 1), ('waits', 'stand', 12000.0, 1), ('waits', 'stand', 1000.0, 0),
+    ('does', 'stand', 1000.0, 1), ('does', 'lie', 12000.0, 0)])
+def test_a_sleeper_who_stands_is_noticed_in_spite_of_a_note(
+        phase: str, posture: str, seconds: float, found: int) -> None:
+    """In r1-207 dora stood beside the bed for 3.4 h, as bert was on it."""
+    rows = [('0', f'{seconds}', 'sleep', phase, posture, 'dora: bert is on bedroom_bed0'),
+            (f'{seconds}', '86400', 'sleep', 'does', 'lie', '')]
+    home: Any = SimpleNamespace(people={'dora'}, truth=[
+        {'resident': 'dora', **dict(zip(('start', 'end', 'activity', 'phase', 'posture', 'note'),
+                                        row))} for row in rows])
+    findings = Findings()
+    label_checks._lies(findings, home)
+    assert findings.count == found

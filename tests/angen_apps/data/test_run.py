@@ -181,6 +181,26 @@ def test_the_power_of_what_was_switched_just_now_is_recorded_after_the_next_tick
     assert times[-1] == pytest.approx(1.0, abs=0.01) and watts[-1] > 5.0
 
 
+def test_who_is_pushed_moves_then_and_not_at_each_later_event(home):
+    """Anna stands, is moved by 6 cm, and stands again."""
+    site = Site(home, 7, placed=False)
+    household = Household(site.simulator, site.floors, 3, 'home', datetime.date(2026, 3, 23))
+    anna = make(household, [('anna', read('worker'))])[0]
+    household._queue.clear()
+    recorder = Recorder(site, household)
+    recorder.start()
+    anna.enter(household.places.anywhere())
+    household.run(10.0)
+    body = site.simulator.body('anna')
+    site.simulator.fidget('anna', body._replace(x=body.x + 0.06))
+    household.run(11.0)
+    household.run(60.0)
+    assert [move.resident for move in recorder.recording.moves if move.time > 9.0] == ['anna']
+    assert recorder.recording.moves[-1].time == pytest.approx(11.0)
+    assert not recorder._moves(anna, household.now)
+    assert anna.at[0] == pytest.approx(body.x + 0.06, abs=0.01)
+
+
 def job(folder: Path, **more) -> Job:
     return Job(str(folder), 'home', 7, 1, ('2',), ('casas',), **more)
 

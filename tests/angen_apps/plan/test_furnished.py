@@ -7,18 +7,23 @@ from math import cos, sin
 from pathlib import Path
 from random import Random
 
+import numpy as np
 import pytest
+from scipy.ndimage import distance_transform_edt, label
 
 import angen
-from angen_apps.plan.apartment import apartment
+from angen_apps.plan.apartment import apartment, wing
+from angen_apps.plan.finish import finish
 from angen_apps.plan.furnished import furnish
 from angen_apps.plan.model import Piece, Plan, Room, Storey
-from angen_apps.plan.polygons import base, overlap
+from angen_apps.plan.polygons import base, inside, overlap, rectangle
 from angen_apps.plan.tower import building
 from angen_apps.plan.writer import write_world
+from angen_tools.cli import main as cli
 from angen_tools.common.failure import Failure
-from angen_tools.common.geometry import contains
+from angen_tools.common.geometry import bounds, contains, turned
 
+CELL, RADIUS = 0.05, 0.3  # m
 BATHROOM = {'toilet', 'sink', 'shower', 'washing_machine'}
 
 
@@ -82,6 +87,80 @@ def test_a_home_in_which_something_has_no_place_is_refused(monkeypatch: pytest.M
     monkeypatch.setattr('angen_apps.plan.furnished.VARIANTS', 1)
     with pytest.raises(Failure, match='seed 3: no place for .*; take another seed'):
         apartment(2, 1, 3)
+
+
+@pytest.mark.parametrize('rooms', [1, 2, 3, 4])
+def test_people_get_to_each_piece_past_open_doors(rooms: int) -> None:
+    lost = [(seed, name) for seed in range(600, 610)
+            for name in closed_off(apartment(rooms, 1, seed))]
+    assert not lost
+
+
+def closed_off(plan: Plan) -> list[str]:
+    """The pieces that people with a radius of 0.3 m do not get to while all doors are open."""
+    storey, = plan.storeys
+    doors = [opening for opening in storey.openings if opening.kind == 'door']
+    west, south, east, north = bounds(point for room in storey.rooms for point in room.polygon)
+    x, y = np.meshgrid(np.arange(west, east, CELL), np.arange(south, north, CELL))
+    floor = np.zeros(x.shape, bool)
+    for room in storey.rooms:
+        floor |= inside(room.polygon, x, y)
+    for door in doors:
+        floor |= inside(rectangle(door.x, door.y, door.yaw, (-door.width / 2, -0.2),
+                                  (door.width / 2, 0.2)), x, y)
+    for piece in storey.pieces:
+        floor &= ~inside(base(piece), x, y)
+    free = distance_transform_edt(np.pad(floor, 1))[1:-1, 1:-1] * CELL > RADIUS
+    for door in doors:
+        leaf, = door.leaves
+        hinge = door.point(*leaf.hinge)
+        tip = turned(hinge, door.yaw + leaf.shut + leaf.turn, leaf.width, 0.0)
+        share = np.clip(((x - hinge[0]) * (tip[0] - hinge[0]) + (y - hinge[1]) * (
+            tip[1] - hinge[1])) / leaf.width ** 2, 0.0, 1.0)
+        free &= np.hypot(x - hinge[0] - share * (tip[0] - hinge[0]),
+                         y - hinge[1] - share * (tip[1] - hinge[1])) > RADIUS
+    parts, _ = label(free)
+    reached = parts == np.bincount(parts[free]).argmax()
+    return [piece.name for piece in storey.pieces if piece.thing not in ('table', 'desk')
+            and not (reached & (np.hypot(x - piece.x, y - piece.y) < piece.depth / 2 + 0.8)).any()]
+
+
+def test_open_doors_that_close_off_a_room_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr('angen_apps.plan.furnished.VARIANTS', 1)
+    monkeypatch.setattr('angen_apps.plan.apartment.PAST_ENTRANCE', 0.0)
+    with pytest.raises(Failure, match='seed 602: no place for a way between the doors in hall0'):
+        apartment(1, 1, 602)
+
+
+@pytest.mark.parametrize('rooms', [1, 2, 5])
+def test_the_open_entrance_closes_off_no_door(rooms: int) -> None:
+    """A building has many halls: there is no other variant to wait for."""
+    for seed in range(40):
+        storey = wing(0, rooms, Random(seed), None)[0]
+        plan = finish(Plan('one', [storey], latitude=51.5))
+        assert not [text for text in furnish(storey, Random(seed)) if 'between' in text], seed
+        for room in plan.all_rooms():
+            door, = (o for o in storey.openings if o.kind == 'door' and o.name == room.name)
+            assert room.polygon[0][0] + 0.1 < door.x - door.width / 2 or room.use == 'hall'
+            assert door.x + door.width / 2 < room.polygon[1][0] - 0.1
+
+
+def test_residents_leave_nothing_out_behind_an_open_door(
+        tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    plan = apartment(1, 1, 101)
+    write_world(plan, tmp_path / 'home.world', 'none')
+    assert cli.run(['home', str(tmp_path / 'home.world'), '--residents', '1']) == 0
+    left = [line for line in capsys.readouterr().err.splitlines() if 'leaves out' in line]
+    assert left == ['angen: anna (worker) leaves out phone: the home has no living in reach']
+    world = angen.World(str(tmp_path / 'home.world'), seed=1)
+    world.spawn('<actor name="ann"><plugin name="person" filename="libperson_controller.so"/>'
+                '</actor>', 'ann', [1.0, 0.75, 0.0, 0.0, 0.0, 0.0])
+    toilet = next(piece for piece in plan.storeys[0].pieces if piece.thing == 'toilet')
+    for shuts in ('LeaveDoors', 'CloseDoors'):
+        world.command('person', 'ann', shuts)
+        assert arrives(world, users(toilet)[0])
+        assert (world.device('door', 'bathroom0')['mode'] == 'OPEN') == (shuts == 'LeaveDoors')
+        assert arrives(world, (1.0, 0.75))
 
 
 @pytest.mark.parametrize('rooms', [1, 3])

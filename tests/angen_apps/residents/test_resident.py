@@ -5,7 +5,7 @@ import datetime
 import math
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Iterator
 
 import pytest
 
@@ -88,6 +88,44 @@ def test_who_finds_the_bed_taken_lies_on_the_floor(tmp_path):
     does = next(i for i in anna.diary.closed if i.phase == 'does')
     assert (does.posture, does.thing, does.room) == ('lie', '', 'bedroom0')
     assert does.note == 'no place for sleep'
+
+
+@pytest.mark.parametrize('places, leaves, found', [
+    (1, 300.0, ('bed', 310.0, '')), (1, math.inf, ('', 800.0, 'no place for sleep')),
+    (2, math.inf, ('bed', 60.0, ''))])
+def test_who_finds_another_one_on_the_bed_does_not_stand_all_night(
+        places: int, leaves: float, found: tuple[str, float, str], tmp_path: Path) -> None:
+    """Bert, who is on a bed that nobody has taken, leaves it, or is still on it."""
+    apartment(tmp_path / 'home.world')
+    site, household, anna = home_of(tmp_path / 'home.world')
+    bert = make(household, [('bert', anna.profile)])[1]
+    household._queue.clear()
+    sleep, spots = anna._known['sleep'], anna._tasks['sleep'][0][:places]
+    anna._tasks['sleep'][0] = spots
+
+    def lies() -> Iterator[float]:
+        bert.enter(spots[0], True)
+        if leaves < math.inf:
+            yield leaves
+            yield from bert.go(household.places.anywhere().stand, 0)
+
+    def script() -> Iterator[float]:
+        anna.enter(household.places.anywhere())
+        yield from anna._step(sleep, sleep.steps[0], 0, 5000.0)
+
+    household.add(lies())
+    household.add(script())
+    household.run(2000.0)
+    household.close()
+    thing, soon, note = found
+    rows = anna.diary.closed
+    last = rows[-1]
+    kinds = {t.name: t.type for t in site.home.things}
+    assert (last.phase, last.posture, kinds.get(last.thing, ''), last.note) == (
+        'does', 'lie', thing, note)
+    assert last.start < soon
+    assert all(row.posture == 'lie' for row in rows if row.phase == 'does')
+    assert places > 1 or any(row.phase == 'waits' and 'bert is on' in row.note for row in rows)
 
 
 def test_residents_are_at_home_when_a_run_begins_in_the_day(tmp_path):

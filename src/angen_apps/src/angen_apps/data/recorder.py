@@ -133,6 +133,8 @@ class Recorder:
         if 0.0 < self.household.now == self._looked:
             return  # less than a tick has passed: commands are executed in the next one
         for resident in self.household.residents:
+            if not resident.away and not resident.walks and self._is_pushed(resident):
+                resident.look()
             if resident.walks:
                 self._follow(resident)
                 if resident.looked - self._stepped.get(resident.name, -math.inf) >= STRIDE:
@@ -261,8 +263,10 @@ class Recorder:
 
     def _moves(self, resident: Any, time: float) -> bool:
         """Whether a resident walks, has moved a moment before, or was pushed by a leaf."""
-        if resident.walks or time - resident.moved < RECENT:
-            return True
+        return resident.walks or time - resident.moved < RECENT or self._is_pushed(resident)
+
+    def _is_pushed(self, resident: Any) -> bool:
+        """Whether a standing resident is not where it was seen: others and leaves push."""
         if resident.posture != 'stand':
             return False
         body = self.site.simulator.body(resident.name)

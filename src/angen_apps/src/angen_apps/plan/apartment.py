@@ -6,6 +6,7 @@ wide: Approved Document M (2015) requires 0.75 m clear for a straight approach.
 """
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi
 from random import Random
 
@@ -20,6 +21,7 @@ CEILING, RISE = 2.5, 3.0  # m
 HALL = 1.5  # m wide
 LEAF = 0.86  # m
 DOOR_TOP = 2.05
+PAST_ENTRANCE = 1.25  # m from its wall to a door that the open leaf of the entrance leaves free
 SILL, WINDOW_TOP = 0.95, 2.15  # m
 # least area and width, and how much of it varies
 SIZES = {'living': (16.0, 3.2, 10.0), 'kitchen': (8.0, 2.4, 5.0), 'bathroom': (4.5, 1.9, 2.5),
@@ -155,7 +157,18 @@ def _outside(storey: Storey, length: float, depths: list[float]) -> None:
     north, south = HALL + depths[0], -depths[1]
     corners = [(0.0, south), (length, south), (length, north), (0.0, north)]
     storey.walls += [Wall(a, b, OUTER, z, z + CEILING) for a, b in edges(corners)]
-    door(storey, 0.0, HALL / 2, -pi / 2, OUTER, True, True, 'front door')
+    door(storey, 0.0, HALL / 2, -pi / 2, OUTER, True, _entrance_opens_north(storey), 'front door')
+
+
+def _entrance_opens_north(storey: Storey) -> bool:
+    """Whether the leaf of the entrance opens to the north wall of the hall, or to the south wall:
+    the one at which it leaves the doors free. A door that it would close off is moved."""
+    doors = {y: min((o for o in storey.openings if o.kind == 'door' and o.y == y),
+                    key=lambda o: o.x) for y in (HALL, 0.0)}
+    y = HALL if doors[HALL].x >= PAST_ENTRANCE or doors[HALL].x >= doors[0.0].x else 0.0
+    near = doors[y]
+    storey.openings[storey.openings.index(near)] = replace(near, x=max(near.x, PAST_ENTRANCE))
+    return y == HALL
 
 
 def _landing(storey: Storey) -> None:

@@ -3,6 +3,7 @@ a door's swing, chairs at tables, ways free."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import cos, hypot, pi, sin
 from random import Random
 from typing import Callable, Iterator, Sequence
@@ -11,9 +12,9 @@ import numpy as np
 from scipy.ndimage import distance_transform_edt, label
 
 from angen_apps.plan.finish import room_at
-from angen_apps.plan.model import Opening, Piece, Plan, Room, Storey
+from angen_apps.plan.model import Opening, Piece, Plan, Point, Room, Storey
 from angen_apps.plan.names import Names, stem
-from angen_apps.plan.polygons import base, hole, overlap
+from angen_apps.plan.polygons import base, hole, overlap, to_segments
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import bounds, turned
 
@@ -48,7 +49,9 @@ GAP = 0.02  # m to the wall, and between a table and its chairs
 FRONT = 0.65  # m before a piece that stay free
 SITTER = 0.5  # m of a toilet's width that no other piece is in: who sits there is 0.48 m wide
 WAY = 0.8  # m that ways are wide
+PAST = 0.36  # m from an open leaf to the middle of who gets past it
 REACH = 0.8  # m from the middle of a way to what it leads to
+INSIDE, CLOSE = 0.42, 0.1  # m from a wall to who comes in by its door, and from there to a way
 BEFORE = 0.35  # m from a piece to its user
 CELL = 0.05
 STEP = 0.15  # m between the places along a wall that are tried
@@ -89,10 +92,12 @@ def furnish(storey: Storey, dice: Random) -> list[str]:
     chairs = min(MOST_CHAIRS, SLEEPERS * uses.count('bedroom') // homes)
     missing = []
     for room in storey.rooms:
-        doors = [(o.x, o.y) for o in storey.openings if o.kind != 'window'
-                 and any(room_at(storey, o.point(0.0, side)) is room
-                         for side in (o.band[0] - 0.1, o.band[1] + 0.1))]
-        floor = _Floor(room, doors, kept_free, chairs)
+        doors = [(o, side) for o in storey.openings if o.kind != 'window' for side in (-1, 1)
+                 if room_at(storey, _before(o, side, 0.1)) is room]
+        floor = _Floor(room, [_before(o, side, INSIDE) for o, side in doors],
+                       [leaf for o, _ in doors for leaf in _open_leaves(o)], kept_free, chairs)
+        if not _ways_are_free(floor, []):
+            missing.append(f'a way between the doors in {room.name}')
         placed, absent = _arranged(floor, needed.get(room.use, ()), wanted.get(room.use, ()), dice)
         missing += [f'{thing} in {room.name}' for thing in absent]
         for piece in placed:
@@ -103,13 +108,26 @@ def furnish(storey: Storey, dice: Random) -> list[str]:
 
 @dataclass(frozen=True)
 class _Floor:
-    """A room, the middles of its doors, areas that stay free of things above a height over the
-    floor, and the number of chairs at its table."""
+    """A room, the places of who comes in by its doors, their open leaves from hinge to edge, areas
+    that stay free of things above a height over the floor, and the number of chairs at its table.
+    """
 
     room: Room
-    doors: list[tuple[float, float]]
-    kept_free: list[tuple[list[tuple[float, float]], float]]
+    inside: list[Point]
+    leaves: list[tuple[Point, Point]]
+    kept_free: list[tuple[list[Point], float]]
     chairs: int
+
+    @cached_property
+    def cells(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """x and y of the columns and rows of its cells, and where one is clear of open leaves."""
+        west, south, east, north = bounds(self.room.polygon)
+        x = np.arange(west + CELL / 2, east, CELL)
+        y = np.arange(south + CELL / 2, north, CELL)[:, None]
+        clear = np.ones((len(y), len(x)), bool)
+        for hinge, edge in self.leaves:
+            clear &= to_segments(x, y, hinge, edge) >= PAST
+        return x, y, clear
 
 
 def _arranged(floor: _Floor, needed: Sequence[str], wanted: Sequence[str], dice: Random
@@ -203,6 +221,18 @@ def _kept_free(opening: Opening) -> list[tuple[float, float]]:
     return hole(opening, 0.1, reach)
 
 
+def _before(door: Opening, side: int, away: float) -> Point:
+    """The point before the middle of a door, on its side -1 or 1, so far from its wall."""
+    return door.point(0.0, door.band[0] - away if side < 0 else door.band[1] + away)
+
+
+def _open_leaves(door: Opening) -> list[tuple[Point, Point]]:
+    """The hinge and the far edge of each leaf of a door that turns, as it is open."""
+    hinges = [(door.point(*leaf.hinge), leaf) for leaf in door.leaves if leaf.turn]
+    return [(hinge, turned(hinge, door.yaw + leaf.shut + leaf.turn, leaf.width, 0.0))
+            for hinge, leaf in hinges]
+
+
 def _front(piece: Piece) -> float:
     """The depth of the floor before a piece that stays free, in m: a table's are its chairs'."""
     return 0.0 if piece.thing in (*TABLES, 'chair') else FRONT
@@ -232,23 +262,22 @@ def _fits(floor: _Floor, pieces: list[Piece], placed: list[Piece]) -> bool:
 
 
 def _ways_are_free(floor: _Floor, pieces: list[Piece]) -> bool:
-    """Whether ways lead from each door to the user of each piece."""
-    west, south, east, north = bounds(floor.room.polygon)
-    x = np.arange(west + CELL / 2, east, CELL)
-    y = np.arange(south + CELL / 2, north, CELL)
-    free = np.ones((len(y), len(x)), bool)
+    """Whether ways lead from each door to the user of each piece, past open leaves."""
+    x, y, clear = floor.cells
+    free = np.ones(clear.shape, bool)
     for piece in pieces:
         c, s = cos(piece.yaw), sin(piece.yaw)
-        dx, dy = x[None] - piece.x, y[:, None] - piece.y
+        dx, dy = x - piece.x, y - piece.y
         free &= ~((np.abs(dx * c + dy * s) < piece.depth / 2)
                   & (np.abs(dy * c - dx * s) < piece.width / 2))
     padded = np.pad(free, 1)
-    labels, _ = label(distance_transform_edt(padded)[1:-1, 1:-1] * CELL >= WAY / 2)
-    goals = floor.doors + [_user(piece) for piece in pieces if piece.thing not in TABLES]
+    labels, _ = label(clear & (distance_transform_edt(padded)[1:-1, 1:-1] * CELL >= WAY / 2))
+    goals = [(point, CLOSE) for point in floor.inside]
+    goals += [(_user(piece), REACH) for piece in pieces if piece.thing not in TABLES]
     found = set()
-    for gx, gy in goals:
-        near = np.hypot(x[None] - gx, y[:, None] - gy) + 1e6 * (labels == 0)
-        if near.min() > REACH:
+    for (gx, gy), reach in goals:
+        near = np.hypot(x - gx, y - gy) + 1e6 * (labels == 0)
+        if near.min() > reach:
             return False
         found.add(int(labels.flat[int(near.argmin())]))
     return len(found) <= 1

@@ -28,6 +28,7 @@ TURNS = (-TURNED, 0.0, TURNED)
 LEANS = (-0.02, 0.1), (-0.02, 0.02)  # m ahead and aside, of who sits and reaches; ours
 MORE, APART = 0.5, (3.0, 9.0)  # probability of a further movement in a bout, and s until then
 QUEUE, PATIENCE = 10.0, 900.0  # s between two looks at a room or way, and until it is given up
+CLOSE = 0.35  # m between two who sit or lie, at least
 HEARS = 4.0  # m to one whom one talks to, ours
 # s of a turn of a talk: 1200 of 2 to 3 h a day (Levinson and Torreira, Frontiers in Psychology 6,
 # 2015)
@@ -228,6 +229,24 @@ class Company(User):
                    self.household.held.get(('spot', spot.key), self.name) == self.name
                    for spot in self._tasks[TV][0])
 
+    def _rooms(self, activity: Activity) -> list[str]:
+        """The rooms of which an activity takes one, those of this storey first."""
+        away = {room.name: room.storey != self.storey
+                for room in self.household.places.rooms_of(activity.alone)}
+        used = [spot.room for spot in self._tasks[activity.name][0] if spot.room in away]
+        return sorted(dict.fromkeys(used), key=lambda room: away[room])
+
+    def _of_own(self, activity: Activity, spots: list[Spot]) -> list[Spot]:
+        """The spots of an activity outside of rooms that it takes, but for those that it has
+        taken."""
+        others = {room.name for room in self.household.places.rooms_of(activity.alone)
+                  if self.household.held.get(('room', room.name)) != self.name}
+        return [spot for spot in spots if spot.room not in others]
+
+    def _leave_rooms(self, activity: Activity) -> None:
+        for room in self.household.places.rooms_of(activity.alone):
+            self.household.leave(('room', room.name), self.name)
+
     def _queue(self, activity: Activity, rooms: list[str], before: Item) -> Success:
         """Waits for one of some rooms that one resident uses at a time, by habit before its door or
         with what it did before; returns whether it has one, or needs none."""
@@ -278,9 +297,23 @@ class Company(User):
     def _somebody_at(self, spot: Spot) -> bool:
         return any(r is not self and r.is_at(spot) for r in self.household.residents)
 
-    def _release(self) -> None:
+    def _is_settled_at(self, spot: Spot) -> bool:
+        """Whether another one sits or lies at the place of a spot."""
+        return spot.place is not None and any(
+            other.posture != 'stand' and math.dist(other.at, spot.place.pose[:2]) < CLOSE
+            for other in self.others() if other.storey == spot.storey)
+
+    def _until_free(self, spot: Spot, until: float) -> Process:
+        """Waits until another one has left the place of a spot."""
+        taken = self._is_settled_at(spot)
+        while self.now < until and taken == self._is_settled_at(spot):
+            yield min(until, self.now + QUEUE)
+
+    def _release(self, but: Spot | None = None) -> None:
+        """Gives back its places, but for one."""
         held = self.household.held
-        for key in [key for key, who in held.items() if who == self.name and key[0] == 'spot']:
+        for key in [key for key, who in held.items() if who == self.name and key[0] == 'spot'
+                    and (but is None or key[1] != but.key)]:
             del held[key]
 
     def _note(self, phase: str, activity: str, step: int = 0) -> None:

@@ -29,6 +29,7 @@ REACHES = (4.0, 15.0)  # s between two bouts of movements before it, ours
 MAKES_WAY = 30.0  # s in which another one passes
 ANYWHERE = 4  # places for things that a home lacks
 PAUSE = 60.0  # s until a way that was given up is tried again, then twice as long
+TAKEN, AGAIN = 600.0, 120.0  # s until it does without a place that is taken, and between tries
 OUT_BETWEEN = 900.0  # s: a visitor with less to wait stays
 
 
@@ -179,11 +180,9 @@ class Resident(Company):
             remark = f'no place for {activity.name}'
             spot = (activity.name == 'sleep' and self._choose(self.household.places.on_floor)) \
                 or self.household.places.beside(self._tasks[activity.name][index], self._habits)
-        if not (yield from self._gets_to(spot, activity, end)):
+        spot = yield from self._takes_place(spot, activity, index, end, remark)
+        if spot is None:
             return
-        remark = self._sits(spot) or remark
-        self._note('does', activity.name, index)
-        self.diary.note(remark)
         self._lamps(activity.dark)
         used = self._use(step, spot)
         if used and step.opens:
@@ -204,6 +203,48 @@ class Resident(Company):
             pause *= 2
             yield from self._reach(spot, activity.name)
         return True
+
+    def _takes_place(self, spot: Spot, activity: Activity, index: int, end: float, remark: str = ''
+                     ) -> Generator[float, None, Spot | None]:
+        """Gets to a spot, and sits or lies down where it is for that. While another one is in the
+        way, it tries the others that serve, waits, and tries again; then it sleeps on the floor, or
+        does the activity on its feet. Returns where it is; None if the end comes before."""
+        patience = min(self.now + TAKEN, (self.now + end) / 2)
+        tried: list[Spot] = []
+        while (yield from self._gets_to(spot, activity, end)):
+            why = self._sits(spot)
+            if activity.name == 'sleep' and spot.place is None and self.profile.body == 'person':
+                why = 'no place for sleep'
+            late = self.now >= patience
+            if not why or late and activity.name != 'sleep':
+                self._note('does', activity.name, index)
+                self.diary.note(why or remark)
+                return spot
+            self._note('waits', activity.name)
+            self.diary.note(why)
+            tried.append(spot)
+            other = self._another(activity, index, tried, late)
+            if other is None:
+                tried.clear()
+                yield from self._until_free(spot, min(end, self.now + AGAIN))
+            else:
+                spot, serves = other, other in self._tasks[activity.name][index]
+                remark = '' if serves else f'no place for {activity.name}'
+            if self.now > end - LATE:
+                break
+        return None
+
+    def _another(self, activity: Activity, index: int, tried: list[Spot], floor: bool
+                 ) -> Spot | None:
+        """Another spot of a step that nobody has or is at, of those on the floor if it may."""
+        spots = self._of_own(activity, self._tasks[activity.name][index])
+        if floor and activity.name == 'sleep':
+            spots = [*spots, *self.household.places.on_floor]
+        other = self._choose([spot for spot in spots
+                              if spot not in tried and not self._is_settled_at(spot)])
+        if other is not None:
+            self._release(other)
+        return other
 
     def _sits(self, spot: Spot) -> str:
         """Sits or lies down where a spot is for that; returns what was in the way."""
@@ -236,11 +277,10 @@ class Resident(Company):
                     or not self.household.take(('spot', other.key), self.name):
                 continue
             yield from self._visit(activity, index, other, lasts)
-            if not (yield from self._gets_to(spot, activity, end)):
+            back = yield from self._takes_place(spot, activity, index, end)
+            if back is None:
                 return
-            remark = self._sits(spot)
-            self._note('does', activity.name, index)
-            self.diary.note(remark)
+            spot = back
         yield from self._stay(end, CAT if self.profile.body != 'person' else moves)
 
     def _other(self, visits: Visits, spot: Spot) -> Spot | None:
@@ -328,24 +368,6 @@ class Resident(Company):
             self._note('does', activity.name, index)
             self._lamps(activity.dark)
             yield from self._stay(min(self.now + self._habits.uniform(*ROAMS), end))
-
-    def _rooms(self, activity: Activity) -> list[str]:
-        """The rooms of which an activity takes one, those of this storey first."""
-        away = {room.name: room.storey != self.storey
-                for room in self.household.places.rooms_of(activity.alone)}
-        used = [spot.room for spot in self._tasks[activity.name][0] if spot.room in away]
-        return sorted(dict.fromkeys(used), key=lambda room: away[room])
-
-    def _of_own(self, activity: Activity, spots: list[Spot]) -> list[Spot]:
-        """The spots of an activity outside of rooms that it takes, but for those that it has
-        taken."""
-        others = {room.name for room in self.household.places.rooms_of(activity.alone)
-                  if self.household.held.get(('room', room.name)) != self.name}
-        return [spot for spot in spots if spot.room not in others]
-
-    def _leave_rooms(self, activity: Activity) -> None:
-        for room in self.household.places.rooms_of(activity.alone):
-            self.household.leave(('room', room.name), self.name)
 
     def _leave(self, until: float) -> Process:
         """Out of the home, until then."""

@@ -20,6 +20,7 @@ START = 1.0  # s, in which sensors report their first states
 OWN = ('motion', 'seat', 'hand')  # causes that are residents
 GUEST = ('visit', 'eat', 'leave')
 ALWAYS = {'sleep', 'leave', 'relax', 'toilet', 'wash', 'shower', 'dress', 'nap'}
+STANDS = {'does': 300.0, 'waits': 1800.0}  # s on one's feet asleep, and before a place to sleep
 NOTED = 0.3  # share of a resident's time with notes of what did not go as planned, at most
 LABEL = re.compile(r'(?:(R\d+)_)?(\w+) (begin|end)')
 
@@ -27,6 +28,7 @@ LABEL = re.compile(r'(?:(R\d+)_)?(\w+) (begin|end)')
 def check(findings: Findings, home: Written) -> None:
     """All checks of labels."""
     _does(findings, home)
+    _lies(findings, home)
     _profiles(findings, home)
     _noted(findings, home)
     _events(findings, home)
@@ -50,6 +52,23 @@ def _does(findings: Findings, home: Written) -> None:
         findings.say('an activity is in a room for it',
                      any(_fits(home, step, row) for step in activity.steps)
                      or _visits(home, activity, row), where)
+
+
+def _lies(findings: Findings, home: Written) -> None:
+    """Who sleeps lies, also if a note says why not."""
+    stood: dict[tuple[str, str], float] = {}  # s by resident and phase, since it lay
+    for row in home.truth:
+        who, phase = row['resident'], row['phase']
+        if who not in home.people:
+            continue
+        if row['activity'] != 'sleep' or row['posture'] != 'stand':
+            stood.update({(who, phase): 0.0 for phase in STANDS})
+        elif phase in STANDS:
+            seconds = stood.get((who, phase), 0.0) + float(row['end']) - float(row['start'])
+            stood[who, phase] = seconds
+            findings.say('who sleeps lies', seconds <= STANDS[phase],
+                         f'{who} at {row["start"]}: stands for {seconds:.0f} s'
+                         + (f', {row["note"]}' if row['note'] else ''))
 
 
 def _visits(home: Written, activity: Activity, row: dict[str, str]) -> bool:

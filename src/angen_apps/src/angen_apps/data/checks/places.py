@@ -10,8 +10,9 @@ from angen_tools.common.geometry import contains, local
 from angen_tools.common.home import Room
 
 FASTER = 1.35  # times the speed of a profile that a person may reach
-USUAL = (0.75, 1.15)  # times that speed, of the middle of their steps
-STEPS = 100  # least number whose usual speed is checked
+USUAL = (0.75, 1.15)  # times that speed, of the middle of their walks
+STRETCH = 2.0  # m of a walk in which nobody is in its way: its fastest
+WALKS = 3  # least number whose usual speed is checked
 SLACK = 0.5  # m from the middle of an opening to the end of a step to its room
 CABIN, LEAVES = 3.0, 0.6  # m from a landing into the cabin, and to the sides between the leaves
 STEP = 0.65  # s between two places of one walk, at most
@@ -69,17 +70,20 @@ def _walls(findings: Findings, home: Written) -> None:
     speeds = home.speeds
     porches = _porches(home.layout)
     last: dict[str, tuple[float, float, float, int]] = {}
-    usual: dict[str, list[float]] = {name: [] for name in home.names}
+    walks: dict[str, list[list[tuple[float, float, float]]]] = {name: [] for name in home.names}
     for row in home.track:
         who, time, x, y = row['resident'], float(row['time']), float(row['x']), float(row['y'])
         findings.say('no speed above their own', who in speeds, f'no resident {who}')
         before = last.get(who)
         storey = int(row['storey'])
         last[who] = (time, x, y, storey)
-        if who not in speeds or before is None or time - before[0] > STEP or storey != before[3]:
+        if who not in speeds:
             continue
+        if before is None or time - before[0] > STEP or storey != before[3]:
+            walks[who].append([(time, x, y)])
+            continue
+        walks[who][-1].append((time, x, y))
         way, took = math.dist(before[1:3], (x, y)), time - before[0]
-        usual[who].append(way / max(took, 0.01))
         findings.say('no speed above their own', way <= FASTER * speeds[who] * took + 0.06,
                      f'{who} at {time}: {way:.2f} m in {took:.2f} s')
         rooms = [_room(home.layout, *before[1:]), _room(home.layout, x, y, storey)]
@@ -92,11 +96,25 @@ def _walls(findings: Findings, home: Written) -> None:
             findings.say('no resident crossed a wall', near,
                          f'{who} at {time}: from {rooms[0]} at {before[1]} {before[2]} to '
                          f'{rooms[1]} at {x} {y}')
-    for who, steps in usual.items():
-        if len(steps) >= STEPS and who in home.people:
-            share = sorted(steps)[len(steps) * 3 // 4] / speeds[who]
+    for who, own in walks.items():
+        usual = sorted(speed for speed in map(_fastest, own) if speed)
+        if len(usual) >= WALKS and who in home.people:
+            share = usual[len(usual) // 2] / speeds[who]
             findings.say('no speed above their own', USUAL[0] <= share <= USUAL[1],
                          f'{who} walks at {share:.2f} times the speed in layout.json')
+
+
+def _fastest(walk: list[tuple[float, float, float]]) -> float:
+    """The speed in the fastest STRETCH of a walk (times, x, y), without waiting and stepping
+    aside; 0 if it leads less far."""
+    best, first = 0.0, 0
+    for last, (time, x, y) in enumerate(walk):
+        while first < last and math.dist(walk[first + 1][1:], (x, y)) >= STRETCH:
+            first += 1
+        way = math.dist(walk[first][1:], (x, y))
+        if way >= STRETCH:
+            best = max(best, way / max(time - walk[first][0], 0.01))
+    return best
 
 
 def _room(layout: Any, x: float, y: float, storey: int) -> str:
