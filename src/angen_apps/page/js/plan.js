@@ -188,7 +188,7 @@ export class Plan {
   furniture(number) {
     const { home } = this, group = svg('g');
     for (const thing of home.described?.things ?? []) {
-      if (home.storeyAt(thing.pose[2] + 0.2) === number && thing.type !== 'window' && thing.type !== 'lamp') group.append(...this.thing(thing));
+      if (home.storeyOf(thing.name, thing.pose[2] + 0.2) === number && thing.type !== 'window' && thing.type !== 'lamp') group.append(...this.thing(thing));
     }
     return group;
   }
@@ -199,7 +199,7 @@ export class Plan {
    */
   thing(thing) {
     const { home } = this, links = home.linksOf(thing.name), [tx, ty, turn] = this.placeOfThing(thing, links), [c, s] = [Math.cos(turn), Math.sin(turn)];
-    const floor = home.storeys.find((one) => one.number === home.storeyAt(thing.pose[2] + 0.2))?.elevation ?? 0;
+    const floor = home.storeys.find((one) => one.number === home.storeyOf(thing.name, thing.pose[2] + 0.2))?.elevation ?? 0;
     const low = (/** @type {any} */ part) => home.scene.links[part.link].pose[2] + part.pose[2] - part.size[2] / 2 - floor;
     const parts = home.scene.shapes.filter((/** @type {any} */ part) => links.includes(part.link)).map((/** @type {any} */ part) => this.boxOf(part)).filter((/** @type {any} */ part) => low(part) < TOP);
     if (!parts.some((/** @type {any} */ part) => part.size[0] * part.size[1] >= LEAST_PART)) return [];
