@@ -16,7 +16,7 @@ import pytest
 from angen_apps.data.checks import sensors as sensor_checks
 from angen_apps.data.formats import FORMATS
 from angen_apps.data.generate import HOME, MANIFEST, Job, make, sha256
-from angen_apps.data.validate import validate
+from angen_apps.data.validate import validate, validate_all
 from angen_apps.data.written import Findings, Written
 from angen_tools.common.failure import Failure
 
@@ -373,6 +373,38 @@ def test_a_list_that_is_missing_or_another_is_noticed(good: Path, tmp_path: Path
     assert 'casas.txt was changed' in validate(folder).wrong['a file is as it is listed']
     (folder / HOME).unlink()
     assert validate(folder).count
+
+
+def test_the_manifest_and_the_folder_have_the_same_homes(good: Path, tmp_path: Path) -> None:
+    entry = json.loads((good / HOME).read_text())
+    for name in ('one', 'two', 'three'):
+        shutil.copytree(good, tmp_path / name)
+        (tmp_path / name / HOME).write_text(json.dumps({**entry, 'name': name}))
+    shutil.copytree(tmp_path / 'one', tmp_path / 'copy')
+    (tmp_path / 'three' / 'layout.json').unlink()
+    (tmp_path / MANIFEST).write_text(json.dumps(
+        {'homes': [{**entry, 'name': name} for name in ('one', 'three', 'four', 'one')]}))
+    findings = validate_all(tmp_path)[0]
+    assert [line.rpartition(f'{MANIFEST}: ')[2] for line in findings.wrong[
+        'a file is as it is listed']] == [
+        'does not list copy as home.json does', 'does not list two as home.json does',
+        'does not list copy', 'lists four, which is missing', 'lists one twice',
+        'lists three, which is missing', 'does not list two']
+    for name in ('two', 'three', 'copy'):
+        shutil.rmtree(tmp_path / name)
+    (tmp_path / MANIFEST).write_text(json.dumps({'homes': [{**entry, 'name': 'one'}]}))
+    assert validate_all(tmp_path)[0].count == 0
+
+
+def test_the_manifest_of_one_home_lists_one(good: Path, tmp_path: Path) -> None:
+    folder = copied(good, tmp_path)
+    entry = json.loads((folder / HOME).read_text())
+    (folder / MANIFEST).write_text(json.dumps({'homes': [entry, {**entry, 'name': 'other'}]}))
+    assert validate_all(folder)[0].count == 1
+    (folder / MANIFEST).unlink()
+    (folder / MANIFEST).mkdir()
+    with pytest.raises(Failure, match='is not a file'):
+        validate(folder)
 
 
 def test_good_data_has_no_finding(good: Path, tmp_path: Path) -> None:

@@ -85,7 +85,7 @@ LAYOUT = {'start': clock(*YEARS), 'days': number(1, DAYS, whole=True),
 ENTRY = {'settings': {'seed': number(0, SEED, whole=True), 'formats': [NAME], 'world': TEXT,
                       'own_sensors': boolean, 'light': boolean},
          'files': Each(inner_path, TEXT)}  # home.json
-HOMES: dict[str, Any] = {'homes': [{}]}  # manifest.json
+HOMES: dict[str, Any] = {'homes': [{'name': NAME}]}  # manifest.json
 
 
 def parsed(path: Path, shape: Any, most: int = LAYOUT_SIZE) -> Any:

@@ -1,8 +1,10 @@
 """Checks each file of a home against its list, and against the files from which it follows."""
 from __future__ import annotations
 
+import os
 import tempfile
 import zlib
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -66,10 +68,28 @@ def _listed(findings: Findings, home: Written, entry: Any, files: dict[str, str]
 
 def _manifest(findings: Findings, home: Written, entry: Any) -> None:
     path = next((folder / MANIFEST for folder in (home.folder, home.folder.parent)
-                 if (folder / MANIFEST).is_file()), None)
+                 if os.path.lexists(folder / MANIFEST)), None)
     if path is not None:
-        findings.say(LISTED, entry in parsed(path, HOMES, MANIFEST_SIZE)['homes'],
+        own = path.parent == home.folder or entry.get('name') == home.folder.name
+        findings.say(LISTED, own and entry in parsed(path, HOMES, MANIFEST_SIZE)['homes'],
                      f'{path}: does not list {home.folder.name} as {HOME} does')
+
+
+def check_folder(findings: Findings, folder: Path, homes: list[Path]) -> None:
+    """The manifest of an output folder lists each home that is in it once, and no other one."""
+    path = folder / MANIFEST
+    if not os.path.lexists(path):
+        return
+    listed = Counter(entry['name'] for entry in parsed(path, HOMES, MANIFEST_SIZE)['homes'])
+    if homes == [folder]:
+        findings.say(LISTED, listed.total() == 1,
+                     f'{path}: lists {listed.total()} homes, the folder is one')
+        return
+    there = {home.name for home in homes}
+    for name in sorted({*listed, *there}):
+        findings.say(LISTED, name in there, f'{path}: lists {shown(name)}, which is missing')
+        findings.say(LISTED, listed[name] > 0, f'{path}: does not list {name}')
+        findings.say(LISTED, listed[name] < 2, f'{path}: lists {shown(name)} twice')
 
 
 def _ids(findings: Findings, home: Written) -> None:
