@@ -1,4 +1,4 @@
-"""Corruptions of a home's data, of more than 60 kinds: each is noticed. All but those of files are
+"""Corruptions of a home's data, of more than 90 kinds: each is noticed. All but those of files are
 consistent: counts, hashes and the formats that follow from truth and events are written again."""
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Tables:
 
     FILES = {'events': 'events.csv.gz', 'truth': 'truth.csv.gz', 'track': 'track.csv.gz',
              'moves': 'moves.csv.gz', 'loads': 'loads.csv.gz', 'missed': 'missed.csv',
-             'faults': 'faults.csv'}
+             'faults': 'faults.csv', 'talks': 'talks.csv.gz'}
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -305,6 +305,82 @@ BASE: dict[str, Callable[[Tables], Any]] = {
 }
 
 
+# --- consistent corruptions of the layout, and of tables beside the truth
+
+def set_all(entries: list[dict[str, Any]], **values: Any) -> None:
+    for one in entries:
+        one.update(values)
+
+
+def missed(sensor: str, resident: str, kind: str = 'cell_', start: str = '50000.000'
+           ) -> Callable[[Tables], None]:
+    """A row of one who is not there, or over what is no cell. `sensor` empty: one of that kind."""
+    def change(t: Tables) -> None:
+        known = next(s['id'] for s in t.layout['sensors'] if s['name'].startswith(kind))
+        t.missed.append({'start': start, 'end': f'{float(start) + 2:.3f}',
+                         'sensor': sensor or known, 'resident': resident})
+    return change
+
+
+def missed_though_on(t: Tables) -> None:
+    """A row over a cell that detected who was there."""
+    event = next(row for row in t.events if row['sensor'] in t.ids('motion') and row['resident']
+                 and row['cause'] == 'motion' and row['value'] == 'ON')
+    time = clock(event['time'])
+    t.missed.append({'start': f'{time - 1:.3f}', 'end': f'{time + 1:.3f}',
+                     'sensor': event['sensor'], 'resident': event['resident']})
+
+
+def twice(part: str) -> Callable[[Tables], None]:
+    return lambda t: t.layout[part].append(dict(t.layout[part][0]))
+
+
+def door(key: str, change: Callable[[Any], Any]) -> Callable[[Tables], None]:
+    def changed(t: Tables) -> None:
+        one = next(one for one in t.layout['doors'] if one['kind'] == 'door')
+        one[key] = change(one[key])
+    return changed
+
+
+BESIDE: dict[str, Callable[[Tables], Any]] = {
+    'a wide door': door('width', lambda _: 5.0),
+    'a door a bit wider': door('width', lambda width: width + 0.05),
+    'a door turned': door('pose', lambda pose: [*pose[:3], pose[3] + 1.5708]),
+    'a door turned around': door('pose', lambda pose: [*pose[:3], pose[3] + 3.1416]),
+    'a door to a room that is not there': door('rooms', lambda rooms: ['narnia', rooms[1]]),
+    'a door of one room': door('rooms', lambda rooms: rooms[:1]),
+    'a door to another room': door('rooms', lambda rooms: [rooms[0], 'kitchen0']),
+    'sensors in the sky': lambda t: set_all(t.layout['sensors'], z=50.0),
+    'sensors a bit higher': lambda t: set_all(t.layout['sensors'][:1], z=2.0),
+    'a room of a square kilometer': lambda t: set_all(t.layout['rooms'][:1], area=1e6),
+    'a thing of another type': lambda t: set_all(t.layout['things'][-1:], type='piano'),
+    **{f'{part} twice': twice(part) for part in ('rooms', 'doors', 'things', 'sensors',
+                                                 'residents')},
+    'a guest twice': lambda t: t.layout.update(guests=2 * [{'name': 'carl', 'host': 'anna'}]),
+    'a guest with the name of a resident': lambda t: t.layout.update(
+        guests=[{'name': 'bert', 'host': 'anna'}]),
+    'a resident of another name': lambda t: [t.entries('residents', 'name', {'bert': 'bertha'})],
+    'a missed walk of nobody': missed('', 'zoe'),
+    'a missed walk of one who is away': missed('', 'anna'),
+    'a missed walk in a room': missed('', 'anna', 'area_'),
+    'a missed walk by no sensor': missed('M999', 'anna'),
+    'a missed walk that was noticed': missed_though_on,
+    'a step on another floor': lambda t: t.track[9].update(storey='99'),
+    'no talks': lambda t: t.drop('talks', lambda row: True),
+    **{f'all is {cause}': lambda t, cause=cause: columns(t, 'truth', set_to(cause=cause))
+       for cause in ('need', 'continues', 'interrupts')},
+}
+
+
+def test_a_format_that_is_not_in_the_settings_is_noticed(good: Path, tmp_path: Path) -> None:
+    folder = copied(good, tmp_path)
+    entry = json.loads((folder / HOME).read_text())
+    entry['settings']['formats'] = ['csv']
+    (folder / HOME).write_text(json.dumps(entry))
+    assert [line.partition(': ')[2] for line in validate(folder).wrong[
+        'a file is as it is listed']] == ['lists casas.txt, which is of none of its formats']
+
+
 # --- corruptions of files, with and without a new list
 
 def casas(folder: Path, change: Callable[[list[str]], Any]) -> None:
@@ -341,10 +417,10 @@ def copied(good: Path, folder: Path) -> Path:
     return folder / 'home'
 
 
-@pytest.mark.parametrize('kind', BASE)
+@pytest.mark.parametrize('kind', [*BASE, *BESIDE])
 def test_a_corruption_is_noticed(kind: str, good: Path, tmp_path: Path) -> None:
     tables = Tables(copied(good, tmp_path))
-    BASE[kind](tables)
+    (BASE | BESIDE)[kind](tables)
     try:
         tables.write()
         noticed = validate(tables.folder).count

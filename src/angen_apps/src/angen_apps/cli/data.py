@@ -67,7 +67,7 @@ def run_generate(args: argparse.Namespace) -> int:
 def run_validate(args: argparse.Namespace) -> int:
     from angen_apps.data.validate import SHOWN, validate_all
     from angen_tools.common.output import as_json, show, table
-    every, shares = validate_all(args.folder)
+    every, shares = validate_all(args.folder, args.world)
     if args.json:
         print(as_json({'findings': every.wrong, 'checked': dict(every.checked), 'shares': shares}))
     else:
@@ -181,6 +181,8 @@ def add_validate(commands: Any) -> None:
                    'checks the data of angen generate against walls, rooms, seats and causes',
                    'validate out')
     made.add_argument('folder', metavar='DIR', type=Path, help='output folder of angen generate')
+    made.add_argument('world', metavar='WORLD', nargs='?', type=Path,
+                      help='the home of your own that the data are of: compares the layout, too')
     add_json(made)
 
 

@@ -29,6 +29,7 @@ from angen_apps.residents.profiles import is_file, names
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import check_folder, make_folder, write_csv, write_text
+from angen_tools.common.home import Home
 from angen_tools.common.progress import Progress
 
 MANIFEST, HOME = 'manifest.json', 'home.json'
@@ -172,7 +173,7 @@ def finished(job: Job) -> dict[str, Any] | None:
         return None
     settings, files = entry['settings'], entry['files']
     if settings != job.settings:
-        raise Failure(f'{path}: was made with other settings; give another folder with -o')
+        raise Failure(f'{path}: was made with other settings; give another folder with --out')
     if why := _difference(Path(job.folder), entry.get('version'), files):
         print(f'angen: {job.folder}: {why}; the home is made again', file=sys.stderr, flush=True)
         return None
@@ -202,24 +203,12 @@ def write_truth(folder: Path, data: run.Data) -> list[Path]:
     write_csv(paths[1], ('start', 'end', 'sensor', 'resident'),
               [(f'{m.start:.3f}', f'{m.end:.3f}', m.sensor, m.resident) for m in data.missed])
     write_csv(paths[2], faults.Happened._fields, data.faults)
-    home = data.home
     layout = {
         'start': data.start.isoformat(), 'days': data.days,
         'residents': [{'name': name, 'profile': profile.name, 'body': profile.body,
                        'speed': profile.speed} for name, profile in data.residents],
         'guests': [{'name': name, 'host': host} for name, host in data.guests],
-        'rooms': [{'name': r.name, 'use': r.use, 'storey': r.storey,
-                   'polygon': r.polygon, 'holes': r.holes, 'area': r.area}
-                  for r in home.rooms],
-        'doors': [{'name': d.name, 'kind': d.kind, 'rooms': list(d.rooms), 'pose': list(d.pose),
-                   'width': d.width} for d in home.doors],
-        'landings': [{'elevator': elevator.name, 'storey': landing.storey,
-                      'pose': list(landing.pose)}
-                     for elevator in home.elevators for landing in elevator.landings],
-        'things': [{'name': t.name, 'type': t.type, 'room': t.room, 'x': t.pose[0], 'y': t.pose[1]}
-                   for t in home.things],
-        'sensors': [{key: value for key, value in asdict(s).items() if key != 'source'}
-                    for s in data.sensors]}
+        **described(data.home, data.sensors)}
     with zipped(paths[4]) as file:
         file.write('time,resident,x,y,storey\n')
         file.writelines(f'{t:.3f},{who},{x:.3f},{y:.3f},{storey}\n'
@@ -247,6 +236,24 @@ def write_truth(folder: Path, data: run.Data) -> list[Path]:
                             for talk in data.talks)
     write_text(paths[3], json.dumps(_rounded(layout), indent=1) + '\n')
     return paths
+
+
+def described(home: Home, sensors: list[site.Sensor]) -> dict[str, Any]:
+    """The part of a layout that is of the world."""
+    found: dict[str, Any] = _rounded({
+        'rooms': [{'name': r.name, 'use': r.use, 'storey': r.storey,
+                   'polygon': r.polygon, 'holes': r.holes, 'area': r.area}
+                  for r in home.rooms],
+        'doors': [{'name': d.name, 'kind': d.kind, 'rooms': list(d.rooms), 'pose': list(d.pose),
+                   'width': d.width} for d in home.doors],
+        'landings': [{'elevator': elevator.name, 'storey': landing.storey,
+                      'pose': list(landing.pose)}
+                     for elevator in home.elevators for landing in elevator.landings],
+        'things': [{'name': t.name, 'type': t.type, 'room': t.room, 'x': t.pose[0], 'y': t.pose[1]}
+                   for t in home.things],
+        'sensors': [{key: value for key, value in asdict(s).items() if key != 'source'}
+                    for s in sensors]})
+    return found
 
 
 def _rounded(value: Any) -> Any:
