@@ -14,6 +14,7 @@ from typing import Any, Callable
 import pytest
 
 from angen_apps.data.checks import sensors as sensor_checks
+from angen_apps.data.checks import tables as table_checks
 from angen_apps.data.formats import FORMATS
 from angen_apps.data.generate import HOME, MANIFEST, Job, make, sha256
 from angen_apps.data.validate import validate, validate_all
@@ -499,6 +500,34 @@ def test_what_a_listed_fault_has_lost_is_no_finding(good: Path, tmp_path: Path) 
     tables.entry['settings']['faults'] = 64 * '0'
     tables.write()
     assert validate(tables.folder).count == 0
+
+
+@pytest.mark.parametrize('places, wrong', [
+    ([(-2.0, 0.0, 0), (-2.0, 0.0, 1)], []),  # in the cabin
+    ([(2.0, 0.0, 0), (2.0, 0.0, 1)], ['ann at 0.4 on floor 1, before on floor 0']),
+    ([(2.0, 0.0, 9)], ['ann at 0.0 on floor 9, before on floor 9'])])
+def test_who_walks_changes_floors_in_a_cabin(places: list[tuple[float, float, int]],
+                                             wrong: list[str]) -> None:
+    home: Any = SimpleNamespace(
+        layout={'rooms': [{'storey': 0}, {'storey': 1}], 'landings': [
+            {'elevator': 'lift', 'storey': storey, 'pose': [0.0, 0.0, 3.0 * storey, 3.1416]}
+            for storey in (0, 1)]},
+        track=[{'resident': 'ann', 'time': f'{0.4 * i:.1f}', 'x': f'{x}', 'y': f'{y}',
+                'storey': f'{storey}'} for i, (x, y, storey) in enumerate(places)])
+    findings = Findings()
+    table_checks._floors(findings, home)
+    assert findings.wrong['who walks is on a floor of the home'] == wrong
+
+
+def test_the_world_of_the_data_has_their_layout(good: Path, tmp_path: Path) -> None:
+    """That of the built-in apartment needs no file; another one is told."""
+    world = tmp_path / 'home.world'
+    world.write_text('<sdf version="1.6"><world name="w"/></sdf>')
+    wrong = validate_all(good, world)[0].wrong
+    assert wrong['the layout is that of its world'] == [
+        f'home: {world} is not the world of the data']
+    with pytest.raises(Failure, match='is not a file'):
+        validate_all(good, tmp_path / 'none.world')
 
 
 @pytest.mark.parametrize('room, checked', [('bedroom0', 1), ('bedroom1', 0)])

@@ -216,7 +216,7 @@ def rows(path: Path, columns: Columns, check: Callable[[Row], None] = lambda row
 
 def _check_cells(row: dict[Any, Any], columns: Columns) -> None:
     """Failure for more cells than the head has, or one that is missing or not as it must be."""
-    if None in row:  # as csv has those behind the last column
+    if None in row:  # the key of cells behind the last column
         raise Failure(f'has {len(row) - 1 + len(row[None])} cells, must have {len(row) - 1}')
     for column, read in columns.items():
         try:

@@ -6,6 +6,7 @@ from pathlib import Path
 from angen_apps.data.checks import files, labels, layout, places, sensors, tables
 from angen_apps.data.tables import homes
 from angen_apps.data.written import Findings, Written
+from angen_tools.common.failure import Failure
 
 SHOWN = 3  # findings of a kind that are listed
 
@@ -14,6 +15,8 @@ def validate_all(folder: Path, world: Path | None = None
                  ) -> tuple[Findings, dict[str, dict[str, float]]]:
     """Checks the homes of an output folder, and their list; the shares are by home. `world`:
     the file of a home of the user's own, which the data are of."""
+    if world is not None and not world.is_file():
+        raise Failure(f'{world}: is not a file that can be read')
     findings, shares, found = Findings(), {}, homes(folder)
     for home in found:
         own = validate(home, world)

@@ -103,14 +103,12 @@ def _world(findings: Findings, home: Written, settings: Any, world: Path | None)
     """Rooms, doors, things and sensors are those of the world. A world of the user's own is not in
     the folder."""
     check = 'the layout is that of its world'
+    if world is not None and sha256(world) != settings['world']:
+        findings.say(check, False, f'{world} is not the world of the data')
+        return
     if settings['world'] and world is None:
         return
-    if settings['world'] and world is not None:
-        findings.say(check, sha256(world) == settings['world'],
-                     f'{world} is not the world of the data')
-        if sha256(world) != settings['world']:
-            return
-    made = json.loads(_made(str(world) if settings['world'] else '', settings['seed'],
+    made = json.loads(_made(str(world or ''), settings['seed'],
                             not settings['own_sensors'], settings['light']))
     for part in PARTS:
         own = home.layout.get(part, [])

@@ -5,7 +5,7 @@ import math
 from collections import defaultdict
 
 from angen_apps.data.checks.labels import ALWAYS
-from angen_apps.data.checks.places import STEP
+from angen_apps.data.checks.places import CABIN, STEP
 from angen_apps.data.generate import TALKS
 from angen_apps.data.recorder import CELL, LEAST
 from angen_apps.data.written import Findings, Written
@@ -56,16 +56,27 @@ def _by_cause(name: str) -> dict[str, frozenset[str]]:
 
 
 def _floors(findings: Findings, home: Written) -> None:
-    """Who walks is on a floor of the home, and on one during a walk."""
+    """Who walks is on a floor of the home, and on the same one during a walk, but in an elevator.
+    """
     check = 'who walks is on a floor of the home'
     storeys = {room['storey'] for room in home.layout['rooms']}
-    last: dict[str, tuple[float, int]] = {}
+    last: dict[str, tuple[float, tuple[int, float, float]]] = {}
     for row in home.track:
-        who, time, storey = row['resident'], float(row['time']), int(row['storey'])
-        before, other = last.get(who, (-math.inf, storey))
-        findings.say(check, storey in storeys and (storey == other or time - before > STEP),
-                     f'{who} at {row["time"]} on floor {storey}, before on floor {other}')
-        last[who] = time, storey
+        who, time = row['resident'], float(row['time'])
+        place = int(row['storey']), float(row['x']), float(row['y'])
+        before, other = last.get(who, (-math.inf, place))
+        findings.say(check, place[0] in storeys and (
+            place[0] == other[0] or time - before > STEP or _rides(home, place, other)),
+            f'{who} at {row["time"]} on floor {place[0]}, before on floor {other[0]}')
+        last[who] = time, place
+
+
+def _rides(home: Written, *ends: tuple[int, float, float]) -> bool:
+    """Whether both places are in the cabin of one elevator."""
+    near = [{landing['elevator'] for landing in home.layout.get('landings', [])
+             if landing['storey'] == storey and math.dist(landing['pose'][:2], (x, y)) < CABIN}
+            for storey, x, y in ends]
+    return bool(set.intersection(*near))
 
 
 def _missed(findings: Findings, home: Written) -> None:
