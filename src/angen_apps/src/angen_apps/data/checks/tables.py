@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
+from typing import Any
 
 from angen_apps.data.checks.labels import ALWAYS
 from angen_apps.data.checks.places import CABIN, STEP
@@ -12,9 +13,11 @@ from angen_apps.data.written import Findings, Written
 from angen_apps.residents.agenda import RESORT
 from angen_apps.residents.user import TV
 from angen_apps.residents.profiles import FOLDER, read
+from angen_tools.common.geometry import local
 
 PLANNED = 'scheduled', 'free'  # causes of what does not follow from something else
 PLACED = 'cell_'  # sensors over a cell
+BESIDE = 1.5  # m from the middle of a cabin to its sides, at most
 AROUND = 0.4  # m and s by which places of the track may be beside those of a missed cell
 
 
@@ -74,9 +77,14 @@ def _floors(findings: Findings, home: Written) -> None:
 def _rides(home: Written, *ends: tuple[int, float, float]) -> bool:
     """Whether both places are in the cabin of one elevator."""
     near = [{landing['elevator'] for landing in home.layout.get('landings', [])
-             if landing['storey'] == storey and math.dist(landing['pose'][:2], (x, y)) < CABIN}
+             if landing['storey'] == storey and _is_in_cabin(landing, (x, y))}
             for storey, x, y in ends]
     return bool(set.intersection(*near))
+
+
+def _is_in_cabin(landing: Any, at: tuple[float, float]) -> bool:
+    ahead, aside = local(landing['pose'][:2], landing['pose'][3], at)
+    return 0.0 < ahead < CABIN and abs(aside) < BESIDE
 
 
 def _missed(findings: Findings, home: Written) -> None:
