@@ -1,5 +1,5 @@
 /** The plan of one floor, as SVG: a tap finds the nearest mark, and the keyboard reaches each. */
-import { by, el, isNarrow, svg, words } from './dom.js';
+import { by, el, isLow, isNarrow, svg, words } from './dom.js';
 import { fieldShape, yawOf } from './fields.js';
 import { roomText } from './labels.js';
 import { state, t } from './lang.js';
@@ -259,7 +259,7 @@ export class Plan {
       return el('span', {}, svg('svg', { viewBox: '-11 -9 22 18', width: 22, height: 18, 'aria-hidden': true }, sign), words(name));
     });
     /** @type {any} */
-    const legend = el('details', { class: 'legend', open: this.legendOpen ?? !isNarrow() }, el('summary', { onclick: () => { this.legendOpen = !legend.open; } }, t('Legend')), el('div', {}, ...rows));
+    const legend = el('details', { class: 'legend', open: this.legendOpen ?? !(isNarrow() || isLow()) }, el('summary', { onclick: () => { this.legendOpen = !legend.open; } }, t('Legend')), el('div', {}, ...rows));
     return legend;
   }
 
