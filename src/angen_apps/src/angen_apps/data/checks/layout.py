@@ -63,7 +63,7 @@ def _heights(findings: Findings, home: Written) -> None:
     """Sensors are not far above or below the floors of the doors on their storey."""
     floors: dict[int, float] = {}
     for door in home.layout['doors']:
-        for name in filter(None, door['rooms']):
+        for name in (name for name in door['rooms'] if name):
             storey, z = home.rooms[name]['storey'], door['pose'][2]
             if door['kind'] != 'window':
                 floors[storey] = min(z, floors.get(storey, z))

@@ -55,7 +55,7 @@ def _by_cause(name: str) -> dict[str, frozenset[str]]:
     profile = read(name)
     free = frozenset({*profile.free, RESORT, TV, 'nap'})
     return {'free': free, 'interrupts': free | profile.needs.keys(),
-            'scheduled': ALWAYS.union(*(part.do for part in profile.scheduled))}
+            'scheduled': frozenset(ALWAYS.union(*(part.do for part in profile.scheduled)))}
 
 
 def _floors(findings: Findings, home: Written) -> None:
