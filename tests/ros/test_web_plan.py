@@ -375,3 +375,33 @@ def test_a_robot_is_sent_to_a_room_and_stopped(page: Page) -> None:
     assert ended(page) == 'To kitchen0: stopped'
     page.until('return Math.abs(angen.home.row(angen.card.shown.entity).values[3]) < 0.02')
     assert page.run('return document.querySelector("#card .trip button").hidden')
+
+
+COVERED = '''const find = (what) => [...document.querySelectorAll(what)].filter(
+        (e) => e.checkVisibility()).map((e) => [e.id || e.textContent || e.getAttribute("class"),
+            e.getBoundingClientRect()]);
+    const controls = find("#floors button, #layers > *, #plan .legend, #hint, #welcome");
+    const within = document.querySelector("#stage").getBoundingClientRect();
+    const beyond = ([, a]) => a.left < within.left || a.right > within.right;
+    const cover = ([, a], [, b]) => a.left < b.right - 1 && b.left < a.right - 1
+        && a.top < b.bottom - 1 && b.top < a.bottom - 1;
+    const drawn = find("#plan :is(.item:not(.person, .robot), .room-shape)");
+    return controls.filter(beyond).concat(controls.flatMap((one, i) => controls.slice(i + 1)
+        .concat(drawn).filter((other) => cover(one, other)).map((other) => [one[0], other[0]])))'''
+
+
+@pytest.mark.parametrize('language', ['en', 'de'])
+def test_nothing_covers_the_controls_of_a_phone_across(page: Page, language: str) -> None:
+    try:
+        page.driver.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
+            'width': 844, 'height': 390, 'deviceScaleFactor': 1, 'mobile': True})
+        page.driver.get(f'{page.run("return location.origin")}/?lang={language}')
+        page.until('return window.angen?.begun && angen.view.frames > 0')
+        page.press('#view-plan')
+        page.run('angen.setStorey(0)')
+        page.until('return document.querySelectorAll("#plan .legend").length === 1')
+        assert page.run('return document.querySelectorAll("#floors button").length') > 1
+        assert page.run('return document.documentElement.lang') == language
+        assert page.run(COVERED) == []
+    finally:
+        page.driver.execute_cdp_cmd('Emulation.clearDeviceMetricsOverride', {})

@@ -1,4 +1,4 @@
-"""Corruptions of a home's data, of more than 60 kinds: each is noticed. All but those of files are
+"""Corruptions of a home's data, of more than 90 kinds: each is noticed. All but those of files are
 consistent: counts, hashes and the formats that follow from truth and events are written again."""
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ import pytest
 from angen_apps.data.checks import labels as label_checks
 from angen_apps.data.checks import places as place_checks
 from angen_apps.data.checks import sensors as sensor_checks
+from angen_apps.data.checks import tables as table_checks
 from angen_apps.data.formats import FORMATS
 from angen_apps.data.generate import HOME, MANIFEST, Job, make, sha256
-from angen_apps.data.validate import validate
+from angen_apps.data.validate import validate, validate_all
 from angen_apps.data.written import Findings, Written
 from angen_tools.common.failure import Failure
 
@@ -62,7 +63,7 @@ class Tables:
 
     FILES = {'events': 'events.csv.gz', 'truth': 'truth.csv.gz', 'track': 'track.csv.gz',
              'moves': 'moves.csv.gz', 'loads': 'loads.csv.gz', 'missed': 'missed.csv',
-             'faults': 'faults.csv'}
+             'faults': 'faults.csv', 'talks': 'talks.csv.gz'}
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -308,6 +309,82 @@ BASE: dict[str, Callable[[Tables], Any]] = {
 }
 
 
+# --- consistent corruptions of the layout, and of tables beside the truth
+
+def set_all(entries: list[dict[str, Any]], **values: Any) -> None:
+    for one in entries:
+        one.update(values)
+
+
+def missed(sensor: str, resident: str, kind: str = 'cell_', start: str = '50000.000'
+           ) -> Callable[[Tables], None]:
+    """A row of one who is not there, or over what is no cell. `sensor` empty: one of that kind."""
+    def change(t: Tables) -> None:
+        known = next(s['id'] for s in t.layout['sensors'] if s['name'].startswith(kind))
+        t.missed.append({'start': start, 'end': f'{float(start) + 2:.3f}',
+                         'sensor': sensor or known, 'resident': resident})
+    return change
+
+
+def missed_though_on(t: Tables) -> None:
+    """A row over a cell that detected who was there."""
+    event = next(row for row in t.events if row['sensor'] in t.ids('motion') and row['resident']
+                 and row['cause'] == 'motion' and row['value'] == 'ON')
+    time = clock(event['time'])
+    t.missed.append({'start': f'{time - 1:.3f}', 'end': f'{time + 1:.3f}',
+                     'sensor': event['sensor'], 'resident': event['resident']})
+
+
+def twice(part: str) -> Callable[[Tables], None]:
+    return lambda t: t.layout[part].append(dict(t.layout[part][0]))
+
+
+def door(key: str, change: Callable[[Any], Any]) -> Callable[[Tables], None]:
+    def changed(t: Tables) -> None:
+        one = next(one for one in t.layout['doors'] if one['kind'] == 'door')
+        one[key] = change(one[key])
+    return changed
+
+
+BESIDE: dict[str, Callable[[Tables], Any]] = {
+    'a wide door': door('width', lambda _: 5.0),
+    'a door a bit wider': door('width', lambda width: width + 0.05),
+    'a door turned': door('pose', lambda pose: [*pose[:3], pose[3] + 1.5708]),
+    'a door turned around': door('pose', lambda pose: [*pose[:3], pose[3] + 3.1416]),
+    'a door to a room that is not there': door('rooms', lambda rooms: ['narnia', rooms[1]]),
+    'a door of one room': door('rooms', lambda rooms: rooms[:1]),
+    'a door to another room': door('rooms', lambda rooms: [rooms[0], 'kitchen0']),
+    'sensors in the sky': lambda t: set_all(t.layout['sensors'], z=50.0),
+    'sensors a bit higher': lambda t: set_all(t.layout['sensors'][:1], z=2.0),
+    'a room of a square kilometer': lambda t: set_all(t.layout['rooms'][:1], area=1e6),
+    'a thing of another type': lambda t: set_all(t.layout['things'][-1:], type='piano'),
+    **{f'{part} twice': twice(part) for part in ('rooms', 'doors', 'things', 'sensors',
+                                                 'residents')},
+    'a guest twice': lambda t: t.layout.update(guests=2 * [{'name': 'carl', 'host': 'anna'}]),
+    'a guest with the name of a resident': lambda t: t.layout.update(
+        guests=[{'name': 'bert', 'host': 'anna'}]),
+    'a resident of another name': lambda t: [t.entries('residents', 'name', {'bert': 'bertha'})],
+    'a missed walk of nobody': missed('', 'zoe'),
+    'a missed walk of one who is away': missed('', 'anna'),
+    'a missed walk in a room': missed('', 'anna', 'area_'),
+    'a missed walk by no sensor': missed('M999', 'anna'),
+    'a missed walk that was noticed': missed_though_on,
+    'a step on another floor': lambda t: t.track[9].update(storey='99'),
+    'no talks': lambda t: t.drop('talks', lambda row: True),
+    **{f'all is {cause}': lambda t, cause=cause: columns(t, 'truth', set_to(cause=cause))
+       for cause in ('need', 'continues', 'interrupts')},
+}
+
+
+def test_a_format_that_is_not_in_the_settings_is_noticed(good: Path, tmp_path: Path) -> None:
+    folder = copied(good, tmp_path)
+    entry = json.loads((folder / HOME).read_text())
+    entry['settings']['formats'] = ['csv']
+    (folder / HOME).write_text(json.dumps(entry))
+    assert [line.partition(': ')[2] for line in validate(folder).wrong[
+        'a file is as it is listed']] == ['lists casas.txt, which is of none of its formats']
+
+
 # --- corruptions of files, with and without a new list
 
 def casas(folder: Path, change: Callable[[list[str]], Any]) -> None:
@@ -344,10 +421,10 @@ def copied(good: Path, folder: Path) -> Path:
     return folder / 'home'
 
 
-@pytest.mark.parametrize('kind', BASE)
+@pytest.mark.parametrize('kind', [*BASE, *BESIDE])
 def test_a_corruption_is_noticed(kind: str, good: Path, tmp_path: Path) -> None:
     tables = Tables(copied(good, tmp_path))
-    BASE[kind](tables)
+    (BASE | BESIDE)[kind](tables)
     try:
         tables.write()
         noticed = validate(tables.folder).count
@@ -378,6 +455,38 @@ def test_a_list_that_is_missing_or_another_is_noticed(good: Path, tmp_path: Path
     assert validate(folder).count
 
 
+def test_the_manifest_and_the_folder_have_the_same_homes(good: Path, tmp_path: Path) -> None:
+    entry = json.loads((good / HOME).read_text())
+    for name in ('one', 'two', 'three'):
+        shutil.copytree(good, tmp_path / name)
+        (tmp_path / name / HOME).write_text(json.dumps({**entry, 'name': name}))
+    shutil.copytree(tmp_path / 'one', tmp_path / 'copy')
+    (tmp_path / 'three' / 'layout.json').unlink()
+    (tmp_path / MANIFEST).write_text(json.dumps(
+        {'homes': [{**entry, 'name': name} for name in ('one', 'three', 'four', 'one')]}))
+    findings = validate_all(tmp_path)[0]
+    assert [line.rpartition(f'{MANIFEST}: ')[2] for line in findings.wrong[
+        'a file is as it is listed']] == [
+        'does not list copy as home.json does', 'does not list two as home.json does',
+        'does not list copy', 'lists four, which is missing', 'lists one twice',
+        'lists three, which is missing', 'does not list two']
+    for name in ('two', 'three', 'copy'):
+        shutil.rmtree(tmp_path / name)
+    (tmp_path / MANIFEST).write_text(json.dumps({'homes': [{**entry, 'name': 'one'}]}))
+    assert validate_all(tmp_path)[0].count == 0
+
+
+def test_the_manifest_of_one_home_lists_one(good: Path, tmp_path: Path) -> None:
+    folder = copied(good, tmp_path)
+    entry = json.loads((folder / HOME).read_text())
+    (folder / MANIFEST).write_text(json.dumps({'homes': [entry, {**entry, 'name': 'other'}]}))
+    assert validate_all(folder)[0].count == 1
+    (folder / MANIFEST).unlink()
+    (folder / MANIFEST).mkdir()
+    with pytest.raises(Failure, match='is not a file'):
+        validate(folder)
+
+
 def test_good_data_has_no_finding(good: Path, tmp_path: Path) -> None:
     findings = validate(good)
     assert {check: wrong for check, wrong in findings.wrong.items() if wrong} == {}
@@ -394,6 +503,34 @@ def test_what_a_listed_fault_has_lost_is_no_finding(good: Path, tmp_path: Path) 
     tables.entry['settings']['faults'] = 64 * '0'
     tables.write()
     assert validate(tables.folder).count == 0
+
+
+@pytest.mark.parametrize('places, wrong', [
+    ([(-2.0, 0.0, 0), (-2.0, 0.0, 1)], []),  # in the cabin
+    ([(2.0, 0.0, 0), (2.0, 0.0, 1)], ['ann at 0.4 on floor 1, before on floor 0']),
+    ([(2.0, 0.0, 9)], ['ann at 0.0 on floor 9, before on floor 9'])])
+def test_who_walks_changes_floors_in_a_cabin(places: list[tuple[float, float, int]],
+                                             wrong: list[str]) -> None:
+    home: Any = SimpleNamespace(
+        layout={'rooms': [{'storey': 0}, {'storey': 1}], 'landings': [
+            {'elevator': 'lift', 'storey': storey, 'pose': [0.0, 0.0, 3.0 * storey, 3.1416]}
+            for storey in (0, 1)]},
+        track=[{'resident': 'ann', 'time': f'{0.4 * i:.1f}', 'x': f'{x}', 'y': f'{y}',
+                'storey': f'{storey}'} for i, (x, y, storey) in enumerate(places)])
+    findings = Findings()
+    table_checks._floors(findings, home)
+    assert findings.wrong['who walks is on a floor of the home'] == wrong
+
+
+def test_the_world_of_the_data_has_their_layout(good: Path, tmp_path: Path) -> None:
+    """That of the built-in apartment needs no file; another one is told."""
+    world = tmp_path / 'home.world'
+    world.write_text('<sdf version="1.6"><world name="w"/></sdf>')
+    wrong = validate_all(good, world)[0].wrong
+    assert wrong['the layout is that of its world'] == [
+        f'home: {world} is not the world of the data']
+    with pytest.raises(Failure, match='is not a file'):
+        validate_all(good, tmp_path / 'none.world')
 
 
 @pytest.mark.parametrize('room, checked', [('bedroom0', 1), ('bedroom1', 0)])

@@ -97,3 +97,11 @@ def test_residents_have_labels_and_hours_of_their_own(tmp_path):
         '1 07:00:00 M001 OFF R1_Sleeping end', '1 10:00:00 M001 OFF R2_Sleeping end')
     assert found['getting up: standard deviation, h'] == pytest.approx(0.0, abs=1e-6)
     assert found['all: CV of the count a day'] == 0.0
+
+
+def test_a_reference_without_on_times_is_named(tmp_path):
+    own, other = tmp_path / 'own.txt', tmp_path / 'other.txt'
+    own.write_text('2026-03-02 07:00:00 M001 ON\n2026-03-02 07:00:09 M001 OFF\n')
+    other.write_text('2026-03-02 07:00:00 M001 ON\n2026-03-02 07:00:09 D001 OPEN\n')
+    with pytest.raises(Failure, match=r'other\.txt: has no sensor M… with ON and then OFF'):
+        realism.compare(realism.read(own), realism.read(other))

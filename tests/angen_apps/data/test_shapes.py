@@ -13,9 +13,10 @@ from angen_tools.common.failure import Failure
 @pytest.mark.parametrize('read, right, wrong', [
     (number(0.0, 2.0), (0, 1, 2.0, -0.0), (2.1, -1, '1', True, None, float('nan'), 10 ** 400, [])),
     (number(1, 3, whole=True), (1, 3), (0, 4, 1.0, '1', True)),
-    (figure(0.0, 2.0), ('0', '1.5', '2e0'), ('', 'x', 'nan', 'inf', '2.1', None, '1e999')),
+    (figure(0.0, 2.0), ('0', '1.5', '2e0'),
+     ('', 'x', 'nan', 'inf', '2.1', None, '1e999', '\uff11', ' 1', '1_0', '0x1')),
     (figure(0.0, 2.0, nan=True), ('nan', '1'), ('inf', 'x', '3')),
-    (figure(-1, 1, whole=True), ('-1', '1'), ('0.5', '2', '1' * 5000)),
+    (figure(-1, 1, whole=True), ('-1', '1'), ('0.5', '2', '1' * 5000, '\u0661')),
     (text(1, 3, '/'), ('a', 'äöü', 'a b'), ('', 'abcd', 'a/b', 'a\n', '\ud800', '\0', 5, None)),
     (word('a', ''), ('a', ''), ('b', None, ['a'])),
     (boolean, (True, False), (1, 0, 'true', None)),
@@ -44,7 +45,7 @@ WHOLE = {'a': number(0, 9), 'b?': [text()], 'c?': Each(text(1), number(0, 1)),
      'line'),
     ({'a': 1, 'd': [[1, 2]]}, 'f: d has 1 entries, must have 2 to 100000'),
     ({'a': 1, 'd': [[1, 2], [1]]}, 'f: d[1] must have 2 entries'),
-    ({'a': 1, 'd': [[1, 2], [1, None]]}, 'f: d[1][1] is missing, must be a number from 0 to 9')])
+    ({'a': 1, 'd': [[1, 2], [1, None]]}, 'f: d[1][1] is null, must be a number from 0 to 9')])
 def test_the_place_of_what_is_wrong(value: object, what: str) -> None:
     with pytest.raises(Failure) as raised:
         check_shape('f', value, WHOLE)

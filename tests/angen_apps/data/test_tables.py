@@ -14,7 +14,7 @@ import pytest
 
 from angen_apps.data import realism, tables, transfer
 from angen_apps.data.formats.casas import TYPES
-from angen_apps.data.tables import EVENTS, TRACK, rows
+from angen_apps.data.tables import EVENTS, TRACK, layout_of, rows
 from angen_apps.data.validate import validate
 from angen_apps.web.day import Day
 from angen_tools.common.catalog import angen_module
@@ -34,11 +34,33 @@ LAYOUT: dict[str, Any] = {
     ({**LAYOUT, 'residents': [{'name': 'ann'}]}, r'layout.json: residents\[0\] has no speed'),
     ({**LAYOUT, 'rooms': {}}, 'layout.json: rooms must be a list'),
     ({**LAYOUT, 'doors': [{'name': 'a', 'kind': 'door', 'width': 1, 'rooms': [],
-                           'pose': [0, 0, 0, None]}]}, r'doors\[0\].pose\[3\] is missing')])
+                           'pose': [0, 0, 0, None]}]}, r'doors\[0\].pose\[3\] is null')])
 def test_a_damaged_layout(layout: Any, what: str, tmp_path: Path) -> None:
     (tmp_path / 'layout.json').write_text(json.dumps(layout))
     with pytest.raises(Failure, match=what):
         validate(tmp_path)
+
+
+@pytest.mark.parametrize('change, what', [
+    ({'things.0': 'again'}, r'things[1].name is sofa, must differ from that of things[0]'),
+    ({'guests.0': 'again'}, 'guests[1].name is bob, must differ from those of the other residents '
+     'and guests'),
+    ({'rooms.0.area': 1e6}, 'rooms[0].area is 1000000, its polygon has 81.0000 m2'),
+    ({'doors.0.rooms': ['narnia', '']}, 'doors[0].rooms has narnia, must have rooms, or an empty '
+     'text for outside'),
+    ({'doors.0.rooms': ['hall']}, 'doors[0].rooms must have 2 entries')])
+def test_a_layout_that_contradicts_itself(change: dict[str, Any], what: str, tmp_path: Path
+                                          ) -> None:
+    layout = copy.deepcopy(WHOLE)
+    for place, value in change.items():
+        part, number, *key = place.split('.')
+        if key:
+            layout[part][int(number)][key[0]] = value
+        else:
+            layout[part].append(layout[part][int(number)])
+    (tmp_path / 'layout.json').write_text(json.dumps(layout))
+    with pytest.raises(Failure, match=re.escape(f'layout.json: {what}')):
+        layout_of(tmp_path)
 
 
 def track(folder: Path, text: str) -> Path:
@@ -52,6 +74,8 @@ def track(folder: Path, text: str) -> Path:
     ('', ':1: has no column time'),
     ('time,resident,x,y,storey\n1,ann,2,3,0\n2,ann,nan,3,0\n', ':3: x is nan'),
     ('time,resident,x,y,storey\n1,ann,2\n', ':2: y is missing'),
+    ('time,resident,x,y,storey\n1,ann,2,3,0,4,5,6\n', ':2: has 8 cells, must have 5'),
+    ('time,resident,x,y,storey\n1,ann,\uff12,3,0\n', ':2: x is \uff12, must be a number'),
     ('time,resident,x,y,storey\n1,ann,2,3,first\n', ':2: storey is first'),
     ('time,resident,x,y,storey\n' + 'x' * 100_000, ':2: has a line of more than')])
 def test_a_damaged_table(text: str, what: str, tmp_path: Path) -> None:

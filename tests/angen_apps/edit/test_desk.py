@@ -246,11 +246,24 @@ def test_a_home_by_seed_is_edited(tmp_path: Path, worker: Worker) -> None:
     assert path.read_bytes() == before
 
 
-def test_a_draft_of_something_else_is_left_alone(tmp_path: Path, worker: Worker) -> None:
+def test_a_damaged_draft_is_set_aside_with_one_line(
+        tmp_path: Path, worker: Worker, capsys: pytest.CaptureFixture[str]) -> None:
     desk = Desk(tmp_path / 'home.world', worker)
-    for text in ('', '{}', '[' * 10_000, json.dumps({'at': 'x', 'drawing': {}}), '\udcff'):
+    huge = f'{{"at": 1{400 * "0"}, "drawing": {json.dumps(drawn())}}}'
+    damaged = ('', '{}', '[' * 10_000, json.dumps({'at': 'x', 'drawing': {}}), '\udcff', huge,
+               huge.replace('0' * 400, '0' * 5000),
+               json.dumps({'at': 1, 'drawing': {'plan': {'name': 'x', 'storeys': []}}}))
+    for number, text in enumerate(damaged, 1):
         desk.draft.write_text(text, errors='surrogateescape')
         assert desk.opened()['draft'] is None
+        aside = tmp_path / f'home.world.draft.damaged{number if number > 1 else ""}'
+        assert aside.read_text(errors='surrogateescape') == text and not desk.draft.exists()
+        line = capsys.readouterr().err
+        assert line.count('\n') == 1 and str(desk.draft) in line
+        assert line.endswith(f'; it is now {aside.name}\n')
+    assert desk.opened()['draft'] is None and not capsys.readouterr().err
+    desk.keep(drawn(), 5.0, desk.version)
+    assert desk.opened()['draft'] == {'at': 5.0, 'drawing': drawn()}
 
 
 def test_the_models_of_the_catalog_are_there(worker: Worker) -> None:

@@ -138,6 +138,10 @@ def test_a_picture_is_behind_the_drawing(tmp_path: Path) -> None:
     ('survey', {}, 422, 'must be {"plan"'), ('save', {'base': 0, 'drawing': 3}, 422, '"plan"'),
     ('keep', {'base': [], 'drawing': drawn()}, 409, 'another window'),
     ('spawn', {}, 422, 'spawn is not known'),
+    *(('keep', {'base': 0, 'drawing': drawn(), 'at': at}, 422, 'the order: at is')
+      for at in (10 ** 400, 1e300, -1, 'x', True, None)),
+    ('survey', {'drawing': drawn(), 'floor': 10 ** 400}, 422, 'the order: floor is'),
+    ('keep', f'{{"at": 1{5000 * "0"}}}', 400, 'not a JSON object'),
     ('keep', ' ' * (9 << 20), 413, '')])
 def test_bad_orders_are_answered(tmp_path: Path, what: str, data: Any, status: int, why: str
                                  ) -> None:

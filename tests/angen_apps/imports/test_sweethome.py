@@ -1,6 +1,7 @@
 """The nine homes of Debian's package sweethome3d, and small homes with further features."""
 from __future__ import annotations
 
+import re
 from math import hypot, pi
 from pathlib import Path
 from typing import Any
@@ -284,6 +285,30 @@ def test_an_unknown_piece_is_a_box_with_a_remark_and_a_table_of_ones_own_counts(
     own.write_text('- {word: zorb, thing: sofa, model: sofa}\n')
     piece, = read_sweethome(path, own).storeys[0].pieces
     assert (piece.thing, piece.model) == ('sofa', 'sofa')
+
+
+def test_a_home_without_rooms_has_those_between_the_walls_of_each_level(tmp_path: Path) -> None:
+    levels = ''.join(f'<level id="{name}" name="{name}" elevation="{z}" height="250"/>'
+                     for name, z in (('a', 0), ('b', 262), ('c', 524)))
+    path = small(tmp_path, levels)
+    text = re.sub('<room .*</room>', '', path.read_text())
+    walls = ''.join(re.findall('<wall .*/>', text))
+    path.write_text(re.sub('(?s)<wall .*/>\n(?=\n)', ''.join(
+        walls.replace('<wall ', f'<wall level="{name}" ') for name in 'abc'), text))
+    plan = read_sweethome(path)
+    assert [len(storey.rooms) for storey in plan.storeys] == [1, 1, 1]
+    assert sum('has no <room>; 1 are found' in remark for remark in plan.remarks) == 3
+
+
+def test_a_home_of_walls_that_are_left_out_says_so(tmp_path: Path) -> None:
+    path = small(tmp_path)
+    text = path.read_text()
+    path.write_text(text.replace('thickness="20"', 'thickness="0"'))
+    with pytest.raises(Failure, match='has no <wall> with length, thickness and height; a home'):
+        read_sweethome(path)
+    path.write_text(re.sub('<wall .*/>', '', text))
+    with pytest.raises(Failure, match='has no <wall>; a home needs walls'):
+        read_sweethome(path)
 
 
 def test_a_level_that_is_missing_is_named(tmp_path: Path) -> None:

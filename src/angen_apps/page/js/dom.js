@@ -50,6 +50,7 @@ export const by = (id) => document.getElementById(id);
 
 /** @returns {boolean} whether the page is as on a phone, by the rule of style.css */
 export const isNarrow = () => matchMedia('(max-width: 820px)').matches;
+export const isLow = () => matchMedia('(max-height: 520px)').matches; // a phone across
 
 /** @param {KeyboardEvent} e @returns {boolean} whether a key is the browser's, or one of a field in which one types */
 export const isForOthers = (e) => e.ctrlKey || e.metaKey || e.altKey || /^(INPUT|SELECT|TEXTAREA)$/.test(/** @type {any} */ (e.target).tagName ?? '');

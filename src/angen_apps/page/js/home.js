@@ -26,6 +26,8 @@ export class Home {
     this.rooms = [];
     /** @type {Storey[]} */
     this.storeys = [];
+    /** @type {Map<string, number>} of things, by the rooms that the home describes */
+    this.floors = new Map();
     /** @type {any} */
     this.described = null;
     /** @type {any} */
@@ -101,6 +103,9 @@ export class Home {
       this.described = parts.home;
       this.rooms = parts.home.rooms ?? [];
       this.storeys = [...(parts.home.storeys ?? [])].sort((a, b) => a.number - b.number);
+      const numbers = new Map(this.rooms.map((room) => [room.name, room.storey]));
+      this.floors = new Map((parts.home.things ?? []).filter((/** @type {any} */ thing) => numbers.has(thing.room))
+        .map((/** @type {any} */ thing) => [thing.name, numbers.get(thing.room)]));
       this.roomsCache = new WeakMap();
       this.tell('home');
     }
@@ -233,6 +238,14 @@ export class Home {
     let found = this.storeys[0]?.number ?? 0;
     for (const storey of this.storeys) if (z >= storey.elevation - below) found = storey.number;
     return found;
+  }
+
+  /**
+   * The floor of something at rest: that of its room if the home describes it, else of its height.
+   * @param {string} name of its model @param {number} z of its middle @param {number} [below] as storeyAt has it
+   */
+  storeyOf(name, z, below) {
+    return this.floors.get(name) ?? this.storeyAt(z, below);
   }
 
   /** @param {number} x @param {number} y @param {number} z @returns {Room | null} */

@@ -4,6 +4,8 @@ import { inside, middleOf } from './home.js';
 export const LETTER = 0.66; // of a text's height: the width of a letter
 const LETTERS = 8; // of a room's name, at least
 const STEPS = 10; // places across a room that are tried for its name
+const BESIDE = 100; // things that a name may rather cover than be wider than its room
+const SHARE = 3; // things, as many as a name that is all covered counts beside their number
 const TOUCH = 1e-6; // m by which boxes that touch may seem to cover each other
 
 /** Boxes that are taken: x y of the middle, half a width, half a height. */
@@ -16,6 +18,12 @@ export class Taken {
   /** @param {number[]} box @returns {number} how many it covers */
   covered([x, y, w, h]) {
     return this.boxes.filter(([u, v, s, t]) => Math.abs(u - x) < w + s - TOUCH && Math.abs(v - y) < h + t - TOUCH).length;
+  }
+
+  /** @param {number[]} box @returns {number} the share of it that others cover, each by itself */
+  share([x, y, w, h]) {
+    const common = (/** @type {number} */ far, /** @type {number} */ one, /** @type {number} */ other) => Math.max(0, Math.min(2 * one, 2 * other, one + other - far));
+    return this.boxes.reduce((sum, [u, v, s, t]) => sum + common(Math.abs(u - x), w, s) * common(Math.abs(v - y), h, t), 0) / (4 * w * h);
   }
 
   /**
@@ -37,7 +45,7 @@ export function fitted(text, polygon, wide, rest = '') {
 }
 
 /**
- * Takes a place for the name of a room: within its walls, near its middle, over few other things.
+ * Takes a place for the name of a room: within its walls if it fits there, near its middle, over few other things.
  * @param {number[][]} polygon @param {number} w half of its width @param {number} h half of its height @param {Taken} taken
  * @returns {number[]} x y
  */
@@ -48,8 +56,10 @@ export function nameOf(polygon, w, h, taken) {
   for (let i = 1; i < STEPS; i++) {
     for (let j = 1; j < STEPS; j++) {
       const x = i === STEPS / 2 ? mx : left + (i / STEPS) * wide, y = j === STEPS / 2 ? my : below + (j / STEPS) * high;
-      if (![[-w, -h], [w, -h], [w, h], [-w, h]].every(([dx, dy]) => inside(polygon, x + dx, y + dy))) continue;
-      const cost = taken.covered([x, y, w, h]) + 0.2 * Math.hypot(x - mx, y - my);
+      const within = (/** @type {number[][]} */ shifts) => shifts.every(([dx, dy]) => inside(polygon, x + dx, y + dy));
+      if (!within([[0, -h], [0, h]])) continue;
+      const fits = within([[-w, -h], [w, -h], [w, h], [-w, h]]);
+      const cost = taken.covered([x, y, w, h]) + SHARE * taken.share([x, y, w, h]) + 0.2 * Math.hypot(x - mx, y - my) + (fits ? 0 : BESIDE);
       if (cost < least) { least = cost; best = [x, y]; }
     }
   }

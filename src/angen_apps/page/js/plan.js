@@ -1,5 +1,5 @@
 /** The plan of one floor, as SVG: a tap finds the nearest mark, and the keyboard reaches each. */
-import { by, el, isNarrow, svg, words } from './dom.js';
+import { by, el, isLow, isNarrow, svg, words } from './dom.js';
 import { fieldShape, yawOf } from './fields.js';
 import { roomText } from './labels.js';
 import { state, t } from './lang.js';
@@ -188,7 +188,7 @@ export class Plan {
   furniture(number) {
     const { home } = this, group = svg('g');
     for (const thing of home.described?.things ?? []) {
-      if (home.storeyAt(thing.pose[2] + 0.2) === number && thing.type !== 'window' && thing.type !== 'lamp') group.append(...this.thing(thing));
+      if (home.storeyOf(thing.name, thing.pose[2] + 0.2) === number && thing.type !== 'window' && thing.type !== 'lamp') group.append(...this.thing(thing));
     }
     return group;
   }
@@ -199,7 +199,7 @@ export class Plan {
    */
   thing(thing) {
     const { home } = this, links = home.linksOf(thing.name), [tx, ty, turn] = this.placeOfThing(thing, links), [c, s] = [Math.cos(turn), Math.sin(turn)];
-    const floor = home.storeys.find((one) => one.number === home.storeyAt(thing.pose[2] + 0.2))?.elevation ?? 0;
+    const floor = home.storeys.find((one) => one.number === home.storeyOf(thing.name, thing.pose[2] + 0.2))?.elevation ?? 0;
     const low = (/** @type {any} */ part) => home.scene.links[part.link].pose[2] + part.pose[2] - part.size[2] / 2 - floor;
     const parts = home.scene.shapes.filter((/** @type {any} */ part) => links.includes(part.link)).map((/** @type {any} */ part) => this.boxOf(part)).filter((/** @type {any} */ part) => low(part) < TOP);
     if (!parts.some((/** @type {any} */ part) => part.size[0] * part.size[1] >= LEAST_PART)) return [];
@@ -259,7 +259,7 @@ export class Plan {
       return el('span', {}, svg('svg', { viewBox: '-11 -9 22 18', width: 22, height: 18, 'aria-hidden': true }, sign), words(name));
     });
     /** @type {any} */
-    const legend = el('details', { class: 'legend', open: this.legendOpen ?? !isNarrow() }, el('summary', { onclick: () => { this.legendOpen = !legend.open; } }, t('Legend')), el('div', {}, ...rows));
+    const legend = el('details', { class: 'legend', open: this.legendOpen ?? !(isNarrow() || isLow()) }, el('summary', { onclick: () => { this.legendOpen = !legend.open; } }, t('Legend')), el('div', {}, ...rows));
     return legend;
   }
 

@@ -49,7 +49,7 @@ export class Player {
     this.begun = given !== null;
     this.playing = true;
     this.speed = 1;
-    this.end = 0;
+    this.end = Infinity; // until the recording is known
     this.loaded = 0;
     /** @type {Map<number, Track>} by id of a link */
     this.links = new Map();
@@ -73,6 +73,7 @@ export class Player {
     const { begin, end, loaded, speed } = this.home.line, before = this.loaded;
     this.end = end;
     this.loaded = loaded;
+    if (this.within(this.time) !== this.time) this.seek(this.time);
     if (before < this.time && loaded >= this.time) this.seek(this.time);
     if (!this.bar) this.build();
     this.slider.max = String(end);
@@ -169,9 +170,14 @@ export class Player {
     if (next) this.seek(next[0]);
   }
 
-  /** @param {number} time @param {boolean} [onwards] */
-  seek(time, onwards = false) {
-    const { home } = this;
+  /** @param {number} time @returns {number} the nearest time of the recording */
+  within(time) {
+    return Math.max(0, Math.min(time, this.end));
+  }
+
+  /** @param {number} moment of the recording, or the nearest one @param {boolean} [onwards] */
+  seek(moment, onwards = false) {
+    const { home } = this, time = this.within(moment);
     if (time < this.time) home.series.clear();
     this.time = time;
     if (!home.scene || !this.linkOf || !this.lightOf) return;

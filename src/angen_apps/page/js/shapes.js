@@ -94,7 +94,7 @@ function wallGeometry() {
 
 /**
  * @typedef {{mesh: any, slot: number, color: any, link: number, local: any, type: number, cls: string, storey: number | null,
- *   size: number[], extent: number, moves: boolean, isOuter?: boolean}} Part
+ *   size: number[], middle: number[], extent: number, moves: boolean, isOuter?: boolean}} Part
  */
 
 export class Shapes {
@@ -141,7 +141,10 @@ export class Shapes {
     if (!geometries.has(shapeKey)) geometries.set(shapeKey, isMesh ? this.meshOf(scene.meshes[shapes[0].mesh], shapes.length) : geometryOf(type, cls, this.plain));
     const material = cls === 'ground' ? new THREE.MeshBasicMaterial() : new THREE.MeshLambertMaterial({ vertexColors: isWall, flatShading: isMesh });
     if (clear) Object.assign(material, { transparent: true, opacity: Math.max(0.15, Number(clear)), depthWrite: false });
-    const batch = new THREE.InstancedMesh(geometries.get(shapeKey), material, shapes.length);
+    const geometry = geometries.get(shapeKey);
+    geometry.computeBoundingBox();
+    const middle = geometry.boundingBox.getCenter(new THREE.Vector3()).toArray(); // a mesh may be anywhere beside its origin
+    const batch = new THREE.InstancedMesh(geometry, material, shapes.length);
     batch.castShadow = !clear && cls !== 'ground' && cls !== 'ceiling';
     batch.receiveShadow = true;
     batch.frustumCulled = false;
@@ -153,7 +156,7 @@ export class Shapes {
       const local = poseMatrix(shape.pose, new THREE.Matrix4()).clone().scale(size.fromArray(scale));
       const [r, g, b] = paint(cls, shape.color, link, shape);
       const part = { mesh: batch, slot: -1, color: new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace), link: shape.link, local,
-        type: shape.type, cls, storey: storeyOf(link.group), size: scale, extent: type > '2' ? 1 : Math.max(...scale), moves: link.moves };
+        type: shape.type, cls, storey: storeyOf(link.group), size: scale, middle, extent: type > '2' ? 1 : Math.max(...scale), moves: link.moves };
       this.parts[shape.link].push(part);
       if (cls !== 'ground' && part.extent < 60) this.bounds.expandByPoint(place.fromArray(link.pose));
     }
@@ -163,12 +166,13 @@ export class Shapes {
 
   /**
    * @param {number} link @param {any} matrix of the link
-   * @param {(part: Part, z: number) => number | null} shown the height in the world at which it is cut; NaN: hidden, null: whole
+   * @param {(part: Part, z: number) => number | null} shown the height in the world at which a part with its middle at z is cut;
+   *   NaN: hidden, null: whole
    */
   place(link, matrix, shown) {
     for (const part of this.parts[link]) {
       scratch.multiplyMatrices(matrix, part.local);
-      const cut = shown(part, scratch.elements[14]);
+      const cut = shown(part, place.fromArray(part.middle).applyMatrix4(scratch).z);
       if (cut !== null && (Number.isNaN(cut) || !cutBox(scratch, part, cut))) hide(part);
       else show(part, scratch);
     }

@@ -163,7 +163,8 @@ export class View3d {
   storeyOf(part, z) {
     if (!this.home.storeys.length) return part.storey ?? 0;
     if (part.cls === 'ceiling') return this.home.storeyAt(z - 0.6, SLAB);
-    return this.home.storeyAt(z, part.cls === 'floor' ? SLAB : THING);
+    if (part.cls === 'floor') return this.home.storeyAt(z, SLAB);
+    return part.moves ? this.home.storeyAt(z, THING) : this.home.storeyOf(this.home.scene.links[part.link].model, z, THING);
   }
 
   /** @param {any} part @returns {boolean} whether it is seen where a floor is closed */

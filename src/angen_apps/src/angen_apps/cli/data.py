@@ -65,17 +65,9 @@ def run_generate(args: argparse.Namespace) -> int:
 
 
 def run_validate(args: argparse.Namespace) -> int:
-    from angen_apps.data.tables import homes
-    from angen_apps.data.validate import SHOWN, validate
-    from angen_apps.data.written import Findings
+    from angen_apps.data.validate import SHOWN, validate_all
     from angen_tools.common.output import as_json, show, table
-    every, shares = Findings(), {}
-    for home in homes(args.folder):
-        found = validate(home)
-        every.checked += found.checked
-        shares[home.name] = found.shares
-        for check, wrong in found.wrong.items():
-            every.wrong.setdefault(check, []).extend(f'{home.name}: {line}' for line in wrong)
+    every, shares = validate_all(args.folder, args.world)
     if args.json:
         print(as_json({'findings': every.wrong, 'checked': dict(every.checked), 'shares': shares}))
     else:
@@ -189,6 +181,8 @@ def add_validate(commands: Any) -> None:
                    'checks the data of angen generate against walls, rooms, seats and causes',
                    'validate out')
     made.add_argument('folder', metavar='DIR', type=Path, help='output folder of angen generate')
+    made.add_argument('world', metavar='WORLD', nargs='?', type=Path,
+                      help='the home of your own that the data are of: compares the layout, too')
     add_json(made)
 
 

@@ -30,6 +30,7 @@ from angen_apps.residents.profiles import is_file, names
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import check_folder, make_folder, write_csv, write_text
+from angen_tools.common.home import Home
 from angen_tools.common.output import with_each
 from angen_tools.common.progress import Progress
 
@@ -174,7 +175,7 @@ def finished(job: Job) -> dict[str, Any] | None:
         return None
     settings, files = entry['settings'], entry['files']
     if settings != job.settings:
-        raise Failure(f'{path}: was made with other settings; give another folder with -o')
+        raise Failure(f'{path}: was made with other settings; give another folder with --out')
     if why := _difference(Path(job.folder), entry.get('version'), files):
         print(f'angen: {job.folder}: {why}; the home is made again', file=sys.stderr, flush=True)
         return None
@@ -204,24 +205,12 @@ def write_truth(folder: Path, data: run.Data) -> list[Path]:
     write_csv(paths[1], ('start', 'end', 'sensor', 'resident'),
               [(f'{m.start:.3f}', f'{m.end:.3f}', m.sensor, m.resident) for m in data.missed])
     write_csv(paths[2], faults.Happened._fields, data.faults)
-    home = data.home
     layout = {
         'start': data.start.isoformat(), 'days': data.days,
         'residents': [{'name': name, 'profile': profile.name, 'body': profile.body,
                        'speed': profile.speed} for name, profile in data.residents],
         'guests': [{'name': name, 'host': host} for name, host in data.guests],
-        'rooms': [{'name': r.name, 'use': r.use, 'storey': r.storey,
-                   'polygon': r.polygon, 'holes': r.holes, 'area': r.area}
-                  for r in home.rooms],
-        'doors': [{'name': d.name, 'kind': d.kind, 'rooms': list(d.rooms), 'pose': list(d.pose),
-                   'width': d.width} for d in home.doors],
-        'landings': [{'elevator': elevator.name, 'storey': landing.storey,
-                      'pose': list(landing.pose)}
-                     for elevator in home.elevators for landing in elevator.landings],
-        'things': [{'name': t.name, 'type': t.type, 'room': t.room, 'x': t.pose[0], 'y': t.pose[1]}
-                   for t in home.things],
-        'sensors': [{key: value for key, value in asdict(s).items() if key != 'source'}
-                    for s in data.sensors]}
+        **described(data.home, data.sensors)}
     _write_table(paths[4], 'time,resident,x,y,storey', (
         f'{t:.3f},{who},{x:.3f},{y:.3f},{storey}' for t, who, x, y, storey in data.track))
     _write_table(paths[5], 'time,kind,device,watts', (
@@ -240,6 +229,24 @@ def write_truth(folder: Path, data: run.Data) -> list[Path]:
             f'{talk.start:.3f},{talk.end:.3f},{talk.resident},{talk.to}' for talk in data.talks))
     write_text(paths[3], json.dumps(with_each(layout, _rounded), indent=1) + '\n')
     return paths
+
+
+def described(home: Home, sensors: list[site.Sensor]) -> dict[str, Any]:
+    """The part of a layout that is of the world."""
+    found: dict[str, Any] = with_each({
+        'rooms': [{'name': r.name, 'use': r.use, 'storey': r.storey,
+                   'polygon': r.polygon, 'holes': r.holes, 'area': r.area}
+                  for r in home.rooms],
+        'doors': [{'name': d.name, 'kind': d.kind, 'rooms': list(d.rooms), 'pose': list(d.pose),
+                   'width': d.width} for d in home.doors],
+        'landings': [{'elevator': elevator.name, 'storey': landing.storey,
+                      'pose': list(landing.pose)}
+                     for elevator in home.elevators for landing in elevator.landings],
+        'things': [{'name': t.name, 'type': t.type, 'room': t.room, 'x': t.pose[0], 'y': t.pose[1]}
+                   for t in home.things],
+        'sensors': [{key: value for key, value in asdict(s).items() if key != 'source'}
+                    for s in sensors]}, _rounded)
+    return found
 
 
 def _rounded(value: Any) -> Any:

@@ -14,7 +14,7 @@ from angen_tools.common.failure import Failure
 from angen_tools.common.files import make_folder
 
 MARKER = '.angen-generate'  # contains the process that makes the home
-ELSE = 'or give another folder with -o'
+ELSE = 'or give another folder with --out'
 
 
 @contextmanager

@@ -71,6 +71,7 @@ class Stream:
     sensor: list[str]
     value: list[str]
     did: list[Did]
+    name: str = 'the data'  # its file or folder
 
     @property
     def days(self) -> int:
@@ -129,7 +130,7 @@ def read(path: Path) -> Stream:
             did.append(Did(since.pop(what), times[-1], *what))
     if not times:
         raise Failure(f'{path}: has no events')
-    return Stream(np.array(times), sensors, values, sorted(did))
+    return Stream(np.array(times), sensors, values, sorted(did), str(path))
 
 
 def _own(folder: Path) -> Stream:
@@ -143,7 +144,7 @@ def _own(folder: Path) -> Stream:
         times.append(clock.seconds(f'{folder}/events.csv.gz', row['time']))
         sensors.append(row['sensor'])
         values.append(row['value'])
-    return Stream(np.array(times), sensors, values, _did(tables))
+    return Stream(np.array(times), sensors, values, _did(tables), str(folder))
 
 
 def _did(tables: Tables) -> list[Did]:
@@ -179,7 +180,8 @@ def measures(stream: Stream) -> dict[str, float]:
     on, gaps = on_times(stream), np.diff(stream.time)
     hours = by_hour(stream)
     if len(on) == 0 or len(gaps) == 0:
-        raise Failure('the data have no events of motion sensors')
+        raise Failure(f'{stream.name}: has no sensor M… with ON and then OFF, as motion sensors of '
+                      'CASAS have')
     found = {'events a day': len(stream.time) / stream.days}
     for share in (5, 50, 95):
         found[f'ON time p{share}, s'] = float(np.percentile(on, share))

@@ -9,6 +9,7 @@ from angen_tools.common.text_file import shortened
 
 Reader = Callable[[Any], None]  # ValueError, which says what would be right, for another value
 UNFIT = re.compile('[\0-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff]')  # breaks a line or UTF-8
+NUMBER = re.compile(r'[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|nan|inf', re.ASCII)
 LONGEST = 1000  # characters of a text
 MANY = 100_000  # entries of a list
 DEEPEST = 20  # objects and lists in each other
@@ -45,8 +46,8 @@ def figure(least: float, most: float, whole: bool = False, nan: bool = False) ->
     check = number(least, most, whole)
 
     def read(text: Any) -> None:
-        try:
-            value: Any = int(text) if whole else float(text)
+        try:  # int and float read more: digits of other scripts, spaces, underscores
+            value: Any = (int if whole else float)(text) if NUMBER.fullmatch(text) else None
         except (TypeError, ValueError):
             value = None
         if not (nan and value != value):
@@ -96,7 +97,8 @@ def clock(first: int, last: int) -> Reader:
             found = datetime.fromisoformat(value)
         except (TypeError, ValueError):
             found = None
-        if found is None or found.tzinfo is not None or not first <= found.year <= last:
+        if found is None or not value.isascii() or found.tzinfo is not None \
+                or not first <= found.year <= last:
             raise ValueError(f'must be a date and time as 2026-03-23T00:00:00, without a zone, in '
                              f'the years {first} to {last}')
     return read
@@ -114,7 +116,7 @@ def shown(value: object) -> str:
     """A value for an error."""
     if isinstance(value, (dict, list)):
         return 'an object' if isinstance(value, dict) else 'a list'
-    return 'missing' if value is None else shortened(UNFIT.sub('?', str(value)))
+    return 'null' if value is None else shortened(UNFIT.sub('?', str(value)))
 
 
 def check_shape(what: str, value: object, shape: Any, inside: str = '') -> None:

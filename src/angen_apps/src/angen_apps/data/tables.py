@@ -14,6 +14,7 @@ from angen_apps.data.shapes import (DAYS, YEARS, Each, Many, Reader, boolean, ch
                                     check_shape, check_value, clock, figure, inner_path, number,
                                     shown, text, word)
 from angen_apps.data.site import LETTERS
+from angen_apps.plan.polygons import area
 from angen_tools.common.clock import DAY
 from angen_tools.common.failure import Failure
 from angen_tools.common.output import SEED
@@ -25,6 +26,7 @@ MANIFEST_SIZE = 4 * LARGEST  # bytes of a list of many homes, at most
 DAILY = 4 << 20  # characters of a table for each day and person, at most
 TABLE = 1 << 30  # characters of a table, at most
 AREA = 200_000.0  # m^2 that the rooms of all storeys may span
+EXACT = 0.01  # m^2, and share, by which the area of a room may differ from that of its corners
 LAST = (DAYS + 1) * DAY  # s
 
 
@@ -50,11 +52,12 @@ MAYBE = figure(-1e4, 1e4, nan=True)  # nan: away
 WATTS = figure(0.0, 1e7)
 PHASES = 'goes', 'does', 'waits', 'away'
 POSTURES = '', 'stand', 'sit', 'lie'
+CAUSES = 'scheduled', 'free', 'interrupts', 'continues'
 KINDS = (*LETTERS, 'mains')  # sensors have these
 TRUTH: Columns = {
     'resident': NAME, 'start': TIME, 'end': TIME, 'activity': NAME, 'phase': word(*PHASES),
-    'posture': word(*POSTURES), 'room': TEXT, 'thing': TEXT, 'note': TEXT, 'cause': TEXT,
-    'x': MAYBE, 'y': MAYBE}
+    'posture': word(*POSTURES), 'room': TEXT, 'thing': TEXT, 'note': TEXT,
+    'cause': word(*CAUSES), 'x': MAYBE, 'y': MAYBE}
 EVENTS: Columns = {
     'time': clock(YEARS[0] - 1, YEARS[1] + 101), 'sensor': NAME, 'kind': TEXT, 'value': TEXT,
     'cause': TEXT, 'resident': TEXT, 'room': TEXT, 'activity': TEXT}
@@ -75,9 +78,9 @@ LAYOUT = {'start': clock(*YEARS), 'days': number(1, DAYS, whole=True),
                          'body?': TEXT}],
           'guests?': [{'name': WHO, 'host': WHO}],
           'rooms': [{'name': NAME, 'use': TEXT, 'storey': FLOOR, 'polygon': Many(POINT, 3),
-                     'holes?': [Many(POINT, 3)]}],
+                     'holes?': [Many(POINT, 3)], 'area?': number(0.0, 1e8)}],
           'doors': [{'name': NAME, 'kind': TEXT, 'pose': POSE, 'width': number(0.0, 100.0),
-                     'rooms': [TEXT], 'storey?': FLOOR}],
+                     'rooms': (TEXT, TEXT), 'storey?': FLOOR}],
           'landings?': [{'elevator': TEXT, 'storey': FLOOR, 'pose': POSE}],
           'things': [{'name': NAME, 'type': TEXT, 'room': TEXT, 'x': AT, 'y': AT}],
           'sensors': [{'name': NAME, 'id': NAME, 'kind': word(*KINDS), 'room': TEXT,
@@ -85,7 +88,7 @@ LAYOUT = {'start': clock(*YEARS), 'days': number(1, DAYS, whole=True),
 ENTRY = {'settings': {'seed': number(0, SEED, whole=True), 'formats': [NAME], 'world': TEXT,
                       'own_sensors': boolean, 'light': boolean},
          'files': Each(inner_path, TEXT)}  # home.json
-HOMES: dict[str, Any] = {'homes': [{}]}  # manifest.json
+HOMES: dict[str, Any] = {'homes': [{'name': NAME}]}  # manifest.json
 
 
 def parsed(path: Path, shape: Any, most: int = LAYOUT_SIZE) -> Any:
@@ -108,6 +111,7 @@ def layout_of(folder: Path) -> Any:
     path = folder / 'layout.json'
     layout = parsed(path, LAYOUT)
     names = [resident['name'] for resident in layout['residents']]
+    _check_once(path, layout)
     for i, guest in enumerate(layout.get('guests', [])):
         if guest['host'] not in names:
             raise Failure(f'{path}: guests[{i}].host is {shown(guest["host"])}, must be one of '
@@ -115,11 +119,40 @@ def layout_of(folder: Path) -> Any:
     storeys: dict[int, list[tuple[float, float]]] = {}
     for room in layout['rooms']:
         storeys.setdefault(room['storey'], []).extend(room['polygon'])
-    area = sum(math.prod(max(values) - min(values) for values in zip(*points))
-               for points in storeys.values())
-    if area > AREA:
-        raise Failure(f'{path}: the rooms span {area:.0f} m2, must be at most {AREA:.0f}')
+    spanned = sum(math.prod(max(values) - min(values) for values in zip(*points))
+                  for points in storeys.values())
+    if spanned > AREA:
+        raise Failure(f'{path}: the rooms span {spanned:.0f} m2, must be at most {AREA:.0f}')
     return layout
+
+
+def _check_once(path: Path, layout: Any) -> None:
+    """Failure for two of a name, a door of a room that there is not, and a room's wrong area."""
+    for part, *keys in (('rooms', 'name'), ('doors', 'pose', 'kind', 'name'), ('things', 'name'),
+                        ('sensors', 'id'), ('landings', 'elevator', 'storey')):
+        known: dict[tuple[str, ...], int] = {}
+        for i, one in enumerate(layout.get(part, [])):
+            first = known.setdefault(tuple(str(one[key]) for key in keys), i)
+            if first != i:
+                raise Failure(f'{path}: {part}[{i}].{keys[-1]} is {shown(one[keys[-1]])}, must '
+                              f'differ from that of {part}[{first}]')
+    people = [(part, i, one['name']) for part in ('residents', 'guests')
+              for i, one in enumerate(layout.get(part, []))]
+    for before, (part, i, name) in enumerate(people):
+        if name in (other for *_, other in people[:before]):
+            raise Failure(f'{path}: {part}[{i}].name is {shown(name)}, must differ from those of '
+                          'the other residents and guests')
+    rooms = {room['name'] for room in layout['rooms']}
+    for i, door in enumerate(layout['doors']):
+        for name in door['rooms']:
+            if name and name not in rooms:
+                raise Failure(f'{path}: doors[{i}].rooms has {shown(name)}, must have rooms, or '
+                              'an empty text for outside')
+    for i, room in enumerate(layout['rooms']):
+        size = area(room['polygon']) - sum(area(hole) for hole in room.get('holes', []))
+        if abs(room.get('area', size) - size) > EXACT + EXACT * size:
+            raise Failure(f'{path}: rooms[{i}].area is {room["area"]:.10g}, its polygon has '
+                          f'{size:.4f} m2')
 
 
 class Tables:
@@ -171,19 +204,26 @@ def rows(path: Path, columns: Columns, check: Callable[[Row], None] = lambda row
             if column not in (reader.fieldnames or ()):
                 raise Failure(f'{path}:1: has no column {column}')
         for row in reader:
-            for column, read in columns.items():
-                try:
-                    read(row[column])
-                except ValueError as error:
-                    raise Failure(f'{path}:{reader.line_num}: {column} is '
-                                  f'{shown(row[column]) or "empty"}, {error}') from None
             try:
+                _check_cells(row, columns)
                 check(row)
             except Failure as failure:
                 raise Failure(f'{path}:{reader.line_num}: {failure}') from None
             yield row
     except csv.Error as error:
         raise Failure(f'{path}:{reader.line_num}: cannot be read: {error}') from None
+
+
+def _check_cells(row: dict[Any, Any], columns: Columns) -> None:
+    """Failure for more cells than the head has, or one that is missing or not as it must be."""
+    if None in row:  # the key of cells behind the last column
+        raise Failure(f'has {len(row) - 1 + len(row[None])} cells, must have {len(row) - 1}')
+    for column, read in columns.items():
+        try:
+            read(row[column])
+        except ValueError as error:
+            value = 'missing' if row[column] is None else shown(row[column]) or 'empty'
+            raise Failure(f'{column} is {value}, {error}') from None
 
 
 def _check_regular(path: Path) -> None:

@@ -36,6 +36,12 @@ class Findings:
         if not fine:
             self.wrong[check].append(what)
 
+    def add(self, other: Findings, name: str) -> None:
+        """Those of a home, with its name."""
+        self.checked += other.checked
+        for check, wrong in other.wrong.items():
+            self.wrong.setdefault(check, []).extend(f'{name}: {line}' for line in wrong)
+
     @property
     def count(self) -> int:
         return sum(len(found) for found in self.wrong.values())

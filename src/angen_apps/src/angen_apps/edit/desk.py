@@ -5,14 +5,17 @@ import hashlib
 import json
 import os
 import socket
+import sys
 import tempfile
 from pathlib import Path
 from typing import Any
 
 from lxml import etree
 
+from angen_apps.data.shapes import check_shape
 from angen_apps.edit import build
 from angen_apps.edit.habits import write_profiles
+from angen_apps.edit.limits import DRAFT
 from angen_apps.edit.simulation import STARTS
 from angen_apps.edit.worker import Worker
 from angen_apps.plan.drawing import from_json, recovered, to_json
@@ -66,12 +69,30 @@ class Desk:
                 'saved': bool(self._file)}
 
     def _kept(self) -> Any:
+        """The draft, if there is one. A damaged one is set aside: the next draft would replace it.
+        """
+        if not self.draft.exists():
+            return None
         try:
             draft = json.loads(read_text(self.draft))
+            check_shape(str(self.draft), draft, DRAFT)
             from_json(draft['drawing'], str(self.draft))
-            return {'at': float(draft['at']), 'drawing': draft['drawing']}
-        except (Failure, OSError, ValueError, TypeError, KeyError, RecursionError):
-            return None  # there is none, or it is of something else
+            return draft
+        except (Failure, ValueError, RecursionError) as error:
+            why = str(error) if isinstance(error, Failure) else f'{self.draft}: is not JSON'
+            print(f'angen edit: {why}{self._set_aside()}', file=sys.stderr, flush=True)
+            return None
+
+    def _set_aside(self) -> str:
+        """Gives the draft another name; returns what has become of it."""
+        aside, number = self.draft.with_name(f'{self.draft.name}.damaged'), 2
+        while aside.exists():
+            aside, number = aside.with_name(f'{self.draft.name}.damaged{number}'), number + 1
+        try:
+            os.replace(self.draft, aside)
+        except OSError as error:
+            return f'; it cannot be set aside: {error.strerror}'
+        return f'; it is now {aside.name}'
 
     def keep(self, drawing: Any, at: float, base: Any) -> None:
         """Writes the draft."""

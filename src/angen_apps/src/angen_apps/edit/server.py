@@ -9,7 +9,9 @@ from typing import Any
 
 from aiohttp import WSMsgType, web
 
+from angen_apps.data.shapes import check_shape
 from angen_apps.edit.desk import LARGEST, Conflict, Desk
+from angen_apps.edit.limits import ORDER
 from angen_apps.edit.simulation import Simulation
 from angen_apps.web.guard import Guard
 from angen_apps.web.server import Site, json_text
@@ -109,6 +111,7 @@ class Editor(Site):
                 await in_thread(self._simulation.prepare)
 
     async def _execute(self, what: str, order: dict[str, Any]) -> dict[str, Any]:
+        check_shape('the order', order, ORDER)
         desk, drawing, base = self._desk, order.get('drawing'), order.get('base')
         if what == 'survey':
             if self._prepares is None:  # somebody draws
@@ -118,8 +121,7 @@ class Editor(Site):
         async with self._turn:
             text = ''
             if what == 'keep':
-                at = order.get('at')
-                await in_thread(desk.keep, drawing, at if isinstance(at, (int, float)) else 0, base)
+                await in_thread(desk.keep, drawing, order.get('at', 0), base)
             elif what == 'discard':
                 await in_thread(desk.discard, base)
             elif what in ('save', 'simulate', 'day'):

@@ -56,7 +56,9 @@ class _Home:
         for element in self.root.findall('wall'):
             self._wall(element)
         if not any(storey.walls for storey in self.storeys.values()):
-            raise self.xml.fail(self.root, 'has no <wall>; a home needs walls')
+            left_out = '' if self.root.find('wall') is None else \
+                ' with length, thickness and height'
+            raise self.xml.fail(self.root, f'has no <wall>{left_out}; a home needs walls')
         for element in self.root.findall('room'):
             self._room(element)
         for element in self._visible('doorOrWindow'):
@@ -239,9 +241,12 @@ class _Home:
                 (at or [storey])[0].openings.append(opening)
 
     def _find_rooms(self) -> None:
-        """The rooms between the walls of a level that has none; their contents tell their use."""
+        """The rooms between the walls of each level of a home that has none; their contents tell
+        their use."""
+        if any(storey.rooms for storey in self.storeys.values()):
+            return
         for storey in self.storeys.values():
-            if storey.walls and not any(other.rooms for other in self.storeys.values()):
+            if storey.walls:
                 storey.rooms = rooms_of(storey, self.height if None in self.storeys
                                         else storey.height, ())
                 self.remarks.append(f'{self.path}: has no <room>; {len(storey.rooms)} are found '

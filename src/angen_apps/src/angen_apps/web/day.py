@@ -73,6 +73,12 @@ def _moment(row: dict[str, str], things: dict[str, Any]) -> Moment:
     return Moment(start, 0, x, y, yaw, text)
 
 
+def getting_up(spans: list[Any]) -> list[float]:
+    """When a resident gets up, from start, end and activity of each of its intervals."""
+    return [end for (_, end, what), (*_, after) in zip(spans, spans[1:])
+            if what == 'sleep' != after]
+
+
 class Day(Lined):
     """A Source, see server.py."""
 
@@ -194,8 +200,8 @@ class Day(Lined):
                                      for r in self._truth() if r['resident'] == name]]
                              for name in self._people]
         self._line['ribbon'] = ribbon
-        wakes = [spans[0][1] for _, spans in ribbon if spans and spans[0][2] == 'sleep']
-        self._line.update(begin=max(0.0, min(wakes, default=0.0) - BEFORE), speed=SPEED)
+        first = min((time for _, spans in ribbon for time in getting_up(spans)), default=0.0)
+        self._line.update(begin=max(0.0, first - BEFORE), speed=SPEED)
 
     def _place(self, time: float, link: int, pose: Any) -> None:
         none = np.zeros(0, np.uint32)

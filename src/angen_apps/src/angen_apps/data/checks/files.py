@@ -1,13 +1,15 @@
 """Checks each file of a home against its list, and against the files from which it follows."""
 from __future__ import annotations
 
+import os
 import tempfile
 import zlib
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
 from angen_apps.data.formats import FORMATS
-from angen_apps.data.generate import HOME, MANIFEST, TRUTH, sha256
+from angen_apps.data.generate import CABINS, HOME, MANIFEST, TALKS, TRUTH, sha256
 from angen_apps.data.recorder import TAP, VALUES
 from angen_apps.data.shapes import shown
 from angen_apps.data.tables import ENTRY, HOMES, MANIFEST_SIZE, opened, parsed
@@ -37,11 +39,16 @@ def check(findings: Findings, home: Written) -> None:
         findings.say(FOLLOWS, False, f'layout.json has {days} days, the truth {len(home.truth)} '
                      f'lines until {last:.3f}')
         return
+    known = {*TRUTH, CABINS, TALKS}
     for name in dict.fromkeys((*settings['formats'], 'csv')):
         if name not in FORMATS:
             findings.say(LISTED, False, f'{path}: {name} is not a format')
         elif entry.get('version') == angen_module().__version__:
-            _follows(findings, home, name, settings['seed'], files)
+            known |= _follows(findings, home, name, settings['seed'], files)
+    if entry.get('version') == angen_module().__version__:
+        for name in sorted(files):
+            findings.say(LISTED, name in known, f'{path}: lists {shown(name)}, which is of none of '
+                         'its formats')
 
 
 def _listed(findings: Findings, home: Written, entry: Any, files: dict[str, str]) -> None:
@@ -66,10 +73,28 @@ def _listed(findings: Findings, home: Written, entry: Any, files: dict[str, str]
 
 def _manifest(findings: Findings, home: Written, entry: Any) -> None:
     path = next((folder / MANIFEST for folder in (home.folder, home.folder.parent)
-                 if (folder / MANIFEST).is_file()), None)
+                 if os.path.lexists(folder / MANIFEST)), None)
     if path is not None:
-        findings.say(LISTED, entry in parsed(path, HOMES, MANIFEST_SIZE)['homes'],
+        own = path.parent == home.folder or entry.get('name') == home.folder.name
+        findings.say(LISTED, own and entry in parsed(path, HOMES, MANIFEST_SIZE)['homes'],
                      f'{path}: does not list {home.folder.name} as {HOME} does')
+
+
+def check_folder(findings: Findings, folder: Path, homes: list[Path]) -> None:
+    """The manifest of an output folder lists each home that is in it once, and no other one."""
+    path = folder / MANIFEST
+    if not os.path.lexists(path):
+        return
+    listed = Counter(entry['name'] for entry in parsed(path, HOMES, MANIFEST_SIZE)['homes'])
+    if homes == [folder]:
+        findings.say(LISTED, listed.total() == 1,
+                     f'{path}: lists {listed.total()} homes, the folder is one')
+        return
+    there = {home.name for home in homes}
+    for name in sorted({*listed, *there}):
+        findings.say(LISTED, name in there, f'{path}: lists {shown(name)}, which is missing')
+        findings.say(LISTED, listed[name] > 0, f'{path}: does not list {name}')
+        findings.say(LISTED, listed[name] < 2, f'{path}: lists {shown(name)} twice')
 
 
 def _ids(findings: Findings, home: Written) -> None:
@@ -104,20 +129,24 @@ def _is_value(kind: str, value: str) -> bool:
 
 
 def _follows(findings: Findings, home: Written, name: str, seed: int,
-             files: dict[str, str]) -> None:
-    """The files of a format are those that its writer makes of truth, events and loads."""
+             files: dict[str, str]) -> set[str]:
+    """The files of a format are those that its writer makes of truth, events and loads; returns
+    their names."""
+    names: set[str] = set()
     with tempfile.TemporaryDirectory(prefix='angen_') as scratch:
         try:
             made = FORMATS[name](Path(scratch), home.data(seed))
         except (Failure, KeyError, ValueError) as error:
             findings.say(FOLLOWS, False, f'{name}: cannot be made of truth and events: {error}')
-            return
+            return set(files)
         for path in made:
             own = home.folder / path.relative_to(scratch)
             path_in = str(own.relative_to(home.folder))
+            names.add(path_in)
             findings.say(LISTED, path_in in files, f'{path_in} is not listed')
             wrong = _difference(own, path) if own.is_file() else ' is missing'
             findings.say(FOLLOWS, not wrong, f'{path_in}{wrong}')
+    return names
 
 
 def _difference(own: Path, made: Path) -> str:
