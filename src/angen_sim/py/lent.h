@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "plugin/outputs.h"
-#include "plugin/view.h"
-#include "plugin/wiring.h"
 #include "py/exclusive.h"
 
 namespace angen::py {
@@ -57,20 +54,3 @@ class LentCaster : public pybind11::detail::type_caster_base<T> {
 };
 
 }  // namespace angen::py
-
-namespace pybind11::detail {
-
-template <>
-class type_caster<angen::Params> : public angen::py::LentCaster<angen::Params> {};
-template <>
-class type_caster<angen::Wiring> : public angen::py::LentCaster<angen::Wiring> {};
-template <>
-class type_caster<angen::View> : public angen::py::LentCaster<angen::View> {};
-template <>
-class type_caster<angen::Outputs> : public angen::py::LentCaster<angen::Outputs> {};
-template <>
-class type_caster<angen::Rng> : public angen::py::LentCaster<angen::Rng> {};
-template <>
-class type_caster<angen::Kind> : public angen::py::LentCaster<angen::Kind> {};
-
-}  // namespace pybind11::detail

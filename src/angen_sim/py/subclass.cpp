@@ -12,6 +12,23 @@
 #include "py/bindings.h"
 #include "py/lent.h"
 
+namespace pybind11::detail {
+
+template <>
+class type_caster<angen::Params> : public angen::py::LentCaster<angen::Params> {};
+template <>
+class type_caster<angen::Wiring> : public angen::py::LentCaster<angen::Wiring> {};
+template <>
+class type_caster<angen::View> : public angen::py::LentCaster<angen::View> {};
+template <>
+class type_caster<angen::Outputs> : public angen::py::LentCaster<angen::Outputs> {};
+template <>
+class type_caster<angen::Rng> : public angen::py::LentCaster<angen::Rng> {};
+template <>
+class type_caster<angen::Kind> : public angen::py::LentCaster<angen::Kind> {};
+
+}  // namespace pybind11::detail
+
 namespace angen::py {
 
 namespace {

@@ -81,7 +81,7 @@ class Heat {
     std::optional<std::uint64_t> blockers;
     double factor = 0.0;  // … and the part of it that was visible, m^2 sr
     bool is_known = false;
-    std::uint64_t moment = 0;         // of rays::Scene, up to which the factor is known
+    std::uint64_t moment = 0;         // rays::Scene::moment() up to which it is known
     std::uint32_t wall = UINT32_MAX;  // the shape that hid it whole, when one last did
   };
 
