@@ -108,8 +108,9 @@ def test_validate_knows_a_room_within_another(lived, tmp_path):
     wrong, = crossed(
         lived, tmp_path, ['5000.0,anna,1.9,3.0,0', '5000.4,anna,2.1,3.0,0'],
         lambda room: {'doors': [], 'rooms': [
-            {**room, 'name': name, 'storey': 0, 'polygon': polygon, 'holes': holes}
-            for name, polygon, holes in (('hall', ring, [core]), ('bathroom', core, []))]})
+            {**room, 'name': name, 'storey': 0, 'polygon': polygon, 'holes': holes, 'area': size}
+            for name, polygon, holes, size in (('hall', ring, [core], 32.0),
+                                               ('bathroom', core, [], 4.0))]})
     assert 'from hall' in wrong and 'to bathroom' in wrong
 
 
@@ -121,7 +122,7 @@ def test_validate_lets_a_step_board_an_elevator(lived, tmp_path):
         lambda room: {
             'doors': [], 'landings': [{'elevator': 'e', 'storey': 0,
                                        'pose': [1.0, 3.0, 0.0, math.pi]}],
-            'rooms': [{**room, 'name': 'landing', 'storey': 0, 'holes': [],
+            'rooms': [{**room, 'name': 'landing', 'storey': 0, 'holes': [], 'area': 36.0,
                        'polygon': [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0]]}]})
     assert wrong.startswith('anna at 6000.4')
 

@@ -33,6 +33,7 @@ HEARS = 4.0  # m to one whom one talks to, ours
 # s of a turn of a talk: 1200 of 2 to 3 h a day (Levinson and Torreira, Frontiers in Psychology 6,
 # 2015)
 SAYS = (3.0, 15.0)
+SHORTEST = 1.0  # s of a turn, ours: with less time left nobody begins one
 ANSWERS = 0.7  # probability of a further turn, of the other one; ours
 SOCIAL = ('eat', 'leisure')  # labels of OpenSHS whose activities leave people time to talk
 
@@ -137,7 +138,7 @@ class Company(User):
         try:
             while hears.listens_in(room) and speaks.listens_in(room):
                 ends = min(until, hears._until, speaks._until)
-                if ends <= self.now:
+                if ends < self.now + SHORTEST:
                     break
                 yield from speaks._say(hears, min(spread(self._habits, *SAYS), ends - self.now))
                 if self._habits.random() >= ANSWERS:
