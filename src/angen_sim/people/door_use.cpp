@@ -18,6 +18,7 @@ constexpr double kAlone = 0.8;                      // m, a leaf this wide suffi
 constexpr double kStoreyWithin = 1.0;               // m, from a person's feet to the foot of a door
 constexpr double kReach = 1.1;                      // m from a person's middle to a handle
 constexpr double kAtSpot = 0.07;                    // m
+constexpr double kKeptFrom = 1.0;                   // m from a spot: something there can move
 constexpr double kBeforeHandle = 0.5;               // m, to push or slide
 constexpr double kHandleInside = 0.07;              // m, of a leaf's edge
 constexpr double kOutOfSwing = 0.37;                // m beyond the leaf's edge
@@ -261,6 +262,7 @@ void DoorUse::enter(Phase phase, Nanoseconds now) {
   phase_ = phase;
   since_ = now;
   closes_off_.reset();
+  missed_.reset();
 }
 
 // Close to a door, before a corner of its opening, no straight way leads through.
@@ -307,14 +309,13 @@ DoorUse::Vec2 DoorUse::handle() const {
 // To push or slide: close. To pull: at arm's length from the handle, out of the leaf's way, where a
 // wall leaves it room.
 DoorUse::Vec2 DoorUse::free_spot(const View& view, const Vec3& feet) const {
-  if (door_.slides || side_ < 0.0) return handle() + side_ * kBeforeHandle * door_.into;
-  return pull_spot(view, feet);
+  return pulls() ? pull_spot(view, feet) : handle() + side_ * kBeforeHandle * door_.into;
 }
 
 DoorUse::Vec2 DoorUse::pull_spot(const View& view, const Vec3& feet) const {
   const std::vector<Vec2> places = spots();
   for (const Vec2& place : places) {
-    if (is_taken(view, feet, place)) continue;
+    if (is_taken(view, feet, place) || (missed_ && (place - *missed_).norm() < kAtSpot)) continue;
     if (FloorMap(view, feet, place, FloorMap::Extent::kStraight).is_free(place)) return place;
   }
   return places.front();
@@ -394,8 +395,16 @@ DoorUse::Advice DoorUse::approach(const View& view, const Vec3& feet, Outputs& o
     return {Advice::Step::kStand, handle()};
   }
   const Nanoseconds time = now - since_;
-  const bool reaches = time > kNearEnough && (at - handle()).norm() < kReach;
-  if (!opens && ((at - spot_).norm() < kAtSpot || reaches)) return open(view, feet, outputs);
+  const double away = (at - spot_).norm();
+  const bool is_kept = time > kNearEnough && away > kAtSpot && away < kKeptFrom;
+  if (is_kept && pulls() && !missed_) {
+    missed_ = spot_;
+    spot_ = pull_spot(view, feet);
+    since_ = now;
+    return {Advice::Step::kGo, spot_};
+  }
+  const bool reaches = time > kNearEnough && (at - handle()).norm() < kReach && !is_in_swing(at);
+  if (!opens && (away < kAtSpot || reaches)) return open(view, feet, outputs);
   if (time > kLongest) return fail(view, feet, "is out of its reach");
   return {Advice::Step::kGo, spot_};
 }
@@ -420,7 +429,7 @@ DoorUse::Advice DoorUse::open(const View& view, const Vec3& feet, Outputs& outpu
 
 // Where a leaf that opens would hit it.
 bool DoorUse::is_in_swing(const Vec2& at) const {
-  if (door_.slides || side_ < 0.0) return false;
+  if (!pulls()) return false;
   const double reach = door_.width + kOutOfSwing - kAtSpot;
   const Vec2 other = door_.hinge + 2.0 * door_.width * door_.along;
   const bool of_other = !door_.partner.empty() && (at - other).norm() < reach;

@@ -109,6 +109,8 @@ class DoorUse {
   bool closes_off(const View& view, const Vec3& feet) const;
   bool is_in_swing(const Vec2& at) const;
   bool moves() const { return door_.mode == "OPENING" || door_.partner_mode == "OPENING"; }
+  /// Whether its leaf opens to the side of the person.
+  bool pulls() const { return !door_.slides && side_ > 0.0; }
   Vec2 handle() const;
   /// The person's place to open the door.
   Vec2 free_spot(const View& view, const Vec3& feet) const;
@@ -125,6 +127,7 @@ class DoorUse {
   DoorSeen door_;
   Nanoseconds refreshed_ = 0;
   Vec2 spot_ = Vec2::Zero();
+  std::optional<Vec2> missed_;      // the spot that it did not get to
   double side_ = 1.0;               // where it came from: 1 = the side that the leaf opens to
   Nanoseconds since_ = 0;           // start of this phase
   std::optional<bool> closes_off_;  // while passing: whether nobody gets past the open leaf

@@ -1,10 +1,13 @@
-"""Why people do not get through a door or to a room of an imported home."""
+"""Ways of residents: why there is none in an imported home, and one out of the apartment."""
 from __future__ import annotations
 
 from pathlib import Path
 
+import angen
 import pytest
 
+from angen_apps.data.site import apartment
+from angen_apps.residents.figures import walker
 from angen_bench.homes import examples
 from angen_tools.cli import main as cli
 
@@ -29,3 +32,18 @@ def test_an_import_says_where_people_have_no_way_and_why(
     assert cli.run(['home', world, '--residents', '1']) == 0
     lines = [line.removeprefix('remark: ') for line in said.splitlines()]
     assert '\n'.join(f'angen: {line}' for line in lines) in capsys.readouterr().err
+
+
+@pytest.mark.parametrize('speed', [0.9, 1.0, 1.1, 1.2, 1.3])
+def test_a_leaf_is_pulled_where_its_swing_and_what_stands_there_leave_room(
+        tmp_path: Path, speed: float) -> None:
+    """The flaps of a shoe cabinet, which can move, stand at the best place beside the entrance."""
+    apartment(tmp_path / 'home.world')
+    world = angen.World(str(tmp_path / 'home.world'), seed=1)
+    for kind, _, model, _ in world.entities():
+        if kind in ('person', 'drive') and model in world.models:
+            world.delete(model)
+    world.spawn(walker('bert', speed, 'person'), 'bert', [6.148, 7.973, 0.0, 0.0, 0.0, 0.0])
+    world.command('person', 'bert', 'GoTo -1.2 5')
+    world.run(30.0)
+    assert 'arrived' in [event for _, name, _, event, _ in world.events() if name == 'bert']
