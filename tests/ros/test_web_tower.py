@@ -13,8 +13,8 @@ SHOWN = '''const {home, view} = angen, found = {};
         const e = view.viewpoint.camera.matrixWorld.clone();
         if (part.slot < 0 || !["wall", "thing"].includes(part.cls)) return;
         part.mesh.getMatrixAt(part.slot, e);
-        // a sofa begins 0.065 m below its floor
-        const key = `${part.cls} ${home.storeyAt(e.elements[14], 0.07)}`;
+        const {model} = home.scene.links[part.link];
+        const key = `${part.cls} ${home.storeyOf(model, e.elements[14], 0.05)}`;
         const top = e.elements[14] + Math.abs(e.elements[10]) / 2;
         const {count = 0, top: highest = 0} = found[key] ?? {};
         found[key] = {count: count + 1, top: Math.max(highest, top)};
