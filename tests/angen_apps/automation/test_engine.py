@@ -42,6 +42,34 @@ def test_a_second_trigger_goes_by_the_mode_and_for_counts_while_the_state_stays(
     assert stage.called == called
 
 
+def test_for_counts_from_when_a_state_was_left_on_through_others(tmp_path: Path) -> None:
+    """`from` alone: 5, 6, 7 is one way of not being 5; it ends with 5."""
+    stage = Stage(tmp_path, one('platform: state, entity_id: sensor.hall_light_sensor, from: "5", '
+                                'for: 60'))
+    for time, lux in ((10, 6.0), (13, 7.0), (40, 6.0), (43, 5.0), (100, 6.0), (103, 7.0)):
+        stage.tell(time, 'luminosity', illuminance=lux)
+    stage.until(300)
+    assert stage.called == [(160, 'turn_on')]
+
+
+def test_a_condition_that_fails_ends_its_block(tmp_path: Path) -> None:
+    """An if's block, not what follows it; at the end of the actions, all that follows."""
+    stage = Stage(tmp_path, '''
+trigger: {platform: state, entity_id: binary_sensor.hall_motion_sensor, to: 'on'}
+action:
+  - if: {condition: state, entity_id: sensor.hall_light_sensor, state: '5'}
+    then:
+      - {condition: state, entity_id: sensor.hall_light_sensor, state: '7'}
+      - {service: light.toggle, entity_id: light.hall_lamp}
+  - {service: light.turn_on, entity_id: light.hall_lamp}
+  - {condition: state, entity_id: sensor.hall_light_sensor, state: '7'}
+  - {service: light.turn_off, entity_id: light.hall_lamp}
+''')
+    stage.motion(10, True)
+    stage.until(20)
+    assert stage.called == [(10, 'turn_on')]
+
+
 def test_a_number_triggers_when_it_crosses_the_limit(tmp_path: Path) -> None:
     """5 lx are below 20 from the start on: that is no crossing."""
     stage = Stage(tmp_path, one('platform: numeric_state, entity_id: sensor.hall_light_sensor, '

@@ -103,6 +103,7 @@ class Watched:
     def __init__(self, engine: Engine, trigger: Trigger, fire: Callable[[str], None]) -> None:
         self._engine, self._trigger, self._fire = engine, trigger, fire
         self._timers: dict[str, int] = {}  # by entity
+        self._left: dict[str, str] = {}  # the state that each with a timer has left
         self.over = False
         if isinstance(trigger, NumericTrigger):
             self._inside = {name: self._is_inside(engine.entities.find(name))
@@ -140,9 +141,15 @@ class Watched:
                 self._cancel(entity)
 
     def _see_state(self, trigger: StateTrigger, entity: Entity, before: str, now: str) -> None:
+        # What has `from` alone counts until its entity is back in the state that it left.
+        goes_on = (trigger.origin and not trigger.to and entity.id in self._timers
+                   and now != self._left[entity.id])
+        if goes_on:
+            return
         self._cancel(entity)
         if (not trigger.to or now in trigger.to) and (not trigger.origin
                                                       or before in trigger.origin):
+            self._left[entity.id] = before
             self._begin(entity, trigger.held)
 
     def _is_inside(self, entity: Entity) -> bool:
@@ -196,7 +203,8 @@ class Run:
             self._timer = None
 
     def _all(self, actions: Sequence[Action]) -> Iterator[bool]:
-        """Yields True when it waits; ends the whole run by `over`."""
+        """Yields True when it waits. A condition that fails ends this block; Stop, and a wait that
+        must not go on, end the run by `over`."""
         for action in actions:
             if isinstance(action, Service):
                 self._engine.orders(action, self._automation.name)
@@ -207,7 +215,7 @@ class Run:
                 yield from self._wait(action)
             elif isinstance(action, Test):
                 if not self._engine.holds(action.condition, self._trigger):
-                    self.over = True
+                    return
             elif isinstance(action, Choice):
                 yield from self._all(self._chosen(action))
             elif isinstance(action, Stop):
