@@ -38,6 +38,8 @@ def test_a_time_of_day_is_from_the_start_on(tmp_path: Path) -> None:
     ('expect: light.hall', 'hope: light.hall', 7, 'has one of expect, never'),
     ('{expect: light.hall is on, within: 2 s, of: anyone in kitchen0}',
      '{at_most: much, energy_of: light.hall}', 7, 'an energy as 0.5 kWh'),
+    ('{expect: light.hall is on, within: 2 s, of: anyone in kitchen0}',
+     '{at_most: 1, changes_of: light.hall, while: anyone in kitchen0}', 7, "'while'"),
     ('automation: light', 'weather: [{at: 0 s}]\nautomation: light', 5, 'outside or daylight'),
     ('automation: light', 'weather: [{at: 1 h, outside: 3}]\nautomation: light', 5, 'not within'),
     ('automation: light.yaml', 'automation: light.yaml\nprogram: {run: x}', 1,

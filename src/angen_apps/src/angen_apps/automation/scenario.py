@@ -271,7 +271,7 @@ class _Reader(YamlFile):
         return Expectation(kind, self._name(parts, text), claims, held=held, line=line_of(node))
 
     def _limit(self, node: Any, kind: str) -> Expectation:
-        parts = self.entries(node, 'an expectation', (kind, *COUNTED, 'per', 'name', 'while'))
+        parts = self.entries(node, 'an expectation', (kind, *COUNTED, 'per', 'name'))
         counted = [key for key in COUNTED if key in parts]
         if len(counted) != 1:
             raise self.fail(node, f'{kind} needs one of {", ".join(COUNTED)}')
