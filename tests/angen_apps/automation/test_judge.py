@@ -54,12 +54,23 @@ def record(folder: Path, text: str, cut: str = '') -> Record:
     ('at_least: 2, times: light.hall is on', 'passed', '2'),
     ('at_most: 5 min, time_of: light.hall is on', 'passed', '4 min 55 s'),
     ('at_most: 4 min, time_of: light.hall is on', 'failed', '4 min 55 s'),
-    ('at_most: 5 Wh, energy_of: light.hall', 'passed', '0.005 kWh'),
-    ('at_most: 4.9 Wh, energy_of: light.hall', 'failed', '0.005 kWh')])
+    ('at_most: 5 Wh, energy_of: light.hall', 'passed', '4.908 Wh'),
+    ('at_most: 4.9 Wh, energy_of: light.hall', 'failed', '4.908 Wh')])
 def test_verdicts(tmp_path: Path, text: str, outcome: str, detail: str) -> None:
     """294.5 s of 60 W are 4.908 Wh."""
     verdict, = judge(record(tmp_path, text))
     assert (verdict.outcome, detail in verdict.detail) == (outcome, True), verdict.detail
+
+
+@pytest.mark.parametrize('limit, outcome', [('12.4', 'failed'), ('12.6', 'passed')])
+def test_the_span_with_the_most_energy_may_end_with_a_change(tmp_path: Path, limit: str,
+                                                             outcome: str) -> None:
+    """450 s that end at 800 s have 150 s of 60 W and 300 s of 120 W, 12.5 Wh; those that begin
+    at 200 or 500 s have 10 Wh."""
+    told = record(tmp_path, f'at_most: {limit} Wh, energy_of: light.hall, per: 450 s')
+    watts = [(0.0, '0'), (200.0, '60'), (500.0, '120'), (800.0, '0')]
+    verdict, = judge(replace(told, watts={'lamp/hall': watts}))
+    assert verdict.outcome == outcome and '12.5 Wh' in verdict.detail
 
 
 def test_a_cut_run_passes_nothing(tmp_path: Path) -> None:

@@ -91,17 +91,21 @@ def _limit(record: Record, each: Expectation) -> Verdict:
     too = amount > each.limit + FEW if each.kind == 'at_most' else amount < each.limit - FEW
     if record.cut and each.kind == 'at_least' and too:
         return Verdict(each, OPEN, f'the run ended early: {record.cut}')
-    shown = {'kWh': f'{amount:.3f} kWh', 's': show_duration(amount)}.get(
-        each.unit, f'{amount:g}')
+    shown = {'kWh': f'{1000.0 * amount:.4g} Wh' if amount < 0.1 else f'{amount:.3f} kWh',
+             's': show_duration(amount)}.get(each.unit, f'{amount:g}')
     return Verdict(each, FAILED if too else PASSED, shown, [span] if too else [])
 
 
 def _starts(record: Record, each: Expectation) -> list[float]:
-    """Where windows begin: at each that is counted, for at_least one after the other."""
+    """Where windows begin: for at_least one after the other, else at each that is counted; the
+    most energy may also be in one that ends there."""
     end = record.lines.end
     if each.kind == 'at_least':
         return [i * each.per for i in range(int(end / each.per))]
-    return _moments(record, each)
+    moments = _moments(record, each)
+    if each.counted == 'energy_of':
+        moments += [time - each.per for time in moments if time > each.per]
+    return moments
 
 
 def _moments(record: Record, each: Expectation) -> list[float]:
