@@ -26,16 +26,6 @@ Eigen::Matrix3d cross_matrix(const Vec3& v) {
   return matrix;
 }
 
-// A joint that guides a body's rotation, as a hinge does: its reaction is part of the torques, and
-// ODE's way of both belongs together.
-bool is_guided(dBodyID body) {
-  for (int i = 0; i < dBodyGetNumJoints(body); ++i) {
-    const dJointType type = dJointGetType(dBodyGetJoint(body, i));
-    if (type != dJointTypeContact && type != dJointTypeBall) return true;
-  }
-  return false;
-}
-
 bool is_round(const Eigen::Matrix3d& moment) {
   return moment.isApprox(moment(0, 0) * Eigen::Matrix3d::Identity(), kRound);
 }
@@ -67,7 +57,7 @@ void add_gyroscopic_torques(const std::vector<Body*>& awake, double step) {
     const Quat to_own = body->at.rotation.conjugate();
     const Vec3 spin = to_own * body->spin();
     std::optional<Vec3> next;
-    if (spin.norm() > kSlowSpin && !body->upright && !is_round(body->moment) && !is_guided(ode)) {
+    if (spin.norm() > kSlowSpin && !body->upright && !is_round(body->moment)) {
       next = next_spin(body->moment, spin, to_own * own.expected * step, step);
     }
     own.acts = next.has_value();

@@ -115,5 +115,83 @@ TEST(GyroscopicTorque, ATopDipsAsTheIntegralsOfItsMotionSay) {
   EXPECT_NEAR(energy(), before, 0.005 * before);
 }
 
+/// A rotor on a hinge in a frame on a ball joint, let go with a level axis: how far it dips.
+TEST(GyroscopicTorque, ARotorOnAHingeDipsAsATopDoesAndNoDeeperLater) {
+  const double l = 0.3, axial = 0.02, across = 0.011;
+  desc::Link frame, rotor;
+  frame.name = "frame";
+  frame.inertial.mass = 0.05;
+  frame.inertial.moment = 1e-3 * Eigen::Matrix3d::Identity();
+  frame.inertial.pose.position = {l / 2, 0, 0};
+  rotor.name = "rotor";
+  rotor.inertial.mass = 1.0;
+  rotor.inertial.moment = Vec3(axial, across, across).asDiagonal();
+  rotor.inertial.pose.position = {l, 0, 0};
+  desc::Model model = model_of("gyroscope", {frame, rotor});
+  model.joints = {joint_of(desc::Joint::Type::kBall, "world", "frame"),
+                  joint_of(desc::Joint::Type::kRevolute, "frame", "rotor", Vec3::UnitX())};
+  for (const double spin : {100.0, 200.0}) {
+    TestWorld world;
+    const LinkId link = world.links(world.add(model)).at(1);
+    world.set_velocity(link, Vec3::Zero(), Vec3(spin, 0, 0));
+    // The equation of the top above, with u0 = 0, for both bodies.
+    const double torque = kEarth * (rotor.inertial.mass * l + frame.inertial.mass * l / 2);
+    const double moment =
+        across + rotor.inertial.mass * l * l + 1e-3 + frame.inertial.mass * l * l / 4;
+    const double p = std::pow(axial * spin, 2) / (4 * torque * moment);
+    const double exact = std::sqrt(p * p + 1.0) - p;
+    for (int second = 1; second <= 4; ++second) {
+      double lowest = 0.0;
+      for (int i = 0; i < 1000; ++i) {
+        world.run(kStep);
+        lowest = std::max(lowest, -(world.link(link).pose.rotation * Vec3::UnitX()).z());
+      }
+      EXPECT_NEAR(lowest, exact, 0.01 * exact) << spin << " rad/s, second " << second;
+    }
+  }
+}
+
+class Joined : public ::testing::TestWithParam<double> {};
+
+/// Two boxes on a hinge float free: together they keep their momentum and energy.
+TEST_P(Joined, BoxesOnAHingeKeepTheirMomentumAndTheirEnergy) {
+  const Vec3 size(0.1, 0.2, 0.4);
+  const double masses[] = {2.0, 1.0};
+  desc::Model model =
+      model_of("pair", {ghost_link("a", masses[0], size, {{-0.1, 0, 0}, Quat::Identity()}),
+                        ghost_link("b", masses[1], size, {{0.2, 0, 0}, Quat::Identity()})});
+  model.joints = {joint_of(desc::Joint::Type::kRevolute, "a", "b", Vec3(1, 1, 1).normalized())};
+  TestWorld world({}, Vec3::Zero());
+  const std::vector<LinkId> links = world.links(world.add(model));
+  const Vec3 spin = GetParam() * Vec3(0.3, 1.0, 0.2).normalized();
+  for (const LinkId link : links) {  // their center is the origin
+    world.set_velocity(link, spin.cross(world.pose(link).position), spin);
+  }
+  const auto both = [&] {
+    Spin sum{Vec3::Zero(), 0.0};
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const LinkState state = world.link(links[i]);
+      const Spin one = spin_of(world, links[i], model.links[i].inertial.moment);
+      sum.momentum += one.momentum + masses[i] * state.pose.position.cross(state.linear_velocity);
+      sum.energy += one.energy + 0.5 * masses[i] * state.linear_velocity.squaredNorm();
+    }
+    return sum;
+  };
+  const Spin start = both();
+  double gained = 0.0;
+  double turned = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    world.run(0.01);
+    gained = std::max(gained, std::abs(both().energy / start.energy - 1.0));
+    turned = std::max(turned, (both().momentum - start.momentum).norm() / start.momentum.norm());
+  }
+  printf("%g rad/s for 10 s: energy within %.4f %%, momentum within %.3f %%\n", GetParam(),
+         100 * gained, 100 * turned);
+  EXPECT_LT(gained, 0.001);
+  EXPECT_LT(turned, kStep * GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(RadPerSecond, Joined, ::testing::Values(3.0, 8.0, 20.0));
+
 }  // namespace
 }  // namespace angen::physics::testing
