@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -12,10 +13,9 @@
 namespace angen::light {
 namespace {
 
-constexpr double kNear = 1e-3;         // m, closer counts as touching
-constexpr double kStill = 5e-5;        // m: smaller motion is ignored; a ray's margin is larger
-constexpr double kLargestPatch = 1.5;  // m across
-constexpr float kRare = 0.1F;          // tried: 0.3 leaves more noise behind doors ajar
+constexpr double kNear = 1e-3;   // m, closer counts as touching
+constexpr double kStill = 5e-5;  // m: smaller motion is ignored; a ray's margin is larger
+constexpr float kRare = 0.1F;    // tried: 0.3 leaves more noise behind doors ajar
 
 using Box = Eigen::AlignedBox3d;
 
@@ -179,13 +179,16 @@ std::vector<Changes::Moved> Changes::take() {
   return taken;
 }
 
-/// A shape near a surface may cover or divide its patches.
-void Field::forget_near(const Box& box, std::vector<std::uint32_t>& gone) {
+/// A shape near a surface may cover or divide its patches. Returns a box around what is forgotten.
+Field::Box Field::forget_near(const Box& box, std::vector<std::uint32_t>& gone) {
   const Box near = grown(box, kFacing);
+  Box around;
   surfaces_.each_known([&](std::uint32_t shape) {
     const std::optional<rays::Standing> standing = scene().standing(shape);
-    if (standing && near.intersects(standing->box)) surfaces_.forget_near(shape, near, gone);
+    if (standing && near.intersects(standing->box))
+      surfaces_.forget_near(shape, near, gone, around);
   });
+  return around;
 }
 
 void Field::update(std::shared_ptr<const rays::Scene> scene,
@@ -193,30 +196,32 @@ void Field::update(std::shared_ptr<const rays::Scene> scene,
   static std::atomic<std::uint64_t> updates{0};
   revision_ = ++updates;
   surfaces_.set_scene(std::move(scene));
-  std::vector<Box> changed;
+  std::vector<Box> changed, touched;
   std::vector<std::uint32_t> gone;
   for (const Changes::Moved& each : moved) {
-    add_box(grown(each.box, kNear), changed);
+    const Box box = grown(each.box, kNear);
+    add_box(box, changed);
     surfaces_.forget(each.shape, gone);
-    forget_near(each.box, gone);
+    add_box(grown(box.merged(forget_near(each.box, gone)), kNear), touched);
   }
   for (const std::uint32_t patch : gone) {
     if (patch < sights_.size()) sights_[patch] = nullptr;
   }
-  for (std::uint32_t patch = 0; patch < sights_.size(); ++patch) cast_again(patch, changed);
+  for (std::uint32_t patch = 0; patch < sights_.size(); ++patch) {
+    if (!sights_[patch]) continue;
+    const Box& reach = sights_[patch]->reach;
+    const auto meets = [&](const Box& box) { return reach.intersects(box); };
+    if (std::any_of(touched.begin(), touched.end(), meets)) cast_again(patch, changed);
+  }
   surfaces_.release(gone);
 }
 
-/// Casts those links again that pass the boxes.
+/// Casts those links again that pass the boxes, or led to a patch that is forgotten.
 void Field::cast_again(std::uint32_t patch, const std::vector<Box>& changed) {
-  if (!sights_[patch]) return;
   const Sight& before = *sights_[patch];
   std::vector<Box> near;
-  for (const Box& box : changed) {
-    // The patch at a link's end may extend beyond that point.
-    if (before.reach.intersects(grown(box, kLargestPatch))) near.push_back(box);
-  }
-  if (near.empty()) return;
+  std::copy_if(changed.begin(), changed.end(), std::back_inserter(near),
+               [&](const Box& box) { return before.reach.intersects(grown(box, kNear)); });
   std::shared_ptr<Sight> own;  // a copy, from the first change on
   const std::vector<rays::Ray> rays = link_rays(surfaces_[patch]);
   for (std::size_t i = 0; i < rays.size(); ++i) {

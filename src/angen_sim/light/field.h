@@ -98,7 +98,7 @@ class Field {
   };
 
   void weigh(std::uint32_t patch, Link& link) const;
-  void forget_near(const Box& box, std::vector<std::uint32_t>& gone);
+  Box forget_near(const Box& box, std::vector<std::uint32_t>& gone);
   void cast_again(std::uint32_t patch, const std::vector<Box>& changed);
 
   Surfaces surfaces_;

@@ -61,6 +61,19 @@ int dominant(const Vec3& v) {
   return axis;
 }
 
+using Box = Eigen::AlignedBox3d;
+
+/// The box around one in another frame; an endless one stays endless.
+Box box_around(const Pose& pose, const Box& box) {
+  const double endless = std::numeric_limits<double>::infinity();
+  if (!box.diagonal().allFinite()) return {Vec3::Constant(-endless), Vec3::Constant(endless)};
+  Box around;
+  for (int corner = 0; corner < 8; ++corner) {
+    around.extend(pose * box.corner(static_cast<Box::CornerType>(corner)));
+  }
+  return around;
+}
+
 /// Whether the site does not see the other one; the scene or what is near of it.
 template <class Shapes>
 bool hidden(const Shapes& shapes, const Site& from, const Site& to, rays::Mobilities by) {
@@ -436,46 +449,49 @@ void Surfaces::forget(std::uint32_t shape, std::vector<std::uint32_t>& removed) 
   shapes_[shape] = {};
 }
 
+/// The box of a cell in its shape's frame; along the axis of its face, all of a mesh.
+Eigen::AlignedBox3d Surfaces::cell_box(const Form& form, const Lattice& cells, int layer, int u,
+                                       int v) {
+  Eigen::AlignedBox3d box = form.placement.box;
+  for (int side = 0; side < 2; ++side) {
+    const int axis = (cells.axis + 1 + side) % 3;
+    box.min()[axis] = cells.low[side] + (side == 0 ? u : v) * cells.step[side];
+    box.max()[axis] = box.min()[axis] + cells.step[side];
+  }
+  if (form.placement.type == Shape::Type::kBox) {
+    (layer == 1 ? box.min() : box.max())[cells.axis] =
+        (layer == 1 ? box.max() : box.min())[cells.axis];
+  }
+  return box;
+}
+
 /// By whole cells: whether a cell is divided depends on all of it.
 void Surfaces::forget_near(std::uint32_t shape, const Eigen::AlignedBox3d& box,
-                           std::vector<std::uint32_t>& removed) {
+                           std::vector<std::uint32_t>& removed, Eigen::AlignedBox3d& around) {
   if (shapes_.size() <= shape || !shapes_[shape].form) return;
   Own& own = shapes_[shape];
-  const rays::Placement& placement = own.form->placement;
-  const Pose back = placement.pose.inverse();
-  const bool endless = !box.diagonal().allFinite();
-  Eigen::AlignedBox3d local;
-  for (int corner = 0; corner < 8 && !endless; ++corner) {
-    local.extend(back * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
-  }
-  const auto is_near = [&](const Lattice& cells, int layer, int u, int v) {
-    if (endless) return true;
-    for (int side = 0; side < 2; ++side) {
-      const int axis = (cells.axis + 1 + side) % 3;
-      const double low = cells.low[side] + (side == 0 ? u : v) * cells.step[side];
-      if (local.min()[axis] > low + cells.step[side] || local.max()[axis] < low) return false;
-    }
-    double low = placement.box.min()[cells.axis], high = placement.box.max()[cells.axis];
-    if (placement.type == Shape::Type::kBox) low = high = layer == 1 ? high : low;
-    return local.min()[cells.axis] <= high && local.max()[cells.axis] >= low;
+  const Pose& pose = own.form->placement.pose;
+  const Eigen::AlignedBox3d local = box_around(pose.inverse(), box);
+  const auto forget = [&](const Lattice& cells, int layer, int u, int v, std::uint32_t& number) {
+    if (number == kUnknown) return;
+    const Eigen::AlignedBox3d cell = cell_box(*own.form, cells, layer, u, v);
+    if (!local.intersects(cell)) return;
+    forget_number(own, number, removed);
+    around.extend(box_around(pose, cell));
   };
   std::size_t place = 0;
   for (const Lattice& cells : own.form->faces) {
     for (int layer = 0; layer < cells.layers; ++layer) {
       for (int v = 0; v < cells.rows; ++v) {
         for (int u = 0; u < cells.columns; ++u, ++place) {
-          std::uint32_t& number = own.cells[place];
-          if (number != kUnknown && is_near(cells, layer, u - 1, v - 1)) {
-            forget_number(own, number, removed);
-          }
+          forget(cells, layer, u - 1, v - 1, own.cells[place]);
         }
       }
     }
   }
   for (const Key& key : own.far_keys) {
-    std::uint32_t& number = own.cells[place++];
-    const Lattice& cells = own.form->faces[static_cast<std::size_t>(key[1])];
-    if (is_near(cells, key[2], key[3], key[4])) forget_number(own, number, removed);
+    forget(own.form->faces[static_cast<std::size_t>(key[1])], key[2], key[3], key[4],
+           own.cells[place++]);
   }
 }
 

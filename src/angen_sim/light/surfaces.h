@@ -60,11 +60,12 @@ class Surfaces {
 
   std::uint64_t forgotten() const { return forgotten_; }  // patches, so far
 
-  /// Forgets the patches of one shape, or those of it that may intersect a box (m, world). Appends
-  /// their numbers to `removed`; they are given to new patches after release().
+  /// Forgets the patches of one shape, or those of it that may intersect a box (m, world): `around`
+  /// is extended by their cells (m, world). Appends their numbers to `removed`; they are given to
+  /// new patches after release().
   void forget(std::uint32_t shape, std::vector<std::uint32_t>& removed);
   void forget_near(std::uint32_t shape, const Eigen::AlignedBox3d& box,
-                   std::vector<std::uint32_t>& removed);
+                   std::vector<std::uint32_t>& removed, Eigen::AlignedBox3d& around);
   /// Calls visit() for each shape that has patches.
   template <class F>
   void each_known(F&& visit) const {
@@ -114,6 +115,8 @@ class Surfaces {
   std::shared_ptr<const Form> form_of(std::uint32_t shape) const;
   const Lattice& lattice(const Key& key) const;
   static std::size_t cell_of(Own& own, const Key& key);
+  static Eigen::AlignedBox3d cell_box(const Form& form, const Lattice& cells, int layer, int u,
+                                      int v);
   static std::uint32_t add_block(Own& own, std::vector<std::uint32_t> numbers);
   Eigen::Array2d step_of(const Key& key) const;
   double area_of(const Key& key, const std::vector<Site>& sites) const;

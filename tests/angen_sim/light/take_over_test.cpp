@@ -321,5 +321,48 @@ TEST(TakeOver, AWallThatComesAndGoesLeavesNoTrace) {
   expect_same_bits(both(), before);
 }
 
+/// A long board moves on a floor that stands turned, below a closet beside its way: patches of the
+/// floor in it are made again, though nothing of the closet sees the board.
+TEST(TakeOver, AMoveOnATurnedFloorIsAsIfFoundNow) {
+  const Pose turned{{13.3, -5.1, 0.0}, from_rpy(0, 0, M_PI / 4)};
+  const auto at = [&](const Vec3& place) { return turned * Pose{place, Quat::Identity()}; };
+  const Pose shut = turned * Pose{{0, 0, 1.05}, from_rpy(0, 0, -M_PI / 4)};
+  const Pose open = turned * Pose{{0, 0, 1.05}, from_rpy(0, 0, M_PI / 4)};
+  const Vec3 closet(4.0, -4.0, 1.3);
+  const auto fill = [&](rays::Scene& scene, const Pose& board) {
+    const auto put = [&](const Vec3& center, const Vec3& size) {
+      scene.add(box(size), at(center), rays::Mobility::kStatic, gray(0.7F));
+    };
+    put({0, 0, -0.1}, {12, 12, 0.2});
+    put({0, 0, 2.7}, {12, 12, 0.2});
+    for (const double side : {-1.0, 1.0}) {
+      put(closet + Vec3(0.55 * side, 0, 0), {0.1, 1.2, 2.6});
+      put(closet + Vec3(0, 0.55 * side, 0), {1.2, 0.1, 2.6});
+    }
+    const rays::ShapeId added =
+        scene.add(box({6.0, 0.04, 2.0}), board, rays::Mobility::kAnchored, gray(0.5F));
+    scene.commit();
+    return added;
+  };
+  const Lamp first = point_lamp(turned * Vec3(0, -1, 2.2), 800.0);
+  const Lamp inside = point_lamp(turned * Vec3(closet.x(), closet.y(), 2.2), 800.0);
+  const Pose sensor = at(Vec3(closet.x(), closet.y(), 1.0));
+  rays::Scene scene, now;
+  const rays::ShapeId board = fill(scene, shut);
+  fill(now, open);
+  Lighting lighting(scene), fresh(now);
+  LampId lamp = lighting.add(inside, 1.0);
+  lighting.add(first, 1.0);
+  EXPECT_GT(lux(lighting, sensor), 0.0);
+  scene.move(board, open);
+  scene.commit();
+  EXPECT_GT(lux(lighting, sensor), 0.0);
+  lighting.remove(lamp);
+  lighting.add(inside, 1.0);
+  fresh.add(first, 1.0);
+  fresh.add(inside, 1.0);
+  expect_same_bits(measure(lighting, sensor), measure(fresh, sensor));
+}
+
 }  // namespace
 }  // namespace angen::light::testing
