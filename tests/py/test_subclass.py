@@ -196,6 +196,26 @@ def test_an_integer_and_an_empty_list_get_the_declared_type(world):
     assert reading['ids'] == []
 
 
+def test_fields_may_be_numbers_of_numpy(world):
+    class Numpy(angen.Sensor):
+        fields = {'near': 'flag', 'nearest': 'integer', 'far': 'number m', 'all': 'numbers'}
+
+        def aim(self, view):
+            return np.hstack([view.pose[:3], view.rotation[:, 0], [0.0, 5.0]])[None]
+
+        def read(self, view, ranges, rng):
+            return {'near': ranges.min() < 3.0, 'nearest': ranges.argmin(),
+                    'far': ranges.astype(np.float32).max(), 'all': np.array(ranges[0])[None]}
+
+    angen.register('numpys.py', 'numpys', Numpy)
+    w = world(box('wall', '3 0 1 0 0 0', '0.2 4 2', True)
+              + RANGE.format(yaw=0, extra='').replace('rangefinder', 'numpys'))
+    w.run(1.0)
+    reading = w.sensor('numpys', 'ranger')
+    assert reading['near'] is True and reading['nearest'] == 0
+    assert reading['far'] == pytest.approx(2.9, abs=1e-6) == reading['all'][0]
+
+
 def test_a_field_that_is_not_declared_fails_the_sensor(world):
     w = world(declared('distnce'))
     with pytest.raises(angen.Error, match="declare the field 'distnce'; did you mean distance"):

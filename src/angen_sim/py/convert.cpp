@@ -62,14 +62,22 @@ void set_list(const std::string& name, const pyb::handle& value, Reading& readin
   }
 }
 
+// A number of numpy's, or its array without dimensions, as Python's own.
+pyb::object plain(const pyb::handle& value) {
+  const pyb::object dimensions = pyb::getattr(value, "ndim", pyb::none());
+  const bool is_one = pyb::isinstance<pyb::int_>(dimensions) && pyb::cast<int>(dimensions) == 0;
+  return is_one ? value.attr("item")() : pyb::reinterpret_borrow<pyb::object>(value);
+}
+
 }  // namespace
 
 void from_dict(const pyb::dict& values, Reading& reading) {
-  for (const auto& [key, value] : values) {
+  for (const auto& [key, given] : values) {
     if (!pyb::isinstance<pyb::str>(key)) {
       throw Error("keys are str; " + pyb::cast<std::string>(pyb::repr(key)) + " is not");
     }
     const auto name = pyb::cast<std::string>(key);
+    const pyb::object value = plain(given);
     if (pyb::isinstance<pyb::bool_>(value)) {
       reading.set(name.c_str(), pyb::cast<bool>(value));
     } else if (pyb::isinstance<pyb::int_>(value)) {
