@@ -187,7 +187,8 @@ struct Customs {
 
 struct Model {
   std::string name;
-  Pose pose;  // in the world
+  Pose pose;    // in the world
+  Pose placed;  // in the model: the frame that the <pose> of its text places
   bool is_static = false;
   bool allow_auto_disable = true;
   bool self_collide = false;

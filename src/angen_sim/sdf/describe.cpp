@@ -274,6 +274,8 @@ desc::Model describe_model(const Element& model, Session& session) {
   to.allow_auto_disable = reader.flag("allow_auto_disable", true);
   to.self_collide = reader.flag("self_collide", false);
   Frames frames(model);
+  const std::string placed = model.attribute_text("placement_frame");
+  if (!placed.empty()) to.placed = frames.pose(placed);
   add_parts(reader, "", {frames, reader.flag("static", false), session}, to);
   merge_hinges(to, session);
   note_ignored(model, session);

@@ -28,7 +28,8 @@ bool holds_include(const Element& element) {
 // elements.
 std::string key_of(const Element& model) {
   Element bare = model;
-  bare.attributes.clear();
+  auto& attributes = bare.attributes;
+  erase_if(attributes, [](const auto& a) { return a.first == "name"; });
   remove_children(bare, "pose");
   remove_children(bare, "plugin");
   std::vector<Source> lines;

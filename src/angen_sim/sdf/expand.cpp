@@ -83,7 +83,7 @@ Element& included_root(Element& sdf) {
 }
 
 void check_given_once(const Element& include) {
-  static const std::set<std::string> once = {"uri", "name", "pose", "static"};
+  static const std::set<std::string> once = {"uri", "name", "pose", "placement_frame", "static"};
   std::map<std::string, Source> seen;
   for (const Element& child : include.children) {
     if (once.count(child.name) == 0) continue;
@@ -128,11 +128,11 @@ void apply_include(const Element& include, Element& to, Session& session) {
       if (replaced.insert(child.name).second) remove_children(to, child.name);
       added.push_back(child);
     } else if (child.name == "placement_frame") {
-      throw Error(child.source, "<placement_frame> is not supported; give the model's own <pose>");
+      set_attribute(to, "placement_frame", child.text);
     } else {
       session.warn(child.source, "an <include> has no <" + child.name +
                                      ">: it has no effect; it "
-                                     "takes uri, name, pose, static and plugin");
+                                     "takes uri, name, pose, placement_frame, static and plugin");
     }
   }
   to.children.insert(to.children.end(), added.begin(), added.end());

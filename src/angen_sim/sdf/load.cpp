@@ -193,7 +193,7 @@ desc::Model model(const std::string& what, const std::string& name, const Pose& 
   std::vector<desc::Model> models = describe_entries(entries, session);
   if (models.empty()) throw Error(session.set_aside.back());
   desc::Model model = std::move(models.front());
-  if (entries.front().expanded.name == "model") model.pose = pose;
+  if (entries.front().expanded.name == "model") model.pose = pose * model.placed.inverse();
   model.warnings = merge_alike(session.warnings);
   model.ignored = session.ignored;
   return model;

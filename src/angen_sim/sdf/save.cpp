@@ -69,7 +69,7 @@ Element written(const ModelState& state) {
   for (const Element& plugin : state.plugins) put_plugin(element, plugin, model.is_actor);
   // An actor's own pose is where its trajectory's coordinates begin; <state> says where it is.
   if (model.is_actor) return element;
-  set_child(element, "pose", pose_text(state.pose));
+  set_child(element, "pose", pose_text(state.pose * model.placed));
   return element;
 }
 

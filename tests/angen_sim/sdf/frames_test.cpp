@@ -122,5 +122,38 @@ TEST(Frames, OfAModelThatIsPlacedByAFrameOfItsOwn) {
   expect_near(world.models.at(1).pose.position, {1.0, -2.0, 3.0});
 }
 
+TEST(Frames, OneOfItsOwnPlacesAModelWhereverItsPoseIsGiven) {
+  Folder folder;
+  const auto text = [](const std::string& pose) {
+    return "<sdf version='1.9'><model name='m' placement_frame='f'>" + pose +
+           "<static>true</static><link name='l'/>"
+           "<frame name='f'><pose>5 0 0 0 0 0</pose></frame></model></sdf>";
+  };
+  const std::string file = folder.write("m.sdf", text(""));
+  const Vec3 placed(-4.0, 2.0, 3.0);
+  const Pose pose{{1.0, 2.0, 3.0}, Quat::Identity()};
+  expect_near(load::model(text("<pose>9 9 9 0 0 0</pose>"), "n", pose, {}).pose.position, placed);
+  const std::string in_file =
+      folder.write("w.world",
+                   "<sdf version='1.9'><world name='w'>"
+                   "<include><uri>" +
+                       file +
+                       "</uri><name>i</name><pose>1 2 3 0 0 0</pose></include>"
+                       "<include><uri>" +
+                       file +
+                       "</uri><name>j</name><pose>1 2 3 0 0 0</pose>"
+                       "<placement_frame>l</placement_frame></include></world></sdf>");
+  desc::World world = load::world(in_file, true);
+  SearchPaths anywhere;
+  anywhere.allow_any = true;
+  for (int saves = 0; saves < 3; ++saves) {
+    expect_near(world.models.at(0).pose.position, placed);
+    expect_near(world.models.at(1).pose.position, pose.position);
+    std::vector<ModelState> states;
+    for (const desc::Model& each : world.models) states.push_back({&each, each.pose, {}, {}});
+    world = world_from_text(save(world, states), "saved", anywhere);
+  }
+}
+
 }  // namespace
 }  // namespace angen::load
