@@ -1,5 +1,6 @@
 #include "robots/base.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -11,6 +12,8 @@
 namespace angen::robots {
 
 constexpr double kExact = 1e-6;  // rad; a covariance of zeros says that it is not known
+constexpr Nanoseconds kLongestSample = kSecond / 100;  // in which it may turn
+constexpr Nanoseconds kTries = 100;
 
 std::vector<ContactRef> own_collisions(Wiring& wiring) {
   std::vector<ContactRef> collisions;
@@ -86,16 +89,14 @@ void Inertia::read(const View& view, Reading& reading) {
   // While it slept or had no subscribers it had no samples: then this one counts as rest.
   const Nanoseconds longest = kSecond;
   const bool follows = time_ >= 0 && view.time() > time_ && view.time() - time_ <= longest;
-  Vec3 acceleration = Vec3::Zero();
-  if (follows && own.awake)
-    acceleration = (own.linear_velocity - velocity_) / to_seconds(view.time() - time_);
-  rests_ = acceleration.isZero(0.0) && own.angular_velocity.isZero(0.0);
+  if (!follows || !own.awake) motion_.forget();
+  motion_.note(own.pose, own.linear_velocity, to_seconds(view.time() - time_));
+  rests_ = motion_.acceleration().isZero(0.0) && own.angular_velocity.isZero(0.0);
   time_ = view.time();
-  velocity_ = own.linear_velocity;
   const Quat to_own = own.pose.rotation.conjugate();
   reading.set("orientation", numbers(own.pose.rotation));
   reading.set("angular_velocity", numbers(to_own * own.angular_velocity));
-  reading.set("acceleration", numbers(to_own * (acceleration - view.gravity())));
+  reading.set("acceleration", numbers(motion_.felt(view.gravity())));
 }
 
 Kind inertia_kind(std::string name, std::string doc, double rate) {
@@ -115,6 +116,14 @@ void InertialUnit::configure(Params& params, Wiring& wiring) {
   const Vec3 all = Vec3::Constant(stddev);
   set_deviations(Vec3::Constant(kExact), all, all);
   inertia_.configure(wiring.link(""));
+  // In whole parts of its period, so that it publishes at the same ticks as without.
+  const Nanoseconds period = params.update_period();
+  const Nanoseconds least = (period + kLongestSample - 1) / kLongestSample;
+  for (Nanoseconds parts = std::max<Nanoseconds>(least, 1); parts < least + kTries; ++parts) {
+    if (period % parts != 0) continue;
+    sample_period_ = period / parts;
+    break;
+  }
 }
 
 void InertialUnit::set_deviations(const Vec3& orientation, const Vec3& turning,

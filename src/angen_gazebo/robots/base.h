@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "plugin/own_motion.h"
 #include "plugin/plugin.h"
 
 /// Shared parts of plug-ins that robots made for Gazebo carry.
@@ -75,8 +76,8 @@ class Inertia {
  private:
   LinkRef link_;
   bool rests_ = false;
-  Vec3 velocity_ = Vec3::Zero();  // m/s, at the last sample
-  Nanoseconds time_ = -1;         // time of it
+  OwnMotion motion_;
+  Nanoseconds time_ = -1;  // of the last sample
 };
 
 /// Adds these fields to a kind.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plugin/own_motion.h"
 #include "plugin/registration.h"
 #include "plugin/view.h"
 #include "plugin/wiring.h"
@@ -44,12 +45,10 @@ class Accelerometer : public Sensor {
     const Vec3 velocity =
         link.linear_velocity + link.angular_velocity.cross(pose.position - link.pose.position);
     const double dt = to_seconds(sample_period_);  // while samples are left out it rests
-    Vec3 acceleration = Vec3::Zero();
-    if (sampled_ && link.awake) acceleration = (velocity - velocity_) / dt;
-    follow(acceleration, dt, view, reading);
-    sampled_ = true;
-    velocity_ = velocity;
-    const Vec3 felt = pose.rotation.conjugate() * (acceleration - view.gravity());
+    if (!link.awake) motion_.forget();
+    motion_.note(pose, velocity, dt);
+    follow(motion_.acceleration(), dt, view, reading);
+    const Vec3 felt = motion_.felt(view.gravity());
     const Vec3 up = pose.rotation.conjugate() * -view.gravity().normalized();
     if (!moving_) note_tilt(std::acos(std::clamp(up.z(), -1.0, 1.0)), reading);
     // In free fall or a jerk the vertical cannot be measured: the tilt stays.
@@ -116,12 +115,11 @@ class Accelerometer : public Sensor {
   double lift_threshold_ = 0.0;  // m
 
   Nanoseconds active_at_ = 0;
-  Vec3 velocity_ = Vec3::Zero();
+  OwnMotion motion_;
   double speed_ = 0.0;   // m/s upwards, since the movement began
   double rise_ = 0.0;    // m, since then
   double height_ = 0.0;  // m, over where it was put down last
   double tilt_ = 0.0;    // rad
-  bool sampled_ = false;
   bool moving_ = false;
   bool tilted_ = false;
   bool lifted_ = false;
