@@ -14,26 +14,25 @@ constexpr double kMaxPixelsPerSecond = 30.0 * kMaxPixels;
 constexpr Range kAngle{1e-3, 3.1};
 constexpr Range kCoefficient{-100.0, 100.0};
 
+// The camera's own distortion, or that of Gazebo's plug-in.
 render::Distortion read_distortion(Params& params) {
-  render::Distortion lens;
-  const auto coefficient = [&](const char* path, const char* doc) {
-    return params.number(path, 0.0, "", doc, kCoefficient);
+  const auto coefficient = [&](const std::string& path, const char* doc) {
+    return params.number(path.c_str(), 0.0, "", doc, kCoefficient);
   };
-  lens.k1 = coefficient("distortionK1", "radial distortion of the lens");
-  lens.k2 = coefficient("distortionK2", "radial, of the fourth power");
-  lens.k3 = coefficient("distortionK3", "radial, of the sixth power");
-  lens.p1 = coefficient("distortionT1", "tangential distortion");
-  lens.p2 = coefficient("distortionT2", "tangential distortion");
-  if (params.flag("autoDistortion", false, "distortion is that of <camera><distortion>")) {
-    const std::string block = "camera/distortion/";
-    lens = {};
-    lens.k1 = coefficient((block + "k1").c_str(), "with autoDistortion true: as distortionK1");
-    lens.k2 = coefficient((block + "k2").c_str(), "with autoDistortion true: as distortionK2");
-    lens.k3 = coefficient((block + "k3").c_str(), "with autoDistortion true: as distortionK3");
-    lens.p1 = coefficient((block + "p1").c_str(), "with autoDistortion true: as distortionT1");
-    lens.p2 = coefficient((block + "p2").c_str(), "with autoDistortion true: as distortionT2");
-  }
-  return lens;
+  render::Distortion lens, given;
+  given.k1 = coefficient("distortionK1", "radial distortion of the lens");
+  given.k2 = coefficient("distortionK2", "radial, of the fourth power");
+  given.k3 = coefficient("distortionK3", "radial, of the sixth power");
+  given.p1 = coefficient("distortionT1", "tangential distortion");
+  given.p2 = coefficient("distortionT2", "tangential distortion");
+  const std::string block = "camera/distortion/";
+  lens.k1 = coefficient(block + "k1", "the same as distortionK1, which it precedes");
+  lens.k2 = coefficient(block + "k2", "the same as distortionK2");
+  lens.k3 = coefficient(block + "k3", "the same as distortionK3");
+  lens.p1 = coefficient(block + "p1", "the same as distortionT1");
+  lens.p2 = coefficient(block + "p2", "the same as distortionT2");
+  const bool only = params.flag("autoDistortion", false, "leaves out distortionK1 and others");
+  return only || !lens.none() ? lens : given;
 }
 
 // Parameters of Gazebo's plug-ins; here the image determines these values.

@@ -126,6 +126,18 @@ TEST(Camera, ItsLensIsThatOfThePlugin) {
   EXPECT_EQ(reading.get<double>("baseline"), 0.07);
 }
 
+TEST(Camera, ItsLensIsItsOwnIfItHasOne) {
+  Element own = element("distortion", "");
+  own.children.push_back(element("k1", "-0.3"));
+  Element sensor = lens("2");
+  sensor.children[0].children.push_back(own);
+  Bench bench(kCamera, plugin_element({{"distortionK1", "-0.2"}}), sensor);
+  bench.world.colors_at = [](const render::PinholeCamera&, const Pose&) {
+    return std::vector<std::uint8_t>(12);
+  };
+  EXPECT_EQ(bench.sample().get<std::vector<double>>("distortion")[0], -0.3);
+}
+
 TEST(Camera, WhatALensBendsIsBentBack) {
   render::Distortion lens;
   lens.k1 = -0.25;
