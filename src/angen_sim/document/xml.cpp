@@ -55,19 +55,33 @@ std::string checked(const char* text, const Source& at) {
   throw Error(at, "a reference to a character that XML does not allow; leave it out");
 }
 
-Element convert(const tinyxml2::XMLElement& from, const std::string& file, int& number) {
+// A declaration of the prefix of Angen's names, which programs that write XML may choose.
+bool declares_own(const tinyxml2::XMLAttribute& a) {
+  const std::string uri = a.Value();
+  return std::string(a.Name()).rfind("xmlns:", 0) == 0 && (uri == "angen" || uri == "urn:angen");
+}
+
+// `prefix` is that of Angen's names around it.
+Element convert(const tinyxml2::XMLElement& from, std::string prefix, const std::string& file,
+                int& number) {
+  for (auto* a = from.FirstAttribute(); a != nullptr; a = a->Next()) {
+    if (declares_own(*a)) prefix = std::string(a->Name()).substr(6) + ":";
+  }
+  const auto own = [&](const std::string& name) {
+    return name.rfind(prefix, 0) == 0 ? "angen:" + name.substr(prefix.size()) : name;
+  };
   Element to;
-  to.name = from.Name();
+  to.name = own(from.Name());
   to.source = {file, from.GetLineNum(), ++number};
   for (auto* a = from.FirstAttribute(); a != nullptr; a = a->Next()) {
     const std::string value = checked(a->Value(), to.source);
-    const bool is_name = std::string(a->Name()) == "name";
-    to.attributes.emplace_back(a->Name(), is_name ? value : plain_numbers(value));
+    const std::string name = declares_own(*a) ? "xmlns:angen" : own(a->Name());
+    to.attributes.emplace_back(name, name == "name" ? value : plain_numbers(value));
   }
   std::string text;
   for (auto* node = from.FirstChild(); node != nullptr; node = node->NextSibling()) {
     if (auto* child = node->ToElement()) {
-      to.children.push_back(convert(*child, file, number));
+      to.children.push_back(convert(*child, prefix, file, number));
     } else if (auto* piece = node->ToText()) {
       text += checked(piece->Value(), to.source);
     }
@@ -252,7 +266,7 @@ Element parse_xml(const std::string& text, const std::string& file) {
                 "a second root element; put all into one <sdf>");
   }
   int number = 0;
-  return convert(*root, file, number);
+  return convert(*root, "angen:", file, number);
 }
 
 void check_text_size(const std::string& text) {

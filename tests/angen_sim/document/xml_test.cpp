@@ -106,6 +106,19 @@ TEST(Xml, PrintedInPlaceEachElementKeepsItsLine) {
   EXPECT_EQ(*second.children[0].attribute("d"), "<");
 }
 
+/// Python's ElementTree, as one, writes prefixes of its own for the same names.
+TEST(Xml, NamesOfAngenMayHaveAnotherPrefix) {
+  const Element read = parse_xml(
+      "<sdf xmlns:ns0='angen' ns0:strict='false'><ns0:home xmlns:ns1='urn:other'><ns0:room/>"
+      "<ns1:room/></ns0:home></sdf>",
+      "w");
+  EXPECT_EQ(read.attribute_text("angen:strict"), "false");
+  EXPECT_EQ(read.attribute_text("xmlns:angen"), "angen");
+  ASSERT_EQ(read.children.at(0).name, "angen:home");
+  EXPECT_EQ(read.children[0].children.at(0).name, "angen:room");
+  EXPECT_EQ(read.children[0].children.at(1).name, "ns1:room");
+}
+
 TEST(Xml, ADeclarationAfterAComment) {
   EXPECT_EQ(parse_xml("<!-- a\n b -->\n<?xml version=\"1.0\"?>\n<sdf/>", "f").source.line, 4);
   const std::string usual = "<?xml version='1.0'?><!-- <?xml?> --><sdf/>";
