@@ -170,6 +170,7 @@ def test_ctrl_c_of_one_world_ends_no_other_thread(world):
     ({'read': lambda *_: {1: 2.0}}, 'keys are str; 1 is not'),
     ({'read': lambda *_: {'x': 2**100}}, "'x' is a whole number of more than 64 bits"),
     ({'aim': lambda *_: np.zeros((1, 7))}, r'aim\(\) must return None or \(n, 8\) numbers; it is'),
+    ({'aim': lambda *_: np.full((1, 8), np.nan)}, r'aim\(\) returned a row with NaN'),
     ({'idle_until': lambda *_: None}, r'idle_until\(\) must return a time, s; it is None')])
 def test_a_wrong_result_is_named(world, members, says):
     w = made(world, **members)
@@ -179,6 +180,7 @@ def test_a_wrong_result_is_named(world, members, says):
 
 @pytest.mark.parametrize('members, says', [
     ({'rate': 'x'}, "rate must be a number, Hz; it is 'x'"),
+    ({'fields': {'stamp': 'number s'}}, "a field is called 'stamp', which each reading has"),
     ({'fields': ['x']}, r"fields must be a dict such as .*; it is \['x'\]"),
     ({'rate': 0.0}, 'the rate of its kind is 0 Hz, must be from 1e-06 to 1e.06'),
     ({'rate': -1.0}, 'the rate of its kind is -1 Hz'),

@@ -109,6 +109,7 @@ class PythonSensor : public Sensor {
       // Rows of origin x y z, direction x y z, min and max range.
       const auto rows = as<Eigen::Matrix<double, Eigen::Dynamic, 8, Eigen::RowMajor>>(
           rays, "aim() must return None or (n, 8) numbers");
+      if (rows.hasNaN()) throw Error("aim() returned a row with NaN");
       for (Eigen::Index i = 0; i < rows.rows(); ++i) {
         batch.push_back({rows.block<1, 3>(i, 0).transpose(),
                          rows.block<1, 3>(i, 3).transpose().normalized(), rows(i, 6), rows(i, 7)});
@@ -163,6 +164,9 @@ class PythonDevice : public Device {
 
 /// A field that a class declares, as "number m".
 Field declared_field(const std::string& name, const std::string& declared) {
+  if (name == "kind" || name == "stamp") {
+    throw Error("a field is called '" + name + "', which each reading has; give it another name");
+  }
   const std::size_t blank = std::min(declared.find(' '), declared.size());
   const std::string type = declared.substr(0, blank);
   std::vector<std::string> types;

@@ -7,6 +7,7 @@
 #include "core/diagnostics.h"
 #include "desc/world.h"
 #include "plugin/params.h"
+#include "sim/guard.h"
 #include "sim/instance.h"
 
 namespace angen::sim {
@@ -33,6 +34,8 @@ auto with_source(const Source& source, F&& make) {
       if (d.source.file.empty()) d.source = source;
     }
     throw Error(std::move(diagnostics));
+  } catch (...) {
+    throw Error(source, thrown());
   }
 }
 

@@ -1,5 +1,8 @@
 #include "sim/view.h"
 
+#include <cmath>
+#include <initializer_list>
+
 namespace angen::sim {
 
 namespace {
@@ -9,6 +12,13 @@ constexpr double kBetweenRays = 0.05;  // m beside those that are watched
 template <class Ref>
 std::size_t at(Ref ref) {
   return static_cast<std::size_t>(ref.index);
+}
+
+/// A plug-in that computes such a number fails; without it, nothing would be done, without a word.
+void reject_nan(const char* call, std::initializer_list<double> values) {
+  for (const double value : values) {
+    if (std::isnan(value)) throw Error(std::string(call) + "() was given NaN");
+  }
 }
 
 }  // namespace
@@ -159,14 +169,17 @@ std::vector<float> InstanceView::depths(const render::PinholeCamera& lens, const
 }
 
 void InstanceOutputs::force(JointRef joint, double force) {
+  reject_nan("force", {force});
   engines_.physics.add_force(live_.parts.joints.at(at(joint)), force);
 }
 
 void InstanceOutputs::motor(JointRef joint, double velocity, double max_force) {
+  reject_nan("motor", {velocity, max_force});
   engines_.physics.set_motor(live_.parts.joints.at(at(joint)), velocity, max_force);
 }
 
 void InstanceOutputs::latch(JointRef joint, double break_force) {
+  reject_nan("latch", {break_force});
   engines_.physics.latch(live_.parts.joints.at(at(joint)), break_force);
 }
 
@@ -175,10 +188,12 @@ void InstanceOutputs::unlatch(JointRef joint) {
 }
 
 void InstanceOutputs::drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) {
+  reject_nan("drive", {velocity.sum(), yaw_rate, max_force});
   engines_.physics.drive(live_.parts.links.at(at(link)), velocity, yaw_rate, max_force);
 }
 
 void InstanceOutputs::push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) {
+  reject_nan("push", {force.sum(), torque.sum(), point.sum()});
   engines_.physics.push(live_.parts.links.at(at(link)), force, torque, point);
 }
 

@@ -3,24 +3,31 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <new>
 #include <stdexcept>
 
 #include "angen_sim/sim/room.h"
+#include "plugin/outputs.h"
 #include "plugin/view.h"
 
 namespace angen::sim {
 namespace {
 
-/// The call in which a plug-in of the test throws: "update", "report", "command", "act", "aim",
-/// "read", "skip".
+/// The call in which a plug-in of the test throws: "configure", "update", "report", "command",
+/// "act", "aim", "read", "skip". With "push" a device pushes by NaN.
 class Thrower {
  public:
-  void configure(Params& params) { where_ = params.text("throws", "", "where it throws"); }
+  void configure(Params& params) {
+    where_ = params.text("throws", "", "where it throws");
+    pass("configure");
+  }
+  bool is(const std::string& place) const { return place == where_; }
   void pass(const std::string& place) const {
     if (place != where_) return;
     if (place == "aim") throw std::bad_alloc();
-    if (place == "read" || place == "act") throw 42;  // NOLINT: not a std::exception, on purpose
+    if (place == "read" || place == "act" || place == "configure")
+      throw 42;  // NOLINT: not a std::exception, on purpose
     throw std::out_of_range("in " + place);
   }
 
@@ -35,7 +42,11 @@ class ThrowingDevice : public Device {
     thrower_.pass("command");
     return Verdict::accept([this] { thrower_.pass("act"); });
   }
-  void update(const View&, Outputs&) override { thrower_.pass("update"); }
+  void update(const View&, Outputs& outputs) override {
+    thrower_.pass("update");
+    const Vec3 none = Vec3::Zero();
+    if (thrower_.is("push")) outputs.push({}, Vec3::Constant(std::nan("")), none, none);
+  }
   void report(const View& view, Reading& state) const override {
     state.set("time", to_seconds(view.time()));
     if (view.time() > 100 * kSecond / 1000) thrower_.pass("report");
@@ -231,6 +242,27 @@ TEST(AField, ThatIsNotDeclaredFailsTheDevice) {
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].event, "failed");
   EXPECT_NE(events[0].detail.find("did you mean value?"), std::string::npos);
+}
+
+TEST(ADevice, ThatPushesByNaNFails) {
+  const auto simulation = world_with_bombs(bomb("bad", "push"));
+  const std::vector<Event> events = run(*simulation, 200);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].event, "failed");
+  EXPECT_EQ(events[0].detail, "push() was given NaN");
+}
+
+TEST(APlugin, ThatThrowsInConfigureIsAnErrorAtItsLine) {
+  for (const std::string& model : {bomb("bad", "configure"), probe("bad", "configure")}) {
+    try {
+      world_with_bombs(model);
+      FAIL() << "it was made";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(":1: an exception that is not a std::exception"),
+                std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 class ADeviceThatThrows : public ::testing::TestWithParam<const char*> {};
