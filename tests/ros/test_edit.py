@@ -245,6 +245,11 @@ def test_the_day_of_a_person_is_changed_and_lived(editor: Editor) -> None:
     assert cook['low'] == pytest.approx(6 * 3600 + 55 * 60 + 1800 + 7200, abs=301)
     assert cook['high'] - cook['low'] == 25 * 60
     assert page.run('return document.querySelectorAll("#day .block").length') > 4
+    page.run('document.querySelector(arguments[0]).focus()', '#day .block[aria-label*="18:45"]')
+    hand.keys(Keys.DELETE)
+    dinners = [part['days'] for one in editor.storey()['movers'] for part in one.get('day', ())
+               if part['do'][0] == 'cook' and part['low'] == 18.25 * 3600]
+    assert dinners == ['weekend']  # those of the days that are not shown stay
     hand.button('#save')
     page.until('return !angen.dirty')
     own, = editor.path.parent.glob('home_person*.yaml')
@@ -252,7 +257,7 @@ def test_the_day_of_a_person_is_changed_and_lived(editor: Editor) -> None:
     listed = editor.path.with_name('home_residents.yaml').read_text()
     assert own.name in listed and 'worker' in listed
     page.run('document.querySelector("#board").focus()')
-    hand.control('zzz')
+    hand.control('zzzz')
     assert page.run(NOW) == before
     hand.button('#save')
     page.until('return !angen.dirty')

@@ -47,12 +47,20 @@ export class DayPlan {
 
   /** @param {number} index @param {number} by s */
   shift(index, by) {
-    const part = this.day[index], low = (part.low + by + DAY) % DAY;
-    if (by) this.set(this.day.map((each, i) => (i === index ? { ...each, low, high: low + part.high - part.low } : each)), index);
+    const day = this.split(index), part = day[index], low = (part.low + by + DAY) % DAY;
+    day[index] = { ...part, low, high: low + part.high - part.low };
+    if (by) this.set(day, index);
   }
 
   /** @param {number} index */
-  remove(index) { if (!BOUNDS.includes(this.day[index].do[0])) this.set(this.day.filter((_, i) => i !== index)); }
+  remove(index) { if (!BOUNDS.includes(this.day[index].do[0])) this.set(this.split(index).filter((_, i) => i !== index)); }
+
+  /** @param {number} index @returns {Planned[]} the day with that block for the shown days alone, and one as it was for the others */
+  split(index) {
+    const part = this.day[index], other = this.kind === 'weekday' ? 'weekend' : 'weekday';
+    if (part.days !== 'all') return [...this.day];
+    return [...this.day.map((each) => (each === part ? { ...part, days: this.kind } : each)), { ...part, days: other }];
+  }
 
   /** @param {Planned} part @returns {number} s that it takes */
   long({ do: what, lasts }) { return what.reduce((sum, each, i) => sum + (i === 0 && lasts ? Math.sqrt(lasts[0] * lasts[1]) : this.editor.durations[each] ?? 0), 0); }
