@@ -86,7 +86,7 @@ def _plain(value: Any) -> Any:
                 if (held := getattr(value, f.name)) != _default(f) and f.name not in LEFT_OUT}
     if isinstance(value, (list, tuple)):
         return [_plain(item) for item in value]
-    return value
+    return value + 0.0 if isinstance(value, float) else value  # -0.0 is 0 in JavaScript's JSON
 
 
 LEFT_OUT = ('remarks', 'meshes', 'entrances')  # fields of a plan
