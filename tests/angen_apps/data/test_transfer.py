@@ -91,6 +91,14 @@ def test_a_file_without_labels_is_said(tmp_path, text, message):
         transfer._uses(real, tmp_path / 'rooms.csv')
 
 
+def test_who_walks_around_is_told_from_who_stays() -> None:
+    time = np.array([60.0, 65.0, 70.0, 180.0, 185.0, 190.0])
+    stays, walks = (transfer.minutes(
+        realism.Stream(time, names, ['ON'] * 6, []), dict.fromkeys(names, 'living'), ['M']).features
+        for names in (['M001'] * 6, ['M001'] * 3 + ['M001', 'M002', 'M003']))
+    assert (walks[3] > stays[3]).any() and (walks[0] == stays[0]).all()
+
+
 def test_seats_and_plugs_count_for_as_long_as_they_are_in_use() -> None:
     stream = realism.Stream(np.array([30.0, 60.0, 150.0, 180.0, 195.0]),
                             ['I001', 'I002', 'I001', 'I002', 'S001'],

@@ -84,10 +84,12 @@ def minutes(stream: Stream, use: dict[str, str], letters: list[str]) -> Minutes:
     size = stream.days * MINUTES
     at = np.minimum((stream.time // 60).astype(int), size - 1)
     sensor, value = np.array(stream.sensor), np.array(stream.value)
+    ids = np.unique(sensor, return_inverse=True)[1]
     columns = []
     for letter in letters:
         if letter in LASTS:
-            columns += [*_in_use(stream, use, letter, size)]
+            shares = _in_use(stream, use, letter, size)
+            columns += [*shares, *map(_since, shares)]
             continue
         on = np.char.startswith(sensor, letter) & (value == MOVES[letter])
         where = np.array([use.get(name, OTHER) for name in sensor[on]], str)
@@ -97,6 +99,9 @@ def minutes(stream: Stream, use: dict[str, str], letters: list[str]) -> Minutes:
             total = summed.sum(axis=0)
             columns += [*(summed / np.maximum(total, 1.0)), _ranks(total)]
         columns += [_since(count) for count in counts]
+        pairs = np.unique(np.stack([at[on], ids[on]]), axis=1)  # who walks around meets many
+        several = np.bincount(pairs[0], minlength=size)[None].astype(float)
+        columns += [_ranks(_sums(several, over)[0]) for over in (0, -AROUND, AROUND)]
     hour = np.arange(size) % MINUTES / 60.0
     return Minutes(np.array([*columns, hour, _ranks(np.bincount(at, minlength=size))]).T,
                    _labels(stream, size))
