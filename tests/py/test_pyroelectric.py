@@ -84,6 +84,18 @@ def test_what_is_not_given_follows_the_air(given):
     assert flux_of_a_person(30.0, parameter) == pytest.approx(flux_of_a_person(30.0), rel=1e-6)
 
 
+def test_an_event_names_whom_its_zones_met(world):
+    """Anna walks by behind Bert, who stands nearer; then he walks."""
+    w = world(PIR + walker('anna', *WAY) + walker('bert', '0 3 1.5', '20 3 1.5', '26 3 -3'))
+    w.run(15)
+    seen = [(event, detail) for _, source, _, event, detail in w.events() if source == 'eye']
+    assert {detail.partition(' uV')[2] for event, detail in seen if event == 'motion'} == {', anna'}
+    assert {detail.partition(' uV')[2] for event, detail in seen if event == 'still'} == {''}
+    w.run(12)
+    assert {detail.partition(' uV')[2] for _, source, _, event, detail in w.events()
+            if (source, event) == ('eye', 'motion')} == {', bert'}
+
+
 def test_does_not_see_a_turtlebot_a_door_or_a_lamp(world):
     w = world(PIR + include('turtlebot', 'turtlebot', '3 -1 0 0 0 1.57')
               + include('kitchen_door', 'kitchen_door0', '3 1 0 0 0 0')

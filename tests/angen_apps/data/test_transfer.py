@@ -91,6 +91,26 @@ def test_a_file_without_labels_is_said(tmp_path, text, message):
         transfer._uses(real, tmp_path / 'rooms.csv')
 
 
+def test_who_walks_around_is_told_from_who_stays() -> None:
+    time = np.array([60.0, 65.0, 70.0, 180.0, 185.0, 190.0])
+    stays, walks = (transfer.minutes(
+        realism.Stream(time, names, ['ON'] * 6, []), dict.fromkeys(names, 'living'), ['M']).features
+        for names in (['M001'] * 6, ['M001'] * 3 + ['M001', 'M002', 'M003']))
+    assert (walks[3] > stays[3]).any() and (walks[0] == stays[0]).all()
+
+
+def test_seats_and_plugs_count_for_as_long_as_they_are_in_use() -> None:
+    stream = realism.Stream(np.array([30.0, 60.0, 150.0, 180.0, 195.0]),
+                            ['I001', 'I002', 'I001', 'I002', 'S001'],
+                            ['PRESENT', 'PRESENT', 'ABSENT', 'ABSENT', 'ON'], [])
+    found = transfer._in_use(stream, {'I001': 'living', 'I002': 'kitchen'}, 'I', 4)
+    assert found[transfer.USES.index('living')].tolist() == [0.5, 1.0, 0.5, 0.0]
+    assert found[transfer.USES.index('kitchen')].tolist() == [0.0, 1.0, 1.0, 0.0]
+    plugs = transfer._in_use(stream, {}, 'S', 5)  # of no room, and on until the end
+    assert plugs[transfer.USES.index(transfer.OTHER)].tolist() == [0.0, 0.0, 0.0, 0.75, 1.0]
+    assert found.sum() == 4.0 and plugs.sum() == 1.75
+
+
 def test_minutes_of_sensors_that_report_no_movement() -> None:
     stream = realism.Stream(np.array([1.0, 70.0]), ['M001', 'D001'], ['OFF', 'CLOSE'], [])
     made = transfer.minutes(stream, {}, ['M', 'D'])

@@ -143,8 +143,10 @@ def test_a_cook_goes_among_things_and_a_sitter_gets_up_and_sits_down_again(tmp_p
     apartment(tmp_path / 'home.world')
     site, household, anna = home_of(tmp_path / 'home.world')
     turns: list[Any] = []
+    times: list[float] = []
     fidget = site.simulator.fidget
-    site.simulator.fidget = lambda name, to: (turns.append(to), fidget(name, to))
+    site.simulator.fidget = lambda name, to: (turns.append(to), times.append(anna.now),
+                                              fidget(name, to))
     cook, relax = anna._known['cook'], anna._known['relax']
     relax = replace(relax, moves=(5.0, 20.0), visits=replace(relax.visits, every=(60.0, 90.0)))
 
@@ -153,9 +155,10 @@ def test_a_cook_goes_among_things_and_a_sitter_gets_up_and_sits_down_again(tmp_p
         stove = [step.runs for step in cook.steps].index('stove')
         yield from anna._step(cook, cook.steps[stove], stove, 180.0)
         yield from anna._step(relax, relax.steps[0], 0, 600.0)
+        yield from anna._busy(replace(relax, moves=None, visits=None), 0, anna.spot, 18000.0)
 
     household.add(script())
-    household.run(600.0)
+    household.run(18000.0)
     anna.diary.end(household.now)
     does = [i for i in anna.diary.closed if i.phase == 'does']
     assert not any(i.note for i in does)
@@ -169,6 +172,9 @@ def test_a_cook_goes_among_things_and_a_sitter_gets_up_and_sits_down_again(tmp_p
     for values, most in (([to.yaw for to in turns], 0.25), ([to.x for to in turns], 0.14),
                          ([to.y for to in turns], 0.14)):
         assert 0.0 < max(values) - min(values) < most
+    rests = [after - time for time, after in zip(times, times[1:]) if time > 600.0]
+    assert len(rests) > 100 and max(rests) > 180.0  # most are short, and a few long
+    assert sum(rest < 10.0 for rest in rests) > 0.7 * len(rests)
 
 
 def test_who_eats_sits_at_the_table_of_another_who_does(tmp_path):

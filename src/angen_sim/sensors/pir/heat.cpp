@@ -127,6 +127,7 @@ void Heat::sample(const View& view) {
   shapes_.clear();
   radiating_.all.clear();
   near_ = false;
+  most_ = 0.0;
   for (const rays::WarmShape& shape : view.warm_shapes()) {
     if (!radiates(shape, view.time())) continue;
     shapes_.push_back(shape.shape);
@@ -223,7 +224,13 @@ double Heat::factor_of(const rays::WarmShape& shape, const View& view) {
   const rays::Scene& rays = view.rays();
   const Eigen::AlignedBox3d between = Eigen::AlignedBox3d(found.box).extend(pose_.position);
   if (!found.is_known || rays.moved_since(found.moment, between)) {
-    found.factor = look_at(shape.shape, found, rays);
+    const double before = std::exchange(found.factor, look_at(shape.shape, found, rays));
+    const double contrast = fourth_power(shape.course.at(view.time())) - fourth_power(air_);
+    const double change = std::abs((found.factor - before) * contrast);
+    if (change > most_) {
+      most_ = change;
+      mover_ = shape.shape;
+    }
   }
   found.moment = rays.moment();
   found.is_known = true;
@@ -250,8 +257,10 @@ Heat::Scan& Heat::scan_of(const rays::WarmShape& shape) {
                      found.box.max() == shape.box.max() && found.rotation == shape.rotation;
   if (rests) return found;
   const std::uint32_t wall = found.wall;
+  const double factor = found.factor;
   found = Scan{};
   found.wall = wall;
+  found.factor = factor;
   found.box = shape.box;
   found.rotation = shape.rotation;
   return found;

@@ -51,6 +51,10 @@ class Heat {
   /// The part of its changes that the air around caused, in W: too slow for a detector to pass.
   double drift() const { return drift_; }
 
+  /// The shape whose part of the flux has changed most, of those that changed last; UINT32_MAX if
+  /// none has.
+  std::uint32_t mover() const { return mover_; }
+
   /// Nothing is sampled and the air is not followed until something moves or a surface is set to
   /// another temperature.
   void rest() { rests_ = true; }
@@ -118,7 +122,9 @@ class Heat {
   double cone_ = 0.0;                                       // rad, from there to the cone's side
   bool near_ = false;                              // whether a surface is where the lens looks
   std::unordered_map<std::uint32_t, Scan> scans_;  // by shape, from pose_
-  bool pending_ = false;                           // something has moved since
+  std::uint32_t mover_ = UINT32_MAX;
+  double most_ = 0.0;     // m^2 sr K^4, that its part of the flux changed in this sample
+  bool pending_ = false;  // something has moved since
   double flux_ = 0.0;
   double air_ = 0.0;  // K
   double drift_ = 0.0;

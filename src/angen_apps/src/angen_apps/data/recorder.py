@@ -24,9 +24,6 @@ PUSHED = 0.02  # m
 HAND = 30.0  # s: a resident who commanded a device within this time has moved it
 NEAR = 1.5  # m: a resident within this distance may have sat down there, or is in a cell
 CLOSE = 2.0  # m: a resident who moves within this distance may have been detected
-HEIGHTS = (0.4, 1.0, 1.6)  # m above the floor, of parts of a person
-WIDE = 0.3  # m: half the width of a person
-HOUSING, FARTHEST = 0.1, 30.0  # m from a sensor to the begin and the end of its sight
 CELL = 0.4  # m around the middle of a cell: a sensor must detect motion there
 RINGS, TAP = 'rang', 'TAP'  # event of a doorbell, and value of its button
 VISITOR = ('', '', 'visitor')  # whose a ring is of one who only comes to the door
@@ -154,7 +151,7 @@ class Recorder:
                 self.cabins.event(float(time), source)
             sensor = self._by_name.get((kind, source))
             if sensor is not None:
-                self._note(float(time), sensor, event, detail == FALSE)
+                self._note(float(time), sensor, event, detail)
         if self._looked == 0.0 < self.household.now:
             self._note_open()
         self.cabins.look()
@@ -184,9 +181,9 @@ class Recorder:
                 if event in ON or event in OFF:
                     self._late.setdefault((sensor.id, event), []).append(self._cause(time, sensor))
 
-    def _note(self, time: float, sensor: Sensor, event: str, false: bool) -> None:
+    def _note(self, time: float, sensor: Sensor, event: str, detail: str) -> None:
         late = self._late.get((sensor.id, event))
-        if false:
+        if detail == FALSE:
             self._add(time, sensor, VALUES[sensor.kind][0 if event in ON else 1], NOISE)
         elif late:
             self._add(time, sensor, VALUES[sensor.kind][0 if event in ON else 1], late.pop(0))
@@ -199,7 +196,7 @@ class Recorder:
         elif event in ON:
             self._last_on[sensor.id] = time
             self._on[sensor.id] = time
-            self._whose[sensor.id] = whose = self._cause(time, sensor)
+            self._whose[sensor.id] = whose = self._cause(time, sensor, detail.rpartition(', ')[2])
             self._add(time, sensor, VALUES[sensor.kind][0], whose)
         elif event in OFF and sensor.kind in VALUES:
             self._on.pop(sensor.id, None)
@@ -210,8 +207,8 @@ class Recorder:
     def _add(self, time: float, sensor: Sensor, value: str, whose: tuple[str, str, str]) -> None:
         self.recording.events.append(Event(round(time, 6), sensor.id, value, *whose))
 
-    def _cause(self, time: float, sensor: Sensor) -> tuple[str, str, str]:
-        """Resident, activity and cause of a sensor's detection."""
+    def _cause(self, time: float, sensor: Sensor, met: str = '') -> tuple[str, str, str]:
+        """Resident, activity and cause of a sensor's detection; `met`: who its zones met."""
         if time < FIRST:
             return START
         residents = [r for r in self.household.residents if not r.away
@@ -224,37 +221,18 @@ class Recorder:
         if sensor.kind == 'item':
             sits = next((r for away, _, r in near if away < NEAR), None)
             return (sits.name, sits.item.activity, 'seat') if sits else ('', '', 'noise')
-        moving = [r for away, _, r in near if self._moves(r, time) and (
-            sensor.kind == 'area' or away < CLOSE or r.room == sensor.room)]
-        if sensor.kind == 'motion' and moving:  # a cell sees who moves in it, or else stands there
-            inside = [r for away, _, r in near if away < NEAR]
-            moving = [r for r in inside if r in moving] or inside or moving
-        if sensor.kind == 'area' and len(moving) > 1:  # it sees through doorways
-            moving = [r for r in moving if r.room == sensor.room] or sorted(
-                moving, key=lambda r: (not self._sees(sensor, r),
-                                       time - r.moved >= RECENT, not r.walks,
-                                       self._to_room(r, sensor.room)))
-        return (moving[0].name, moving[0].item.activity, 'motion') if moving \
-            else ('', '', 'noise')
-
-    def _sees(self, sensor: Sensor, resident: Any) -> bool:
-        """Whether a resident is in sight of a sensor, or has come there since the last look."""
-        body = self.site.simulator.body(resident.name)
-        return any(self._clear(sensor, resident.storey, at)
-                   for at in dict.fromkeys((resident.at, (body.x, body.y))))
-
-    def _clear(self, sensor: Sensor, storey: int, at: tuple[float, float]) -> bool:
-        """Whether no wall is between a sensor and who is at a place."""
-        floor = self.site.home.elevation(storey)
-        x, y = at[0] - sensor.x, at[1] - sensor.y
-        across = WIDE / max(math.hypot(x, y), WIDE)
-        ways = np.array([(x - side * across * y, y + side * across * x, floor + height - sensor.z)
-                         for height in HEIGHTS for side in (-1.0, 0.0, 1.0)])
-        lengths = np.linalg.norm(ways, axis=1)
-        ways /= lengths[:, None]
-        begin = (sensor.x, sensor.y, sensor.z) + HOUSING * ways
-        clear = HOUSING + self.site.world.cast(begin, ways, FARTHEST)
-        return bool((clear > lengths - WIDE).any())
+        cell = sensor.kind == 'motion'
+        ranked: list[tuple[Any, ...]] = []
+        for away, _, r in near:
+            moves, inside = self._moves(r, time), cell and away < NEAR
+            if inside and r.name == met or moves and (
+                    not cell or away < CLOSE or r.room == sensor.room):
+                ranked.append((not moves or r.name != met, not (moves and inside),
+                               *((r.name != met, away) if cell else (
+                                   r.room != sensor.room, self._to_room(r, sensor.room))),
+                               r.number, r))
+        found = min(ranked)[-1] if ranked else None
+        return (found.name, found.item.activity, 'motion') if found else ('', '', 'noise')
 
     def _to_room(self, resident: Any, room: str) -> float:
         """m from a resident to the nearest doorway of a room; 0 if it has none."""

@@ -1,7 +1,9 @@
 """How well a usual classifier that learns from our data knows the activities of a real home.
 
 Its features name no sensor: minutes have the shares of each use of rooms in what moves, how long
-ago something moved there, how busy the home is compared with its other minutes, and the hour.
+ago something moved there, how long seats and plugs there are in use, how busy the home is compared
+with its other minutes, and the hour. Changes, last sensors and states are the usual three (van
+Kasteren et al., UbiComp 2008).
 """
 from __future__ import annotations
 
@@ -16,7 +18,8 @@ from angen_tools.common.failure import Failure
 
 USES = ('kitchen', 'living', 'bedroom', 'bathroom', 'work', 'hall')
 OTHER = 'hall'  # use of a sensor of no room
-KINDS = {'M': 'ON', 'D': 'OPEN', 'I': 'PRESENT'}  # sensors by letter, and what they report
+MOVES = {'M': 'ON', 'D': 'OPEN'}  # sensors by letter whose reports matter, and which …
+LASTS = {'I': 'PRESENT', 'S': 'ON'}  # … and those whose states do
 MINUTES = 1440  # a day
 AROUND = 10  # minutes before and after, whose sums are features, too
 LONG = 240.0  # minutes since something moved, at most
@@ -53,7 +56,7 @@ def transfer(folders: list[Path], real: Path, rooms: Path | None) -> list[tuple[
     until = days[max(1, min(len(days) - 1, round(EARLIER * len(days))))]
     use = _uses(real, rooms) or _guessed(theirs, until * DAY)
     homes = [(read(folder), _uses(folder, None)) for folder in folders]
-    letters = [letter for letter in KINDS if all(
+    letters = [letter for letter in (*MOVES, *LASTS) if all(
         any(name.startswith(letter) for name in stream.sensor)
         for stream in (theirs, *(stream for stream, _ in homes)))]
     every = minutes(theirs, use, letters)
@@ -81,9 +84,14 @@ def minutes(stream: Stream, use: dict[str, str], letters: list[str]) -> Minutes:
     size = stream.days * MINUTES
     at = np.minimum((stream.time // 60).astype(int), size - 1)
     sensor, value = np.array(stream.sensor), np.array(stream.value)
+    ids = np.unique(sensor, return_inverse=True)[1]
     columns = []
     for letter in letters:
-        on = np.char.startswith(sensor, letter) & (value == KINDS[letter])
+        if letter in LASTS:
+            shares = _in_use(stream, use, letter, size)
+            columns += [*shares, *map(_since, shares)]
+            continue
+        on = np.char.startswith(sensor, letter) & (value == MOVES[letter])
         where = np.array([use.get(name, OTHER) for name in sensor[on]], str)
         counts = np.array([np.bincount(at[on][where == one], minlength=size) for one in USES],
                           float)
@@ -91,9 +99,26 @@ def minutes(stream: Stream, use: dict[str, str], letters: list[str]) -> Minutes:
             total = summed.sum(axis=0)
             columns += [*(summed / np.maximum(total, 1.0)), _ranks(total)]
         columns += [_since(count) for count in counts]
+        pairs = np.unique(np.stack([at[on], ids[on]]), axis=1)  # who walks around meets many
+        several = np.bincount(pairs[0], minlength=size)[None].astype(float)
+        columns += [_ranks(_sums(several, over)[0]) for over in (0, -AROUND, AROUND)]
     hour = np.arange(size) % MINUTES / 60.0
     return Minutes(np.array([*columns, hour, _ranks(np.bincount(at, minlength=size))]).T,
                    _labels(stream, size))
+
+
+def _in_use(stream: Stream, use: dict[str, str], letter: str, size: int) -> np.ndarray:
+    """The share of each minute in which something of a use of rooms is active (uses, minutes)."""
+    found = np.zeros((len(USES), size))
+    edges = 60.0 * np.arange(size + 1)
+    sensor, value = np.array(stream.sensor), np.array(stream.value)
+    for name in sorted({name for name in stream.sensor if name.startswith(letter)
+                        and use.get(name, OTHER) in USES}):
+        time = np.append(stream.time[sensor == name], edges[-1])
+        spent = np.cumsum(np.diff(time) * (value[sensor == name] == LASTS[letter]))
+        found[USES.index(use.get(name, OTHER))] += np.diff(
+            np.interp(edges, time, np.append(0.0, spent))) / 60.0
+    return np.minimum(found, 1.0)
 
 
 def _sums(counts: np.ndarray, over: int) -> np.ndarray:

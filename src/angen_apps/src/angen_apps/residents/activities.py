@@ -49,8 +49,8 @@ class Visits:
 @dataclass(frozen=True)
 class Activity:
     """One that residents do. `alone`: the use of a room that is not shared meanwhile; `moves`: s
-    between two bouts of small movements; `effort`: 1 of what one does on good days, -1 on bad
-    ones; `breaks`: how often an hour something else comes between."""
+    between two small movements; `effort`: 1 of what one does on good days, -1 on bad ones;
+    `breaks`: how often an hour something else comes between."""
 
     name: str
     steps: tuple[Step, ...]

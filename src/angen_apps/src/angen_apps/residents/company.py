@@ -21,12 +21,13 @@ EAT = 'eat'
 BESIDE = (EAT, VISIT, TV)  # activities for which one takes a seat near to others there
 LEFT_FOR_TV = ('relax', 'read', 'play')  # free time that one may spend before the TV with another
 # s between two bouts of movements; who sleeps turns 2.1 to 2.7 times an hour (De Koninck, Lorrain
-# and Gagnon, Sleep 15, 1992); the others are ours
-MOVES = {'sit': (25.0, 160.0), 'lie': (500.0, 3000.0), 'stand': (15.0, 90.0)}
+# and Gagnon, Sleep 15, 1992). Most rests of people are short and a few very long (Nakamura et al.,
+# Physical Review Letters 99, 138103, 2007); the numbers for those who sit or stand are ours.
+MOVES = {'sit': (30.0, 600.0), 'lie': (500.0, 3000.0), 'stand': (20.0, 240.0)}
 TURNED = 0.12  # rad from the way a seat faces: who turned on would hit what is beside
 TURNS = (-TURNED, 0.0, TURNED)
 LEANS = (-0.02, 0.1), (-0.02, 0.02)  # m ahead and aside, of who sits and reaches; ours
-MORE, APART = 0.5, (3.0, 9.0)  # probability of a further movement in a bout, and s until then
+MORE, APART = 0.8, (3.0, 9.0)  # probability of a further movement in a bout, and s until then; ours
 QUEUE, PATIENCE = 10.0, 900.0  # s between two looks at a room or way, and until it is given up
 CLOSE = 0.35  # m between two who sit or lie, at least
 HEARS = 4.0  # m to one whom one talks to, ours
@@ -67,16 +68,17 @@ class Company(User):
         self._until = 0.0  # when it ends to stay where it is, s
 
     def _stay(self, until: float, moves: tuple[float, float] | None = None) -> Process:
-        """Stays, and moves a little in bouts, which follow each other after such a time."""
+        """Stays, and moves a little after each such time, or by its posture, in bouts."""
         self._until = until
         moves = moves or (None if self.posture == 'stand' else MOVES[self.posture])
+        more = MORE if moves in (MOVES['sit'], MOVES['stand']) else 0.0
         while moves and self.now < until and not self.away:
             pause = spread(self._habits, *moves)
             while self.now + pause < until:
                 yield self.now + pause
                 if not (yield from self._talk(until)):  # a talk is a movement, too
                     yield from self._move()
-                if self.posture == 'lie' or self._habits.random() > MORE:
+                if self._habits.random() >= more:
                     break
                 pause = self._habits.uniform(*APART)
             else:
