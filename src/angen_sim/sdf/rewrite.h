@@ -7,8 +7,6 @@
 /// Writes changes since a text was read into its elements.
 namespace angen::load {
 
-Element element_of(const std::string& name, const std::string& text = "");
-
 /// The <link> or <joint> of a written-out model, null if it has none; "child::link" is in the
 /// nested model `child`.
 Element* find_part(Element& model, const std::string& element, const std::string& name);
