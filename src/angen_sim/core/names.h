@@ -23,3 +23,6 @@ std::string label_problem(const std::string& label);
 void check_name(const std::string& name, const std::string& what = "", const Source& at = {});
 
 }  // namespace angen
+/// A part's name within its model, of "model::name" or "name".
+std::string local_name(const std::string& model, const std::string& name);
+
