@@ -133,12 +133,9 @@ class JointPoseTrajectory : public Device {
 
 class JointPoseTrajectoryPlugin : public Plugin {
  public:
-  const Kind& kind() const override {
-    static const Kind kind = Kind("joint_trajectory", "Leads a robot's joints along a trajectory.")
-                                 .flag("follows", "it is under way")
-                                 .shown_as("under way", "idle");
-    return kind;
-  }
+  ANGEN_DESCRIBED_AS(Kind("joint_trajectory", "Leads a robot's joints along a trajectory.")
+                         .flag("follows", "it is under way")
+                         .shown_as("under way", "idle"))
   bool serves(const ModelInfo& model) const override { return !model.joints.empty(); }
   std::string needs() const override { return "joints"; }
   std::unique_ptr<Device> make_device() const override {

@@ -541,31 +541,28 @@ void Elevator::report(const View& view, Reading& state) const {
 
 class ElevatorPlugin : public Plugin {
  public:
-  const Kind& kind() const override {
-    static const Kind kind =
-        Kind("elevator", "An elevator with doors.")
-            .model("elevator")
-            .passage(Kind::Passage::kElevator)
-            .example("set elevator elevator 1")
-            .command_topic(kTopic)
-            .counted_verb("Floor", "floor", {0.0, 999.0}, "rides there, after its present target")
-            .choice(
-                "mode", {std::begin(kModes), std::end(kModes)},
-                "of the cabin; BLOCKED: something holds it; OVERLOADED: it stays, with open doors")
-            .shown()
-            .number("position", "m", "of the cabin above floor 0")
-            .shown(2)
-            .number("velocity", "m/s", "upwards")
-            .number("target", "m", "target position")
-            .integer("floor", "", "where it is within 5 mm, otherwise -1")
-            .integer("target_floor", "", "target")
-            .integer("floors", "", "how many it serves")
-            .number("load", "kg", "in the cabin, by the force on its brake")
-            .choice("door_mode", {std::begin(kDoorModes), std::end(kDoorModes)},
-                    "BLOCKED: an obstacle is between the leaves")
-            .number("door_position", "m", "travel of a door's leaf, 0 shut");
-    return kind;
-  }
+  ANGEN_DESCRIBED_AS(
+      Kind("elevator", "An elevator with doors.")
+          .model("elevator")
+          .passage(Kind::Passage::kElevator)
+          .example("set elevator elevator 1")
+          .command_topic(kTopic)
+          .counted_verb("Floor", "floor", {0.0, 999.0}, "rides there, after its present target")
+          .choice(
+              "mode", {std::begin(kModes), std::end(kModes)},
+              "of the cabin; BLOCKED: something holds it; OVERLOADED: it stays, with open doors")
+          .shown()
+          .number("position", "m", "of the cabin above floor 0")
+          .shown(2)
+          .number("velocity", "m/s", "upwards")
+          .number("target", "m", "target position")
+          .integer("floor", "", "where it is within 5 mm, otherwise -1")
+          .integer("target_floor", "", "target")
+          .integer("floors", "", "how many it serves")
+          .number("load", "kg", "in the cabin, by the force on its brake")
+          .choice("door_mode", {std::begin(kDoorModes), std::end(kDoorModes)},
+                  "BLOCKED: an obstacle is between the leaves")
+          .number("door_position", "m", "travel of a door's leaf, 0 shut"))
   std::string needs() const override {
     return "a prismatic joint along z, upwards, with limits, whose parent is the world or fixed to "
            "it, or one that <joint> names";
