@@ -87,8 +87,8 @@ std::vector<double> read_stops(Params& params) {
 }
 
 /// Heights of its floors over floor 0, in m, from below: each <stop>; or <floors> of them each
-/// <floor_height>; or the storeys of the world within the travel of its joint; or else evenly over
-/// that. Throws Error if neither is known.
+/// <floor_height>; or the storeys of the world within the travel of its joint; or else evenly
+/// over that. Throws Error if neither is known.
 std::vector<double> read_floors(Params& params, const Wiring& wiring, const JointLimits& limits,
                                 const std::string& joint) {
   const double apart = params.number("floor_height", 0.0, "m",
