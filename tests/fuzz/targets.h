@@ -5,8 +5,8 @@
 
 #include "core/diagnostics.h"
 
-/// Readers of bytes from outside, each as a function of one input. libFuzzer calls it with inputs
-/// of its own (libfuzzer.cpp), the unit test with those of corpus/ (corpus_test.cpp).
+/// Readers of bytes from outside, each as a function of one input. libFuzzer calls it with
+/// inputs of its own (libfuzzer.cpp), the unit test with those of corpus/ (corpus_test.cpp).
 namespace angen::fuzz {
 
 /// A target returns whether it accepts or rejects its input. A crash, an exception that is not

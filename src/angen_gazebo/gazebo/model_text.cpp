@@ -36,10 +36,7 @@ bool needs_namespace(const Element& plugin, const std::string& robot_namespace) 
 bool give_namespace(Element& element, const std::string& robot_namespace) {
   bool changed = false;
   if (element.name == "plugin" && needs_namespace(element, robot_namespace)) {
-    Element child;
-    child.name = kNamespace;
-    child.text = robot_namespace;
-    element.children.push_back(std::move(child));
+    element.children.push_back({kNamespace, robot_namespace});
     changed = true;
   }
   for (Element& child : element.children) {

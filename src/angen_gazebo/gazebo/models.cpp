@@ -11,6 +11,7 @@
 
 #include "core/lists.h"
 #include "core/named.h"
+#include "core/names.h"
 #include "core/text.h"
 #include "gazebo/names.h"
 #include "gazebo/services.h"
@@ -82,12 +83,6 @@ std::string get_world(Inbox& inbox, const GetWorldProperties::Request&,
   return "GetWorldProperties: got properties";
 }
 
-// The name of a joint, which may have that of its model before it.
-std::string within(const std::string& model, const std::string& joint) {
-  const std::string scope = model + "::";
-  return joint.compare(0, scope.size(), scope) == 0 ? joint.substr(scope.size()) : joint;
-}
-
 std::string configure(Inbox& inbox, const SetModelConfiguration::Request& request,
                       SetModelConfiguration::Response&) {
   if (request.joint_names.size() != request.joint_positions.size()) {
@@ -99,7 +94,7 @@ std::string configure(Inbox& inbox, const SetModelConfiguration::Request& reques
   sim::SetJoints to{request.model_name, {}, {}};
   std::vector<std::string> unknown;
   for (std::size_t i = 0; i < request.joint_names.size(); ++i) {
-    const std::string name = within(request.model_name, request.joint_names[i]);
+    const std::string name = local_name(request.model_name, request.joint_names[i]);
     if (!index_in(model.joints, name)) {
       unknown.push_back(printable(name));
       continue;

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "core/names.h"
 #include "desc/world.h"
 #include "document/xml.h"
 
@@ -29,9 +30,7 @@ void add_default(Element& plugin, const std::string& name, const std::string& va
 }  // namespace
 
 std::string measured_joint(const Element& plugin, const std::string& model) {
-  const std::string name = plugin.child_text("jointName");
-  const std::string prefix = model + "::";
-  return name.rfind(prefix, 0) == 0 ? name.substr(prefix.size()) : name;
+  return local_name(model, plugin.child_text("jointName"));
 }
 
 // Several of a library may have one name: later ones get another. Fixed joints that a force-torque

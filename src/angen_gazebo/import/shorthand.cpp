@@ -14,11 +14,6 @@ namespace {
 constexpr int kMaxClones = 10'000;
 constexpr double kRoadHeight = 0.01;  // m
 
-Element part(const std::string& name, const std::string& text, const Source& source,
-             std::vector<Element> children = {}) {
-  return {name, text, {}, std::move(children), source};
-}
-
 int count_of(const Element& parent, const std::string& name, int fallback) {
   const Element* child = parent.child(name);
   if (child == nullptr) return fallback;
@@ -150,7 +145,7 @@ Element road_model(const Element& road) {
     throw Error(road.source, tag_of(road) + " has " + std::to_string(points.size()) +
                                  " <point>s; give it two or more");
   }
-  Element link = part("link", "", road.source);
+  Element link{"link", "", {}, {}, road.source};
   set_attribute(link, "name", "link");
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const Vec3 along = points[i + 1] - points[i];
@@ -158,18 +153,26 @@ Element road_model(const Element& road) {
     Pose pose{(points[i] + points[i + 1]) / 2.0,
               from_rpy(0.0, -std::asin(along.normalized().z()), std::atan2(along.y(), along.x()))};
     pose.position.z() -= kRoadHeight / 2.0 - 1e-3;  // its top is a little above the ground
-    Element visual = part("visual", "", road.source);
+    Element visual{"visual", "", {}, {}, road.source};
     set_attribute(visual, "name", "part_" + std::to_string(i));
     const std::string size =
         number_text(along.norm()) + " " + number_text(width) + " " + number_text(kRoadHeight);
     visual.children = {
-        part("pose", pose_text(pose), road.source),
-        part("geometry", "", road.source,
-             {part("box", "", road.source, {part("size", size, road.source)})}),
-        part("material", "", road.source, {part("diffuse", "0.3 0.3 0.3 1", road.source)})};
+        Element{"pose", pose_text(pose), {}, {}, road.source},
+        Element{"geometry",
+                "",
+                {},
+                {Element{"box", "", {}, {Element{"size", size, {}, {}, road.source}}, road.source}},
+                road.source},
+        Element{"material",
+                "",
+                {},
+                {Element{"diffuse", "0.3 0.3 0.3 1", {}, {}, road.source}},
+                road.source}};
     link.children.push_back(std::move(visual));
   }
-  Element model = part("model", "", road.source, {part("static", "true", road.source), link});
+  Element model{
+      "model", "", {}, {Element{"static", "true", {}, {}, road.source}, link}, road.source};
   set_attribute(model, "name", name_of(road));
   return model;
 }

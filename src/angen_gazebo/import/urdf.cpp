@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -72,10 +70,6 @@ const Element* lumped_part(const Index& index, const Element& made) {
   return link == nullptr ? nullptr : link->child(made.name);
 }
 
-Element text_element(const std::string& name, const std::string& text, const Source& source) {
-  return {name, text, {}, {}, source};
-}
-
 // Elements that libsdformat made get the file and line of their originals.
 void place(Element& made, const Element* original, const Index& index, const Source& around) {
   made.source = original == nullptr ? around : original->source;
@@ -105,9 +99,9 @@ void keep_safety(const Index& index, Element& model) {
     const Element* safety = joint == nullptr ? nullptr : joint->child("safety_controller");
     Element* axis = find_child(child, "axis");
     if (safety == nullptr || axis == nullptr) continue;
-    Element kept = text_element(kSafety, "", safety->source);
+    Element kept{kSafety, "", {}, {}, safety->source};
     for (const auto& [key, value] : safety->attributes) {
-      kept.children.push_back(text_element(key, value, safety->source));
+      kept.children.push_back({key, value, {}, {}, safety->source});
     }
     axis->children.push_back(std::move(kept));
   }
@@ -147,9 +141,10 @@ void fix_offset(const Element& given, const Index& index, Element& made) {
   if (body.empty() || body == into) return;
   const std::optional<Pose> lumped = lumped_pose(index, body, into);
   if (!lumped) return;
-  Element offset;
-  offset.attributes = {{"xyz", given.child_text("xyzOffset")},
-                       {"rpy", given.child_text("rpyOffset")}};
+  const Element offset{
+      "origin",
+      "",
+      {{"xyz", given.child_text("xyzOffset")}, {"rpy", given.child_text("rpyOffset")}}};
   const std::string text = pose_text(*lumped * pose_in(&offset));
   const std::vector<double> v = numbers_in(text).values;
   const auto three = [&](std::size_t from) {
@@ -157,11 +152,6 @@ void fix_offset(const Element& given, const Index& index, Element& made) {
   };
   set_child(made, "xyzOffset", three(0));
   set_child(made, "rpyOffset", three(3));
-}
-
-void give_source(Element& element, const Source& source) {
-  element.source = source;
-  for (Element& child : element.children) give_source(child, source);
 }
 
 // Plug-ins may share a name, of which libsdformat would keep one: each later one gets a name of its
@@ -196,7 +186,7 @@ void fix_plugins(const Element& robot, const Index& index,
   for (Element& made : model.children) {
     const auto found = made.name == "plugin" ? all.find(name_of(made)) : all.end();
     if (found == all.end()) continue;
-    give_source(made, found->second->source);
+    set_source(made, found->second->source);
     fix_offset(*found->second, index, made);
     if (made.attribute("name") != nullptr) set_attribute(made, "name", names.at(found->first));
   }
@@ -231,9 +221,9 @@ void keep_transmissions(const Element& robot, Element& model) {
   for (const Element& transmission : robot.children) {
     if (transmission.name != "transmission") continue;
     for (const auto& [joint, interface] : driven_by(transmission)) {
-      all.push_back(text_element("transmission", "", transmission.source));
-      all.back().children = {text_element("joint", joint, transmission.source),
-                             text_element("hardwareInterface", interface, transmission.source)};
+      all.push_back({"transmission", "", {}, {}, transmission.source});
+      all.back().children = {Element{"joint", joint, {}, {}, transmission.source},
+                             Element{"hardwareInterface", interface, {}, {}, transmission.source}};
     }
   }
   std::size_t kept = 0;
@@ -255,9 +245,9 @@ std::string with_measured_joints(const Element& robot, const Index& index) {
     const std::string name = measured_joint(*plugin, name_of(robot));
     const Element* joint = part_in(index.own, {"joint", name});
     if (joint == nullptr || joint->attribute_text("type") != "fixed") continue;
-    Element preserve = text_element("gazebo", "", joint->source);
+    Element preserve = Element{"gazebo", "", {}, {}, joint->source};
     preserve.attributes = {{"reference", name}};
-    preserve.children = {text_element("preserveFixedJoint", "true", joint->source)};
+    preserve.children = {Element{"preserveFixedJoint", "true", {}, {}, joint->source}};
     kept.children.push_back(std::move(preserve));
   }
   return print_xml(kept);
@@ -283,14 +273,14 @@ void keep_mimics(const Element& robot, Element& model) {
     const Element* mimic = joint.name == "joint" ? joint.child("mimic") : nullptr;
     const std::string* leader = mimic == nullptr ? nullptr : mimic->attribute("joint");
     if (leader == nullptr || driven.count(name_of(joint)) != 0) continue;
-    Element plugin = text_element("plugin", "", mimic->source);
+    Element plugin = Element{"plugin", "", {}, {}, mimic->source};
     plugin.attributes = {{"name", name_of(joint) + "_mimic"},
                          {"filename", "libroboticsgroup_gazebo_mimic_joint_plugin.so"}};
-    plugin.children = {text_element("joint", *leader, mimic->source),
-                       text_element("mimicJoint", name_of(joint), mimic->source)};
+    plugin.children = {Element{"joint", *leader, {}, {}, mimic->source},
+                       Element{"mimicJoint", name_of(joint), {}, {}, mimic->source}};
     for (const char* key : {"multiplier", "offset"}) {
       if (const std::string* value = mimic->attribute(key)) {
-        plugin.children.push_back(text_element(key, *value, mimic->source));
+        plugin.children.push_back({key, *value, {}, {}, mimic->source});
       }
     }
     model.children.push_back(std::move(plugin));
@@ -314,7 +304,7 @@ void place_links_of_shared_names(const Index& index, Element& model) {
 
 // The elements that the conversion writes, and those of <gazebo> elements.
 std::set<std::string> names_in(const Element& robot) {
-  std::istringstream words(
+  const std::vector<std::string> words = words_in(
       "model link joint pose frame inertial mass inertia ixx ixy ixz iyy iyz izz collision visual "
       "sensor geometry box size cylinder radius length sphere mesh uri scale surface contact "
       "friction bounce ode kp kd mu mu2 fdir1 material script name axis axis2 xyz limit lower "
@@ -322,7 +312,7 @@ std::set<std::string> names_in(const Element& robot) {
       "plugin static gravity self_collide max_vel min_depth diffuse ambient specular emissive "
       "use_parent_model_frame physics provide_feedback implicit_spring_damper cfm_damping "
       "fudge_factor torsional coefficient");
-  std::set<std::string> names(std::istream_iterator<std::string>(words), {});
+  std::set<std::string> names(words.begin(), words.end());
   collect_names(robot, names);
   return names;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "core/text.h"
@@ -147,9 +146,8 @@ double read_noise(Params& params, std::initializer_list<const char*> fields) {
 
 Vec3 three_numbers(Params& params, const char* path, const std::string& unit, const char* doc) {
   const std::string text = params.text(path, "0", doc + (" (" + unit + ", 1 or 3 numbers)"));
-  std::istringstream words(text);
   std::vector<double> values;
-  for (std::string word; words >> word;) {
+  for (const std::string& word : words_in(text)) {
     const std::optional<double> value = parse_finite(word);
     if (!value || *value < 0.0) {
       throw params.error(

@@ -8,6 +8,7 @@
 
 #include "plugin/own_motion.h"
 #include "plugin/plugin.h"
+#include "plugin/registration.h"
 
 /// Shared parts of plug-ins that robots made for Gazebo carry.
 namespace angen::robots {
@@ -108,10 +109,7 @@ class InertialUnit : public Sensor {
 template <class Type>
 class BodySensorPlugin : public Plugin {
  public:
-  const Kind& kind() const override {
-    static const Kind kind = Type::describe();
-    return kind;
-  }
+  ANGEN_DESCRIBED_AS(Type::describe())
   std::optional<std::string> link_of(Params& params) const override {
     return params.text("bodyName", "", "the link that it is fastened to; none: the first");
   }

@@ -47,15 +47,12 @@ class Force : public Device {
 
 class ForcePlugin : public Plugin {
  public:
-  const Kind& kind() const override {
-    static const Kind kind = Kind("force", "A force and a torque on a link, as commanded.")
-                                 .verb("Stop", "pushes no more")
-                                 .value_units({"N", "N", "N", "N m", "N m", "N m"})
-                                 .numbers("force", "N", "x y z in the world, at its center of mass")
-                                 .shown(2)
-                                 .numbers("torque", "N m", "about x y z of the world");
-    return kind;
-  }
+  ANGEN_DESCRIBED_AS(Kind("force", "A force and a torque on a link, as commanded.")
+                         .verb("Stop", "pushes no more")
+                         .value_units({"N", "N", "N", "N m", "N m", "N m"})
+                         .numbers("force", "N", "x y z in the world, at its center of mass")
+                         .shown(2)
+                         .numbers("torque", "N m", "about x y z of the world"))
   std::vector<Mount> mounts(const ModelInfo& model, Params& params) const override {
     const std::string body = params.text("bodyName", "", "the link; none: the first");
     return {{part_name(model.name, local_name(model.name, body)), ""}};

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
+#include "core/text.h"
 #include "plugin/outputs.h"
 #include "plugin/registration.h"
 #include "plugin/view.h"
@@ -18,13 +18,6 @@ struct Point {
   double time = 0.0;              // s from the start
   std::vector<double> positions;  // rad or m
 };
-
-std::vector<std::string> words_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
-}
 
 }  // namespace
 
@@ -44,7 +37,7 @@ class JointPoseTrajectory : public Device {
   }
 
   Verdict command(const Command& command, const View& view) override {
-    const std::vector<std::string> names = words_of(command.text);
+    const std::vector<std::string> names = words_in(command.text);
     std::vector<JointRef> joints;
     for (const std::string& name : names) {
       const auto found = std::find_if(known_.begin(), known_.end(),
@@ -140,12 +133,9 @@ class JointPoseTrajectory : public Device {
 
 class JointPoseTrajectoryPlugin : public Plugin {
  public:
-  const Kind& kind() const override {
-    static const Kind kind = Kind("joint_trajectory", "Leads a robot's joints along a trajectory.")
-                                 .flag("follows", "it is under way")
-                                 .shown_as("under way", "idle");
-    return kind;
-  }
+  ANGEN_DESCRIBED_AS(Kind("joint_trajectory", "Leads a robot's joints along a trajectory.")
+                         .flag("follows", "it is under way")
+                         .shown_as("under way", "idle"))
   bool serves(const ModelInfo& model) const override { return !model.joints.empty(); }
   std::string needs() const override { return "joints"; }
   std::unique_ptr<Device> make_device() const override {

@@ -69,12 +69,9 @@ class MimicJoint : public Device {
 
 class MimicJointPlugin : public Plugin {
  public:
-  const Kind& kind() const override {
-    static const Kind kind = Kind("mimic_joint", "A joint that follows another one.")
-                                 .number("position", "", "rad or m")
-                                 .shown(3);
-    return kind;
-  }
+  ANGEN_DESCRIBED_AS(Kind("mimic_joint", "A joint that follows another one.")
+                         .number("position", "", "rad or m")
+                         .shown(3))
   std::vector<Mount> mounts(const ModelInfo& model, Params& params) const override {
     const Mimic m = read_mimic(params);
     if (model.joint(m.mimic) == nullptr) return {};

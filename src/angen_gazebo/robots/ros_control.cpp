@@ -139,18 +139,15 @@ class JointCommand : public Device {
 
 class JointCommandPlugin : public Plugin {
  public:
-  const Kind& kind() const override {
-    static const Kind kind =
-        Kind("joint_command", "A joint that is commanded by position, velocity or effort.")
-            .value_units({"rad, m, rad/s, m/s, N m or N"})
-            .text("joint", "which it is")
-            .text("interface", "of its commands: position, velocity or effort")
-            .number("command", "", "the last one")
-            .number("position", "", "rad or m")
-            .shown(3)
-            .number("effort", "", "N m or N, along the axis");
-    return kind;
-  }
+  ANGEN_DESCRIBED_AS(Kind("joint_command",
+                          "A joint that is commanded by position, velocity or effort.")
+                         .value_units({"rad, m, rad/s, m/s, N m or N"})
+                         .text("joint", "which it is")
+                         .text("interface", "of its commands: position, velocity or effort")
+                         .number("command", "", "the last one")
+                         .number("position", "", "rad or m")
+                         .shown(3)
+                         .number("effort", "", "N m or N, along the axis"))
   std::vector<Mount> mounts(const ModelInfo& model, Params& params) const override {
     std::vector<Mount> mounts;
     for (const Transmission& each : read_transmissions(params)) {

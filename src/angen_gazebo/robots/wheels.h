@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/wheel_errors.h"
+#include "plugin/registration.h"
 #include "robots/base.h"
 
 namespace angen::robots {
@@ -96,10 +97,7 @@ class WheelsOf : public Wheels {
 template <WheelSettings (*read)(Params&), Kind (*describe)(), class Drive = WheelsOf<read>>
 class WheelsPlugin : public Plugin {
  public:
-  const Kind& kind() const override {
-    static const Kind kind = describe();
-    return kind;
-  }
+  ANGEN_DESCRIBED_AS(describe())
   std::vector<Mount> mounts(const ModelInfo& model, Params& params) const override {
     return mounts_on_wheels(model, read(params));
   }

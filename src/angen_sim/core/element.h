@@ -11,10 +11,10 @@ namespace angen {
 /// An XML element as plain values. Plug-ins read their parameters from it.
 struct Element {
   std::string name;
-  std::string text;  // trimmed
-  std::vector<std::pair<std::string, std::string>> attributes;
-  std::vector<Element> children;
-  Source source;
+  std::string text{};  // trimmed
+  std::vector<std::pair<std::string, std::string>> attributes{};
+  std::vector<Element> children{};
+  Source source{};
 
   const Element* child(const std::string& child_name) const {
     for (const Element& c : children) {

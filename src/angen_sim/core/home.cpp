@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/text.h"
+
 namespace angen {
 
 namespace {
@@ -92,41 +94,16 @@ int floor_at(const std::vector<Storey>& storeys, double z) {
 }
 
 const std::vector<std::string>& room_uses() {
-  static const std::vector<std::string> uses = {"kitchen", "bedroom", "bathroom", "living", "hall",
-                                                "work",    "landing", "outdoor",  "other"};
+  static const std::vector<std::string> uses =
+      words_in("kitchen bedroom bathroom living hall work landing outdoor other");
   return uses;
 }
 
 const std::vector<std::string>& thing_types() {
-  static const std::vector<std::string> types = {"bed",
-                                                 "chair",
-                                                 "armchair",
-                                                 "sofa",
-                                                 "table",
-                                                 "desk",
-                                                 "stove",
-                                                 "sink",
-                                                 "fridge",
-                                                 "toilet",
-                                                 "shower",
-                                                 "bathtub",
-                                                 "washing_machine",
-                                                 "dishwasher",
-                                                 "tv",
-                                                 "stereo",
-                                                 "wardrobe",
-                                                 "bookshelf",
-                                                 "cabinet",
-                                                 "dresser",
-                                                 "nightstand",
-                                                 "lamp",
-                                                 "window",
-                                                 "plant",
-                                                 "fan",
-                                                 "heater",
-                                                 "rug",
-                                                 "stairs",
-                                                 "other"};
+  static const std::vector<std::string> types = words_in(
+      "bed chair armchair sofa table desk stove sink fridge toilet shower bathtub washing_machine "
+      "dishwasher tv stereo wardrobe bookshelf cabinet dresser nightstand lamp window plant fan "
+      "heater rug stairs other");
   return types;
 }
 

@@ -58,4 +58,9 @@ void check_name(const std::string& name, const std::string& what, const Source& 
   if (!problem.empty()) throw Error(at, (what.empty() ? "" : what + ": ") + problem);
 }
 
+std::string local_name(const std::string& model, const std::string& name) {
+  const std::string prefix = model + "::";
+  return name.rfind(prefix, 0) == 0 ? name.substr(prefix.size()) : name;
+}
+
 }  // namespace angen

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <system_error>
 
 namespace angen {
@@ -95,19 +96,20 @@ std::optional<double> parse_finite(const std::string& text) {
 
 std::optional<int> parse_integer(const std::string& text) { return parse<int>(text); }
 
+std::vector<std::string> words_in(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
 Numbers numbers_in(const std::string& text) {
   Numbers found;
-  const char* blanks = " \t\r\n\f\v";
-  for (std::size_t at = text.find_first_not_of(blanks); at != std::string::npos;) {
-    const std::size_t end = text.find_first_of(blanks, at);
-    const std::string word = text.substr(at, end == std::string::npos ? end : end - at);
+  for (const std::string& word : words_in(text)) {
     const std::optional<double> value = parse_number(word);
     if (!value) {
       found.bad = word;
-      return found;
+      break;
     }
     found.values.push_back(*value);
-    at = end == std::string::npos ? end : text.find_first_not_of(blanks, end);
   }
   return found;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <sstream>
 #include <utility>
 
 #include "core/text.h"
@@ -77,11 +76,8 @@ std::string plain_numbers(const std::string& text) {
   const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
   if (std::all_of(text.begin(), text.end(), is_ascii)) return text;
   std::string plain = straightened(text);
-  std::istringstream words(plain);
-  for (std::string word; words >> word;) {
-    if (!parse_number(word)) return text;
-  }
-  return trimmed(plain).empty() ? text : plain;
+  const Numbers numbers = numbers_in(plain);
+  return numbers.values.empty() || !numbers.bad.empty() ? text : plain;
 }
 
 }  // namespace angen

@@ -60,17 +60,13 @@ class Daylight : public Device {
 
 class DaylightPlugin : public Plugin {
  public:
-  const Kind& kind() const override {
-    static const Kind kind =
-        Kind("daylight", "Daylight through a window.")
-            .model("daylight_window")
-            .example("set daylight window0 10000")
-            .verb("Set", "lux", "lx", {0.0, kBrightest}, "illuminance outdoors")
-            .number("illuminance", "lx", "outdoors")
-            .shown()
-            .number("luminous_flux", "lm", "through the window");
-    return kind;
-  }
+  ANGEN_DESCRIBED_AS(Kind("daylight", "Daylight through a window.")
+                         .model("daylight_window")
+                         .example("set daylight window0 10000")
+                         .verb("Set", "lux", "lx", {0.0, kBrightest}, "illuminance outdoors")
+                         .number("illuminance", "lx", "outdoors")
+                         .shown()
+                         .number("luminous_flux", "lm", "through the window"))
   bool serves(const ModelInfo& model) const override { return !model.lights.empty(); }
   std::string instance_name(const ModelInfo& model) const override {
     return command_name(model, "window");

@@ -232,30 +232,27 @@ void Drive::report(const View&, Reading& state) const {
 
 class DrivePlugin : public Plugin {
  public:
-  const Kind& kind() const override {
-    static const Kind kind =
-        Kind("drive", "A differential drive with odometry.")
-            .travels("robots")
-            .model("turtlebot")
-            .example("set drive turtlebot stop")
-            .verb("Stop", "stops")
-            .value_units({"m/s", "rad/s"})
-            .number("x", "m", "by the wheels, in the odometry frame")
-            .shown(2)
-            .number("y", "m", "by the wheels")
-            .shown(2)
-            .number("yaw", "rad", "by the wheels")
-            .shown(2)
-            .number("v", "m/s", "forward")
-            .shown(2)
-            .number("w", "rad/s", "to the left")
-            .shown(2)
-            .number("left", "rad", "angle of the left wheel")
-            .number("right", "rad", "angle of the right wheel")
-            .number("work", "J", "of the motors since the start")
-            .numbers("covariance", "", "of x, y (m) and yaw (rad), row by row: 9 numbers");
-    return kind;
-  }
+  ANGEN_DESCRIBED_AS(Kind("drive", "A differential drive with odometry.")
+                         .travels("robots")
+                         .model("turtlebot")
+                         .example("set drive turtlebot stop")
+                         .verb("Stop", "stops")
+                         .value_units({"m/s", "rad/s"})
+                         .number("x", "m", "by the wheels, in the odometry frame")
+                         .shown(2)
+                         .number("y", "m", "by the wheels")
+                         .shown(2)
+                         .number("yaw", "rad", "by the wheels")
+                         .shown(2)
+                         .number("v", "m/s", "forward")
+                         .shown(2)
+                         .number("w", "rad/s", "to the left")
+                         .shown(2)
+                         .number("left", "rad", "angle of the left wheel")
+                         .number("right", "rad", "angle of the right wheel")
+                         .number("work", "J", "of the motors since the start")
+                         .numbers("covariance", "",
+                                  "of x, y (m) and yaw (rad), row by row: 9 numbers"))
   // A robot whose wheels another plug-in drives or names is not adopted.
   std::vector<Mount> mounts(const ModelInfo& model, Params& params) const override {
     const ModelInfo::Joint* left = model.joint(left_joint(params));

@@ -87,8 +87,8 @@ std::vector<double> read_stops(Params& params) {
 }
 
 /// Heights of its floors over floor 0, in m, from below: each <stop>; or <floors> of them each
-/// <floor_height>; or the storeys of the world within the travel of its joint; or else evenly over
-/// that. Throws Error if neither is known.
+/// <floor_height>; or the storeys of the world within the travel of its joint; or else evenly
+/// over that. Throws Error if neither is known.
 std::vector<double> read_floors(Params& params, const Wiring& wiring, const JointLimits& limits,
                                 const std::string& joint) {
   const double apart = params.number("floor_height", 0.0, "m",
@@ -541,31 +541,28 @@ void Elevator::report(const View& view, Reading& state) const {
 
 class ElevatorPlugin : public Plugin {
  public:
-  const Kind& kind() const override {
-    static const Kind kind =
-        Kind("elevator", "An elevator with doors.")
-            .model("elevator")
-            .passage(Kind::Passage::kElevator)
-            .example("set elevator elevator 1")
-            .command_topic(kTopic)
-            .counted_verb("Floor", "floor", {0.0, 999.0}, "rides there, after its present target")
-            .choice(
-                "mode", {std::begin(kModes), std::end(kModes)},
-                "of the cabin; BLOCKED: something holds it; OVERLOADED: it stays, with open doors")
-            .shown()
-            .number("position", "m", "of the cabin above floor 0")
-            .shown(2)
-            .number("velocity", "m/s", "upwards")
-            .number("target", "m", "target position")
-            .integer("floor", "", "where it is within 5 mm, otherwise -1")
-            .integer("target_floor", "", "target")
-            .integer("floors", "", "how many it serves")
-            .number("load", "kg", "in the cabin, by the force on its brake")
-            .choice("door_mode", {std::begin(kDoorModes), std::end(kDoorModes)},
-                    "BLOCKED: an obstacle is between the leaves")
-            .number("door_position", "m", "travel of a door's leaf, 0 shut");
-    return kind;
-  }
+  ANGEN_DESCRIBED_AS(
+      Kind("elevator", "An elevator with doors.")
+          .model("elevator")
+          .passage(Kind::Passage::kElevator)
+          .example("set elevator elevator 1")
+          .command_topic(kTopic)
+          .counted_verb("Floor", "floor", {0.0, 999.0}, "rides there, after its present target")
+          .choice(
+              "mode", {std::begin(kModes), std::end(kModes)},
+              "of the cabin; BLOCKED: something holds it; OVERLOADED: it stays, with open doors")
+          .shown()
+          .number("position", "m", "of the cabin above floor 0")
+          .shown(2)
+          .number("velocity", "m/s", "upwards")
+          .number("target", "m", "target position")
+          .integer("floor", "", "where it is within 5 mm, otherwise -1")
+          .integer("target_floor", "", "target")
+          .integer("floors", "", "how many it serves")
+          .number("load", "kg", "in the cabin, by the force on its brake")
+          .choice("door_mode", {std::begin(kDoorModes), std::end(kDoorModes)},
+                  "BLOCKED: an obstacle is between the leaves")
+          .number("door_position", "m", "travel of a door's leaf, 0 shut"))
   std::string needs() const override {
     return "a prismatic joint along z, upwards, with limits, whose parent is the world or fixed to "
            "it, or one that <joint> names";

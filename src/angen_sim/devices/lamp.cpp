@@ -72,25 +72,21 @@ class Lamp : public Device {
 
 class LampPlugin : public Plugin {
  public:
-  const Kind& kind() const override {
-    static const Kind kind =
-        Kind("lamp", "A lamp.")
-            .model("ceiling_lamp")
-            .example("set lamp kitchen0 40")
-            .command_topic(kTopic)
-            .verb("On", "full brightness")
-            .verb("Off", "dark")
-            .verb("Dim", "percent", "%", {0.0, 100.0}, "of its full brightness")
-            .flag("on", "whether it is lit")
-            .shown_as("on", "off")
-            .number("level", "%", "of its full brightness")
-            .shown()
-            .number("luminous_flux", "lm", "that it emits")
-            .shown()
-            .number("power", "W", "electric power")
-            .number("illuminance", "lx", "of a directional light, facing it");
-    return kind;
-  }
+  ANGEN_DESCRIBED_AS(Kind("lamp", "A lamp.")
+                         .model("ceiling_lamp")
+                         .example("set lamp kitchen0 40")
+                         .command_topic(kTopic)
+                         .verb("On", "full brightness")
+                         .verb("Off", "dark")
+                         .verb("Dim", "percent", "%", {0.0, 100.0}, "of its full brightness")
+                         .flag("on", "whether it is lit")
+                         .shown_as("on", "off")
+                         .number("level", "%", "of its full brightness")
+                         .shown()
+                         .number("luminous_flux", "lm", "that it emits")
+                         .shown()
+                         .number("power", "W", "electric power")
+                         .number("illuminance", "lx", "of a directional light, facing it"))
   bool serves(const ModelInfo& model) const override { return !model.lights.empty(); }
   std::string needs() const override { return "a light"; }
   std::string instance_name(const ModelInfo& model) const override {

@@ -21,8 +21,8 @@ void Profile::advance(double target, double dt) {
     velocity_ = 0.0;
     return;
   }
-  // Seen along the way: the fastest next velocity u from which braking still ends at the target,
-  // that is (velocity + u) / 2 * dt + u^2 / (2 a) = |to_go|.
+  // Seen along the way: the fastest next velocity u from which braking still ends at the
+  // target, that is (velocity + u) / 2 * dt + u^2 / (2 a) = |to_go|.
   const double sign = to_go < 0.0 ? -1.0 : 1.0;
   const double now = sign * velocity_;
   const double room = std::abs(to_go) - now * dt / 2.0;

@@ -112,8 +112,8 @@ void Servo::watch(double target, double position, double velocity, double dt) {
     if (arrived_) blocked_ = false;
     return;
   }
-  // A joint that bounces off an obstacle gets no further; one pushed well back starts again; one
-  // that reached its target may swing about it.
+  // A joint that bounces off an obstacle gets no further; one pushed well back starts again;
+  // one that reached its target may swing about it.
   const double progress = ahead * (position - came_to_);
   const bool swings_in = std::abs(to_go) < settings_.freed_distance;
   const bool back = progress < -kPushedBack * settings_.freed_distance;

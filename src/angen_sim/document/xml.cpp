@@ -314,10 +314,7 @@ Element* find_child(Element& element, const std::string& name) {
 void set_child(Element& element, const std::string& name, const std::string& text) {
   Element* child = find_child(element, name);
   if (child == nullptr) {
-    Element fresh;
-    fresh.name = name;
-    fresh.source = element.source;
-    child = &*element.children.insert(element.children.begin(), std::move(fresh));
+    child = &*element.children.insert(element.children.begin(), {name, "", {}, {}, element.source});
   }
   child->text = text;
   child->attributes.clear();
@@ -336,6 +333,11 @@ void set_attribute(Element& element, const std::string& name, const std::string&
 void remove_children(Element& element, const std::string& name) {
   auto& all = element.children;
   erase_if(all, [&](const Element& e) { return e.name == name; });
+}
+
+void set_source(Element& element, const Source& source) {
+  element.source = source;
+  for (Element& child : element.children) set_source(child, source);
 }
 
 std::string name_of(const Element& element) { return element.attribute_text("name"); }

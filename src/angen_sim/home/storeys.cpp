@@ -184,8 +184,8 @@ void add_apart(double floor, std::vector<double>& floors) {
   floors.push_back(floor);
 }
 
-// The floors of walls that no one describes: the widest first, those on which walls stand before
-// those that walls pass; a surface too near to such a one is furniture or a ceiling.
+// The floors of walls that no one describes: the widest first, those on which walls stand
+// before those that walls pass; a surface too near to such a one is furniture or a ceiling.
 std::vector<double> floors_of(const std::vector<Wall>& walls, const std::vector<Slab>& slabs) {
   std::vector<Level> levels = levels_of(slabs);
   erase_if(levels, [&](Level& level) { return !meets_walls(level, walls); });

@@ -31,13 +31,13 @@ class Lighting {
   /// Grows when a lit lamp is added, removed, moved or changes its level, and with each solution.
   std::uint64_t lit_revision() const;
 
-  /// Illuminance at pose.position on the plane whose normal is pose's x axis, and the mean color
-  /// that a square pixel of 60 degrees along x sees: a mean luminance of L cd/m^2 gives L / (L +
-  /// 50) in each channel. Direct light with shadows, plus diffuse reflections: radiosity between
-  /// the patches of static and anchored shapes, then a final gather over 2048 directions, in which
-  /// moving shapes block and reflect. Albedos above 0.9 count as 0.9. A shape around a lamp or
-  /// around the place keeps the light out, also the sensor's own housing: leave it out of the scene
-  /// or put the place in front of it. The scene must be committed. One thread at a time.
+  /// Illuminance at pose.position on the plane whose normal is pose's x axis, and the mean
+  /// color that a square pixel of 60 degrees along x sees: a mean luminance of L cd/m^2 gives L /
+  /// (L + 50) in each channel. Direct light with shadows, plus diffuse reflections: radiosity
+  /// between the patches of static and anchored shapes, then a final gather over 2048 directions,
+  /// in which moving shapes block and reflect. Albedos above 0.9 count as 0.9. A shape around a
+  /// lamp or around the place keeps the light out, also the sensor's own housing: leave it out of
+  /// the scene or put the place in front of it. The scene must be committed. One thread at a time.
   /// Same scene, lamps and pose give the same bits, whatever was measured before; after keep_time()
   /// the light between surfaces is that of the scene which advance() took over last. `still`: no
   /// shape was moved, added or removed within the probe's reach since the last query, so light on

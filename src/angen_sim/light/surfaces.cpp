@@ -393,8 +393,8 @@ Surfaces::Sides Surfaces::sides(const Key& key, const std::vector<Site>& sites,
   return out;
 }
 
-/// Whether a shape separates sites, or an anchored one is between some: behind the leaf of a door
-/// that is ajar it is dark, and bright beside its edge.
+/// Whether a shape separates sites, or an anchored one is between some: behind the leaf of a
+/// door that is ajar it is dark, and bright beside its edge.
 bool Surfaces::is_uneven(const Key& key, const std::vector<Site>& sites,
                          const rays::Nearby& near) const {
   const Sides found = this->sides(key, sites, near);

@@ -22,8 +22,8 @@ class Publishers {
   Publishers(ros::NodeHandle& node, sim::Simulation& simulation, Topics topics, Readings& readings)
       : node_(node), simulation_(simulation), topics_(topics), readings_(readings) {}
 
-  /// Advertises and shuts down by `changes` since the last structure. `frames` and `robots` are
-  /// those of the snapshot's.
+  /// Advertises and shuts down by `changes` since the last structure. `frames` and `robots`
+  /// are those of the snapshot's.
   void on_structure(const sim::Snapshot& snapshot, const FrameTree& frames,
                     const std::vector<Robot>& robots, const Changes& changes);
 

@@ -9,8 +9,9 @@
 namespace angen::node {
 
 /// Texts of at most 4096 bytes. Each returns what to post: a ToDevice, whose verb and numbers the
-/// queue parses, or a Reject that says why and lists the right forms. `VERB, NAME|all[, NUMBER]`,
-/// as the kind's command topic takes it; a kind with a verb such as `Floor1` needs no name.
+/// queue parses, or a Reject that says why and lists the right forms.
+/// `VERB, NAME|all[, NUMBER]`, as the kind's command topic takes it; a kind with a verb such as
+/// `Floor1` needs no name.
 sim::Action topic_action(const Kind& kind, const std::string& text);
 /// /angen/command: NAME or KIND/NAME.
 sim::Action any_action(const std::string& target, const std::string& text);

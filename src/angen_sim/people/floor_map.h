@@ -13,8 +13,8 @@ namespace angen::people {
 constexpr double kLow = 0.2;   // m: lower things are walked over
 constexpr double kHead = 1.6;  // m: higher ones are passed below
 
-/// The cells of 5 cm where a person fits between the static shapes of a storey. Everything
-/// that can move, such as doors and chairs, is left out of it unless it is added.
+/// The cells of 5 cm where a person fits between the static shapes of a storey. Everything that can
+/// move, such as doors and chairs, is left out of it unless it is added.
 class FloorMap {
  public:
   using Vec2 = Eigen::Vector2d;

@@ -8,8 +8,8 @@ struct Metabolism {
   double vapor = 0.0;  // g/h, of breath and skin
 };
 
-/// W of heat for each m^2 of the body, of a person who stands relaxed, or walks on level ground at
-/// that speed (m/s): ISO 8996 and the table of ISO 7730, annex B.
+/// W of heat for each m^2 of the body, of a person who stands relaxed, or walks on level ground
+/// at that speed (m/s): ISO 8996 and the table of ISO 7730, annex B.
 double metabolic_rate(double speed);
 constexpr double kSeated = 58.0;     // W/m^2, of the same tables
 constexpr double kReclining = 46.0;  // W/m^2

@@ -50,8 +50,8 @@ class Surroundings {
 
   /// Whether there is floor all the straight way of a person at `feet`, up and down slopes.
   static bool has_floor(const View& view, const Vec3& feet, const Vec2& to);
-  /// Whether static shapes and the ends of the floor leave room for a person so near to a place
-  /// that it arrives there.
+  /// Whether static shapes and the ends of the floor leave room for a person so near to a
+  /// place that it arrives there.
   static bool has_room(const View& view, const Vec3& place);
 
   /// The model that can move and is nearest before a person at `feet` who looks along a unit

@@ -391,9 +391,10 @@ void Contacts::set_friction(dContact& contact, const Pair& pair, std::size_t ind
 
 // ODE bounds the friction along two directions, each by itself: a pyramid. Coulomb's cone follows
 // from the choice of the first. A sliding contact has friction against its slip and none across.
-// A contact that does not slide, or may stop within a step, has the first direction along the force
-// that would make it slip: against the friction of the last step, and along the slip that is left.
-// That force is one for all points between two mechanisms, as the share of each point is no load.
+// A contact that does not slide, or may stop within a step, has the first direction along the
+// force that would make it slip: against the friction of the last step, and along the slip that is
+// left. That force is one for all points between two mechanisms, as the share of each point is no
+// load.
 void Contacts::align(dContact& contact, const Pair& pair) const {
   const Body& a = *pair.first->body;
   const Body& b = *pair.second->body;

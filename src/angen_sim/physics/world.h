@@ -11,11 +11,11 @@
 #include "desc/world.h"
 
 /// Rigid bodies by ODE. One thread. SI units, world frame unless said otherwise. Links held
-/// together by fixed joints are one body; one fixed to the world, or kinematic, is static. Bodies
-/// that touch or are jointed fall asleep together when all have been slower than 0.01 m/s and 0.01
-/// rad/s for 0.5 s. Links of one model touch only if it collides with itself, parent and child of a
-/// joint never. The same calls give the same bits, whatever other worlds there are. Ids that were
-/// removed throw std::out_of_range.
+/// together by fixed joints are one body; one fixed to the world, or kinematic, is static.
+/// Bodies that touch or are jointed fall asleep together when all have been slower than 0.01 m/s
+/// and 0.01 rad/s for 0.5 s. Links of one model touch only if it collides with itself, parent and
+/// child of a joint never. The same calls give the same bits, whatever other worlds there are.
+/// Ids that were removed throw std::out_of_range.
 namespace angen::physics {
 
 using ModelId = Id<struct PhysicsModelTag>;
@@ -111,8 +111,8 @@ class World {
   /// child links move along, and have the velocity of their parent then. Throws Error for a joint
   /// without exactly one axis, or in a loop.
   void arrange(ModelId model, const std::vector<std::optional<double>>& positions);
-  /// Inertials, gravity of links and axes of joints are as described from now on; all else must be
-  /// as the model was. Throws Error as add() does.
+  /// Inertials, gravity of links and axes of joints are as described from now on; all else must
+  /// be as the model was. Throws Error as add() does.
   void redescribe(ModelId model, const desc::Model& described);
   /// Gravity and the solver's settings from now on; the step stays. Wakes everything.
   void set(const desc::Physics& settings, const Vec3& gravity);

@@ -10,8 +10,8 @@ namespace angen {
 /// A command for one device: the text after the target's name.
 struct Command {
   std::string text;  // the text sent: "Open", "Dim 40"; empty if it has values alone
-  // A text of numbers alone (of a drive: m/s, rad/s; as many zeros if it is Stop), or the numbers
-  // of a verb that takes several.
+  // A text of numbers alone (of a drive: m/s, rad/s; as many zeros if it is Stop), or the
+  // numbers of a verb that takes several.
   std::vector<double> values = {};
   std::string verb = {};   // one of the kind's, written as there; none if the kind has none
   double number = 0.0;     // the number of a verb that takes one, within its range

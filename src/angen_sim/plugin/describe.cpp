@@ -56,10 +56,7 @@ void read_common(Params& params, const Kind& kind) {
 // The parameters that one reads when it is configured with nothing but these.
 std::vector<ParamDoc> params_of(const std::string& library, const Plugin& plugin,
                                 std::vector<Element> given) {
-  Element element;
-  element.name = "plugin";
-  element.attributes = {{"filename", library}};
-  element.children = std::move(given);
+  const Element element{"plugin", "", {{"filename", library}}, std::move(given)};
   Params params(element, nullptr, plugin.kind().rate());
   AnyWiring wiring(plugin.kind().name);
   const auto sensor = plugin.make_sensor(params);
@@ -88,10 +85,7 @@ PluginDoc describe(const std::string& library, const Plugin& plugin) {
     if (param.path.find('/') != std::string::npos) continue;
     for (const std::string& choice : param.choices) {
       if (choice == param.fallback) continue;
-      Element element;
-      element.name = param.path;
-      element.text = choice;
-      for (ParamDoc& more : params_of(library, plugin, {element})) {
+      for (ParamDoc& more : params_of(library, plugin, {Element{param.path, choice}})) {
         const bool known = std::any_of(docs.begin(), docs.end(),
                                        [&](const ParamDoc& doc) { return doc.path == more.path; });
         if (known) continue;

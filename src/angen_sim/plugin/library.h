@@ -11,8 +11,8 @@ namespace angen {
 /// The plug-ins of each requested library, or file of Python, by file name. Searches
 /// ANGEN_PLUGIN_PATH, GAZEBO_PLUGIN_PATH, in `lib` of each catkin workspace that is sourced
 /// (CMAKE_PREFIX_PATH), then beside Angen's own libraries; a library of that name that has no
-/// Angen plug-in (Gazebo's own, say) is skipped. Libraries in other folders are not loaded, nor are
-/// those that register no plug-in: loading runs code. A library stays loaded until the process
+/// Angen plug-in (Gazebo's own, say) is skipped. Libraries in other folders are not loaded, nor
+/// are those that register no plug-in: loading runs code. A library stays loaded until the process
 /// ends: objects that it made may outlive the catalog. Calls from several threads are safe.
 class Catalog {
  public:

@@ -100,8 +100,8 @@ class Sensor {
   /// The reading, without the noise that configure() declared by Params::noise(). `rng` is for
   /// other random effects.
   virtual void read(const View& view, Hits hits, Rng& rng, Reading& reading) = 0;
-  /// Called after read(): when a sample may next have other values, an event or be urgent, as long
-  /// as its pose and all that it queried stay as they are. Values that differ by the noise of
+  /// Called after read(): when a sample may next have other values, an event or be urgent, as
+  /// long as its pose and all that it queried stay as they are. Values that differ by the noise of
   /// Params::noise(), or as lazy_reading() has them, are no others.
   virtual Nanoseconds idle_until(const Ahead&) const { return 0; }
   /// Makes its readings until then, without the noise of Params::noise(); null: they are the last.

@@ -1,7 +1,7 @@
 #include "plugin/ray_geometry.h"
 
+#include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "core/text.h"
 
@@ -76,16 +76,14 @@ RayGeometry read_rays(Params& params, const RayGeometry& fallback) {
 Eigen::Vector4f read_ray_color(Params& params, const Kind& kind) {
   const std::string text =
       params.text("color", kind.ray_color(), "of its rays in rviz: red green blue alpha, 0 to 1");
-  std::istringstream words(text);
-  Eigen::Vector4f color(0.0F, 0.0F, 0.0F, 1.0F);
-  int count = 0;
-  bool good = true;
-  for (std::string word; words >> word; ++count) {
-    const std::optional<double> share = parse_finite(word);
-    good = good && count < 4 && share && *share >= 0.0 && *share <= 1.0;
-    if (good) color[count] = static_cast<float>(*share);
+  const auto [shares, bad] = numbers_in(text);
+  const bool all = std::all_of(shares.begin(), shares.end(),
+                               [](double share) { return share >= 0.0 && share <= 1.0; });
+  if (bad.empty() && all && (shares.size() == 3 || shares.size() == 4)) {
+    Eigen::Vector4f color(0.0F, 0.0F, 0.0F, 1.0F);
+    std::copy(shares.begin(), shares.end(), color.data());
+    return color;
   }
-  if (good && count >= 3) return color;
   throw params.error("color", "<color> is \"" + text + "\", must be 3 or 4 numbers from 0 to 1");
 }
 

@@ -9,11 +9,7 @@ void SavedParams::write_to(Element& plugin) const {
   auto& children = plugin.children;
   erase_if(children, is_saved);
   for (const auto& [name, text] : values_) {
-    Element child;
-    child.name = name;
-    child.text = text;
-    child.source = plugin.source;
-    children.push_back(std::move(child));
+    children.push_back({name, text, {}, {}, plugin.source});
   }
 }
 

@@ -47,8 +47,8 @@ class Wiring {
   std::vector<std::string> collision_names() { return collision_names(link("")); }
   virtual ContactRef collision(LinkRef link, const std::string& collision) = 0;
   ContactRef collision(const std::string& name) { return collision(link(""), name); }
-  /// The <sensor> of that name, also of another link, to measure in its place: it needs no plug-in
-  /// of its own then. None if the model has no such sensor.
+  /// The <sensor> of that name, also of another link, to measure in its place: it needs no
+  /// plug-in of its own then. None if the model has no such sensor.
   virtual std::optional<SensorPart> sensor(const std::string& sensor) = 0;
   /// The visuals of that name ("" = all, also as LINK/VISUAL) that a collision has its surface
   /// from; rays hit no others. Throws Error if a name has none.

@@ -12,6 +12,7 @@ struct ReleaseEmbree {
   void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
   void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
 };
 template <class Handle>
 using Embree = std::unique_ptr<std::remove_pointer_t<Handle>, ReleaseEmbree>;

@@ -56,8 +56,8 @@ class Shaft {
   bool clear() const { return blockers_.empty(); }
   /// The index of a convex shape that blocks all of them; UINT32_MAX if none does.
   std::uint32_t blocked_by() const;
-  /// Equal for the same shapes in the same poses: then sees() has the same answers for a target
-  /// that has not moved.
+  /// Equal for the same shapes in the same poses: then sees() has the same answers for a
+  /// target that has not moved.
   std::uint64_t fingerprint() const;
   /// Whether a ray from the point would hit the shape if there were no others.
   bool reaches(const Ray& ray) const;

@@ -10,6 +10,11 @@ namespace angen::record {
 
 namespace {
 
+/// The type of a line that holds a T: the greatest whole number is -1.
+template <class T>
+using Held =
+    std::conditional_t<std::is_integral_v<T> && !std::is_same_v<T, bool>, std::uint64_t, T>;
+
 /// Writes values into a line; Reads, below, reads the same keys.
 class Writes {
  public:
@@ -23,19 +28,18 @@ class Writes {
   void read_light(const sim::AddLight&) const {}
 
  private:
-  void put(const char* key, const std::string& text) { line_.text(key, text); }
-  void put(const char* key, bool flag) { line_.flag(key, flag); }
-  void put(const char* key, double number) { line_.number(key, number); }
-  void put(const char* key, const std::vector<double>& numbers) { line_.numbers(key, numbers); }
-  void put(const char* key, const std::vector<std::string>& texts) { line_.texts(key, texts); }
-  void put(const char*, const std::vector<LogFile>& files) { write_files(files, line_); }
-  template <class T, std::enable_if_t<std::is_integral_v<T>, int> = 0>
-  void put(const char* key, T whole) {
-    line_.whole(key, static_cast<std::uint64_t>(whole));  // the greatest one, of -1
+  template <class T>
+  void put(const char* key, const T& value) {
+    line_.add(key, static_cast<Held<T>>(value));
+  }
+  void put(const char* key, const std::vector<LogFile>& files) {
+    std::vector<std::string> flat;
+    for (const LogFile& file : files) flat.insert(flat.end(), {file.uri, file.hash});
+    put(key, flat);
   }
   template <int kRows, int kColumns>
   void put(const char* key, const Eigen::Matrix<double, kRows, kColumns>& matrix) {
-    line_.numbers(key, {matrix.data(), matrix.data() + matrix.size()});
+    put(key, std::vector<double>(matrix.data(), matrix.data() + matrix.size()));
   }
   void put(const char* key, const Eigen::Vector3f& vector) {
     put(key, Vec3(vector.cast<double>()));
@@ -46,7 +50,7 @@ class Writes {
     put(key, numbers);
   }
   void put(const char* key, const std::optional<double>& number) {
-    if (number) line_.number(key, *number);
+    if (number) put(key, *number);
   }
 
   LineWriter& line_;
@@ -69,19 +73,18 @@ class Reads {
   }
 
  private:
-  void get(const char* key, std::string& text) { text = line_.text(key); }
-  void get(const char* key, bool& flag) { flag = line_.flag(key); }
-  void get(const char* key, double& number) { number = line_.number(key); }
-  void get(const char* key, std::vector<double>& numbers) { numbers = line_.numbers(key); }
-  void get(const char* key, std::vector<std::string>& texts) { texts = line_.texts(key); }
-  void get(const char*, std::vector<LogFile>& files) { files = read_files(line_); }
-  template <class T, std::enable_if_t<std::is_integral_v<T>, int> = 0>
-  void get(const char* key, T& whole) {
-    whole = static_cast<T>(line_.whole(key));
+  template <class T>
+  void get(const char* key, T& value) {
+    value = static_cast<T>(line_.get<Held<T>>(key));
+  }
+  void get(const char* key, std::vector<LogFile>& files) {
+    const auto flat = line_.get<std::vector<std::string>>(key);
+    if (flat.size() % 2 != 0) line_.fail("'files' is not pairs of address and hash");
+    for (std::size_t i = 0; i < flat.size(); i += 2) files.push_back({flat[i], flat[i + 1]});
   }
   template <int kRows, int kColumns>
   void get(const char* key, Eigen::Matrix<double, kRows, kColumns>& matrix) {
-    const std::vector<double> numbers = line_.numbers(key);
+    const auto numbers = line_.get<std::vector<double>>(key);
     if (numbers.size() != static_cast<std::size_t>(matrix.size())) {
       line_.fail("'" + std::string(key) + "' has not " + std::to_string(matrix.size()) +
                  " numbers");
@@ -100,10 +103,15 @@ class Reads {
     pose.rotation.coeffs() = numbers.tail<4>();
   }
   void get(const char* key, std::optional<double>& number) {
-    if (line_.has(key)) number = line_.number(key);
+    if (line_.has(key)) get(key, number.emplace());
   }
 
   const LineReader& line_;
+};
+
+constexpr auto kHeader = [](auto& line, auto& header) {
+  line("version", header.version)("host", header.host)("seed", header.seed)("step", header.step);
+  line("world", header.world)("models", header.models)("files", header.files)("sdf", header.sdf);
 };
 
 /// The "do" of a line, and its keys and values, by a Writes or Reads.
@@ -221,7 +229,7 @@ constexpr const auto& entry_of() {
 
 template <class T>
 void write(const T& content, LineWriter& line) {
-  line.text("do", entry_of<T>().name);
+  line.add("do", entry_of<T>().name);
   Writes writes(line);
   entry_of<T>().describe(writes, content);
 }
@@ -279,7 +287,7 @@ void write_content(const LogContent& content, LineWriter& line) {
 }
 
 LogContent read_content(const LineReader& line) {
-  const std::string what = line.text("do");
+  const auto what = line.get<std::string>("do");
   LogContent content;
   const bool known = std::apply(
       [&](const auto&... each) { return (read_as(each, what, line, content) || ...); }, kEntries);
@@ -287,21 +295,16 @@ LogContent read_content(const LineReader& line) {
   return content;
 }
 
-void write_files(const std::vector<LogFile>& files, LineWriter& line) {
-  std::vector<std::string> flat;
-  for (const LogFile& file : files) {
-    flat.push_back(file.uri);
-    flat.push_back(file.hash);
-  }
-  line.texts("files", flat);
+void write_header(const LogHeader& header, LineWriter& line) {
+  Writes writes(line);
+  kHeader(writes, header);
 }
 
-std::vector<LogFile> read_files(const LineReader& line) {
-  const std::vector<std::string> flat = line.texts("files");
-  if (flat.size() % 2 != 0) line.fail("'files' is not pairs of address and hash");
-  std::vector<LogFile> files;
-  for (std::size_t i = 0; i < flat.size(); i += 2) files.push_back({flat[i], flat[i + 1]});
-  return files;
+LogHeader read_header(const LineReader& line) {
+  LogHeader header;
+  Reads reads(line);
+  kHeader(reads, header);
+  return header;
 }
 
 }  // namespace angen::record

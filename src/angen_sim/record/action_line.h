@@ -10,8 +10,8 @@ void write_content(const LogContent& content, LineWriter& line);
 /// Throws Error if the line has no action of a log.
 LogContent read_content(const LineReader& line);
 
-/// The files of a world or a model, as pairs of address and hash.
-void write_files(const std::vector<LogFile>& files, LineWriter& line);
-std::vector<LogFile> read_files(const LineReader& line);
+/// All but the format, with which a log begins.
+void write_header(const LogHeader& header, LineWriter& line);
+LogHeader read_header(const LineReader& line);
 
 }  // namespace angen::record

@@ -13,8 +13,8 @@ namespace angen::record {
 std::string fingerprint_text(std::uint64_t hash);
 
 /// One number for a whole run, equal for a run that leaps and one that takes each tick, with any
-/// subscribers and in any folder: it adds only ticks in which something changed, leaves out sensors
-/// that sample on demand, and the texts of warnings and rejections, which name files.
+/// subscribers and in any folder: it adds only ticks in which something changed, leaves out
+/// sensors that sample on demand, and the texts of warnings and rejections, which name files.
 class RunFingerprint {
  public:
   void add(const sim::Snapshot& snapshot);

@@ -5,6 +5,7 @@
 #include <rapidjson/stringbuffer.h>
 #include <rapidjson/writer.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "core/random.h"
@@ -22,60 +23,36 @@ constexpr std::size_t kSumEnd = 26;  // bytes of the text of ends_with()
 
 std::string ends_with(std::uint64_t sum) { return ",\"sum\":\"" + fingerprint_text(sum) + "\"}"; }
 
-rapidjson::SizeType size_of(const std::string& text) {
-  return static_cast<rapidjson::SizeType>(text.size());
+using Json = rapidjson::Writer<rapidjson::StringBuffer, rapidjson::UTF8<>, rapidjson::UTF8<>,
+                               rapidjson::CrtAllocator, kWriteFlags>;
+
+void put(bool value, Json& json) { json.Bool(value); }
+void put(std::uint64_t value, Json& json) { json.Uint64(value); }
+void put(double value, Json& json) { json.Double(value); }
+void put(const std::string& value, Json& json) {
+  json.String(value.data(), static_cast<rapidjson::SizeType>(value.size()));
+}
+template <class T>
+void put(const std::vector<T>& values, Json& json) {
+  json.StartArray();
+  for (const T& value : values) put(value, json);
+  json.EndArray();
 }
 
 }  // namespace
 
 struct LineWriter::Impl {
   rapidjson::StringBuffer buffer;
-  rapidjson::Writer<rapidjson::StringBuffer, rapidjson::UTF8<>, rapidjson::UTF8<>,
-                    rapidjson::CrtAllocator, kWriteFlags>
-      json{buffer};
+  Json json{buffer};
 };
 
 LineWriter::LineWriter() : impl_(std::make_unique<Impl>()) { impl_->json.StartObject(); }
 
 LineWriter::~LineWriter() = default;
 
-LineWriter& LineWriter::text(const char* key, const std::string& value) {
+LineWriter& LineWriter::add(const char* key, const LineValue& value) {
   impl_->json.Key(key);
-  impl_->json.String(value.data(), size_of(value));
-  return *this;
-}
-
-LineWriter& LineWriter::flag(const char* key, bool value) {
-  impl_->json.Key(key);
-  impl_->json.Bool(value);
-  return *this;
-}
-
-LineWriter& LineWriter::whole(const char* key, std::uint64_t value) {
-  impl_->json.Key(key);
-  impl_->json.Uint64(value);
-  return *this;
-}
-
-LineWriter& LineWriter::number(const char* key, double value) {
-  impl_->json.Key(key);
-  impl_->json.Double(value);
-  return *this;
-}
-
-LineWriter& LineWriter::numbers(const char* key, const std::vector<double>& values) {
-  impl_->json.Key(key);
-  impl_->json.StartArray();
-  for (const double value : values) impl_->json.Double(value);
-  impl_->json.EndArray();
-  return *this;
-}
-
-LineWriter& LineWriter::texts(const char* key, const std::vector<std::string>& values) {
-  impl_->json.Key(key);
-  impl_->json.StartArray();
-  for (const std::string& value : values) impl_->json.String(value.data(), size_of(value));
-  impl_->json.EndArray();
+  std::visit([this](const auto& held) { put(held, impl_->json); }, value);
   return *this;
 }
 
@@ -159,71 +136,49 @@ void LineReader::fail(const std::string& what) const {
 
 namespace {
 
-/// The value of `key` if `is` finds it to be of the right type.
-template <class Is>
-const rapidjson::Value& value_of(const LineReader& reader, const rapidjson::Document& json,
-                                 const char* key, const char* type, Is is) {
-  const auto found = json.FindMember(key);
-  if (found == json.MemberEnd() || !is(found->value)) {
-    reader.fail("'" + std::string(key) + "' is missing, or not " + type);
-  }
-  return found->value;
+// Whether a value is of the type; it is taken then.
+bool take(const rapidjson::Value& from, bool& to) {
+  return from.IsBool() && (to = from.GetBool(), true);
 }
-
-template <class Is>
-bool all_are(const rapidjson::Value& value, Is is) {
-  if (!value.IsArray()) return false;
-  for (const rapidjson::Value& part : value.GetArray()) {
-    if (!is(part)) return false;
-  }
-  return true;
+bool take(const rapidjson::Value& from, std::uint64_t& to) {
+  return from.IsUint64() && (to = from.GetUint64(), true);
 }
-
-bool is_number(const rapidjson::Value& value) { return value.IsNumber(); }
-bool is_text(const rapidjson::Value& value) { return value.IsString(); }
-
-std::string text_of(const rapidjson::Value& value) {
-  return {value.GetString(), value.GetStringLength()};
+bool take(const rapidjson::Value& from, double& to) {
+  return from.IsNumber() && (to = from.GetDouble(), true);
+}
+bool take(const rapidjson::Value& from, std::string& to) {
+  return from.IsString() && (to.assign(from.GetString(), from.GetStringLength()), true);
+}
+template <class T>
+bool take(const rapidjson::Value& from, std::vector<T>& to) {
+  if (!from.IsArray()) return false;
+  to.resize(from.Size());
+  return std::equal(from.Begin(), from.End(), to.begin(),
+                    [](const rapidjson::Value& part, T& value) { return take(part, value); });
 }
 
 }  // namespace
 
 bool LineReader::has(const char* key) const { return impl_->json.HasMember(key); }
 
-std::string LineReader::text(const char* key) const {
-  return text_of(value_of(*this, impl_->json, key, "a text", is_text));
+template <class T>
+T LineReader::get(const char* key) const {
+  constexpr const char* kTypes[] = {"true or false",     "a whole number of at least 0",
+                                    "a number",          "a text",
+                                    "a list of numbers", "a list of texts"};
+  T value{};
+  const auto found = impl_->json.FindMember(key);
+  if (found == impl_->json.MemberEnd() || !take(found->value, value)) {
+    fail("'" + std::string(key) + "' is missing, or not " + kTypes[LineValue(value).index()]);
+  }
+  return value;
 }
 
-bool LineReader::flag(const char* key) const {
-  return value_of(*this, impl_->json, key, "true or false",
-                  [](const auto& v) { return v.IsBool(); })
-      .GetBool();
-}
-
-std::uint64_t LineReader::whole(const char* key) const {
-  return value_of(*this, impl_->json, key, "a whole number of at least 0",
-                  [](const auto& v) { return v.IsUint64(); })
-      .GetUint64();
-}
-
-double LineReader::number(const char* key) const {
-  return value_of(*this, impl_->json, key, "a number", is_number).GetDouble();
-}
-
-std::vector<double> LineReader::numbers(const char* key) const {
-  const auto& list = value_of(*this, impl_->json, key, "a list of numbers",
-                              [](const auto& v) { return all_are(v, is_number); });
-  std::vector<double> values;
-  for (const rapidjson::Value& value : list.GetArray()) values.push_back(value.GetDouble());
-  return values;
-}
-
-std::vector<std::string> LineReader::texts(const char* key) const {
-  const auto& list = value_of(*this, impl_->json, key, "a list of texts",
-                              [](const auto& v) { return all_are(v, is_text); });
-  std::vector<std::string> values;
-  for (const rapidjson::Value& value : list.GetArray()) values.push_back(text_of(value));
-  return values;
-}
+template bool LineReader::get(const char*) const;
+template std::uint64_t LineReader::get(const char*) const;
+template double LineReader::get(const char*) const;
+template std::string LineReader::get(const char*) const;
+template std::vector<double> LineReader::get(const char*) const;
+template std::vector<std::string> LineReader::get(const char*) const;
 
 }  // namespace angen::record

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/diagnostics.h"
@@ -11,6 +12,10 @@
 /// before it, so that a line that was damaged, lost or moved is found.
 namespace angen::record {
 
+/// A value of a line.
+using LineValue = std::variant<bool, std::uint64_t, double, std::string, std::vector<double>,
+                               std::vector<std::string>>;
+
 class LineWriter {
  public:
   LineWriter();
@@ -18,13 +23,7 @@ class LineWriter {
   LineWriter(const LineWriter&) = delete;
   LineWriter& operator=(const LineWriter&) = delete;
 
-  LineWriter& text(const char* key, const std::string& value);
-  LineWriter& flag(const char* key, bool value);
-  LineWriter& whole(const char* key, std::uint64_t value);
-  LineWriter& number(const char* key, double value);
-  LineWriter& numbers(const char* key, const std::vector<double>& values);
-  LineWriter& texts(const char* key, const std::vector<std::string>& values);
-
+  LineWriter& add(const char* key, const LineValue& value);
   /// The line, with its end; `sum` is that of the line before, and becomes this one's.
   std::string done(std::uint64_t& sum);
 
@@ -44,15 +43,10 @@ class LineReader {
 
   /// Compares the checksum; `sum` is that of the line before, and becomes this one's.
   void check(std::uint64_t& sum) const;
-
   bool has(const char* key) const;
-  std::string text(const char* key) const;
-  bool flag(const char* key) const;
-  std::uint64_t whole(const char* key) const;
-  double number(const char* key) const;
-  std::vector<double> numbers(const char* key) const;
-  std::vector<std::string> texts(const char* key) const;
-
+  /// T is one of the types of LineValue; a whole number is a double, too.
+  template <class T>
+  T get(const char* key) const;
   [[noreturn]] void fail(const std::string& what) const;
 
  private:

@@ -28,35 +28,26 @@ void check_begin(std::ifstream& stream, const std::string& path) {
 }
 
 LogHeader header_in(const LineReader& line, const Source& at) {
-  const std::uint64_t format = line.whole("angen_log");
-  LogHeader header;
-  header.version = line.text("version");
-  if (format != kLogFormat || header.version != this_version()) {
-    throw Error(at, "was recorded by angen " + header.version + " (format " +
-                        std::to_string(format) + "), this is angen " + this_version() +
-                        " (format " + std::to_string(kLogFormat) +
+  const auto format = line.get<std::uint64_t>("angen_log");
+  const auto version = line.get<std::string>("version");
+  if (format != kLogFormat || version != this_version()) {
+    throw Error(at, "was recorded by angen " + version + " (format " + std::to_string(format) +
+                        "), this is angen " + this_version() + " (format " +
+                        std::to_string(kLogFormat) +
                         "); replay it with the version that recorded it");
   }
-  header.host = line.text("host");
-  header.seed = line.whole("seed");
-  const std::uint64_t step = line.whole("step");
-  if (step == 0 || step > static_cast<std::uint64_t>(kSecond))
-    line.fail("'step' is not 1 ns to 1 s");
-  header.step = static_cast<Nanoseconds>(step);
-  header.world = line.text("world");
-  header.models = line.text("models");
-  header.files = read_files(line);
-  header.sdf = line.text("sdf");
+  LogHeader header = read_header(line);
+  if (header.step <= 0 || header.step > kSecond) line.fail("'step' is not 1 ns to 1 s");
   return header;
 }
 
 LogEntry entry_in(const LineReader& line, int number, Nanoseconds step) {
-  const std::uint64_t tick = line.whole("tick");
+  const auto tick = line.get<std::uint64_t>("tick");
   if (tick > static_cast<std::uint64_t>(std::numeric_limits<Nanoseconds>::max() / step)) {
     line.fail("'tick' exceeds the largest time");
   }
   LogEntry entry{number, static_cast<std::int64_t>(tick), 0, read_content(line)};
-  if (entry.is_action()) entry.batch = line.whole("batch");
+  if (entry.is_action()) entry.batch = line.get<std::uint64_t>("batch");
   return entry;
 }
 
@@ -74,14 +65,6 @@ std::string this_host() {
   }
   return "compiler " __VERSION__ ", glibc " + std::string(gnu_get_libc_version()) + ", " +
          processor;
-}
-
-void write_header(const LogHeader& header, LineWriter& line) {
-  line.whole("angen_log", kLogFormat).text("version", header.version).text("host", header.host);
-  line.whole("seed", header.seed).whole("step", static_cast<std::uint64_t>(header.step));
-  line.text("world", header.world).text("models", header.models);
-  write_files(header.files, line);
-  line.text("sdf", header.sdf);
 }
 
 Log read_log(const std::string& path) {

@@ -7,7 +7,6 @@
 
 #include "core/diagnostics.h"
 #include "core/pose.h"
-#include "record/json_line.h"
 #include "sim/command.h"
 
 /// The log of a run: the input of a replay, line by line. docs/replay.md describes the format.
@@ -78,7 +77,5 @@ std::string this_host();
 /// Throws Error, with the line, for a log of another version or one that is damaged. Only the last
 /// line may be incomplete, as a process that was killed leaves it.
 Log read_log(const std::string& path);
-
-void write_header(const LogHeader& header, LineWriter& line);
 
 }  // namespace angen::record

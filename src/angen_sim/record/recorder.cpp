@@ -43,6 +43,7 @@ Recorder::Recorder(std::string file, const Origin& origin, sim::Simulation& simu
   LogHeader header{this_version(), this_host(),   simulation.seed(),  simulation.snapshot()->step,
                    origin.world,   origin.models, hashed(origin.sdf), origin.sdf};
   LineWriter line;
+  line.add("angen_log", kLogFormat);
   write_header(header, line);
   write(line);
   if (!error_.empty()) {
@@ -69,8 +70,8 @@ void Recorder::action(const sim::Action& action, Nanoseconds time) {
   write_requests();
   if (sim::only_reads(action)) return;
   LineWriter line;
-  line.whole("tick", static_cast<std::uint64_t>(time / simulation_.snapshot()->step));
-  line.whole("batch", batch_);
+  line.add("tick", static_cast<std::uint64_t>(time / simulation_.snapshot()->step));
+  line.add("batch", batch_);
   write_content(content_of(action), line);
   batch_used_ = true;
   write(line);
@@ -112,7 +113,7 @@ void Recorder::write_requests() {
   }
   for (const ReadingRequest& request : requests) {
     LineWriter line;
-    line.whole("tick", static_cast<std::uint64_t>(tick_));
+    line.add("tick", static_cast<std::uint64_t>(tick_));
     write_content(request, line);
     write(line);
   }
@@ -120,7 +121,7 @@ void Recorder::write_requests() {
 
 void Recorder::write_fingerprint() {
   LineWriter line;
-  line.whole("tick", static_cast<std::uint64_t>(tick_));
+  line.add("tick", static_cast<std::uint64_t>(tick_));
   write_content(Check{fingerprint_.text()}, line);
   write(line);
 }

@@ -13,6 +13,8 @@
 
 namespace angen::record {
 
+class LineWriter;
+
 /// The begin of a recording.
 struct Origin {
   std::string world;  // the file's path

@@ -97,7 +97,7 @@ void Patch::build_faces() {
   for (const PlacedHeightmap& heightmap : heightmaps_) {
     boxes.push_back(bounds_of(heightmap).cast<float>());
   }
-  boxes_.build(std::move(boxes));
+  boxes_.build(boxes);
 }
 
 bool Patch::find_in(const Hull& hull, Faces& found) const {

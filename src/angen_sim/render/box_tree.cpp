@@ -1,159 +1,79 @@
 #include "render/box_tree.h"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
-#include <optional>
 
-#include "core/pose.h"
+#include "rays/device.h"
 
 namespace angen::render {
 namespace {
 
-constexpr int kBins = 16;
-constexpr std::size_t kLeastShare = 8;  // 1/8 of the boxes on each side: at most 166 levels
+constexpr unsigned kMaxDepth = 100;  // the stack of any() holds three boxes of each level
 
-float area(const Box& box) { return box.isEmpty() ? 0.0F : half_surface(box); }
-
-/// Some boxes, as numbers, and how to divide them.
-struct Bins {
-  /// Bins of boxes whose middles are from `low` to `high` on an axis.
-  Bins(int on_axis, float from, float to)
-      : axis(on_axis), low(from), per_bin(kBins / (to - from)) {}
-
-  int of(const Box& box) const {
-    return std::clamp(static_cast<int>((box.center()[axis] - low) * per_bin), 0, kBins - 1);
-  }
-  void add(const Box& box) {
-    Bin& bin = bins[static_cast<std::size_t>(of(box))];
-    bin.box.extend(box);
-    ++bin.count;
-  }
-  /// The first bin on the far side of the best division (surface area heuristic, binned, Wald
-  /// 2007); 0 if all leave one side with few boxes.
-  int best(std::size_t total, float& cost) const {
-    std::array<float, kBins> behind{};
-    Box box;
-    std::size_t count = 0;
-    for (std::size_t i = kBins - 1; i > 0; --i) {
-      box.extend(bins[i].box);
-      count += bins[i].count;
-      behind[i] = static_cast<float>(count) * area(box);
-    }
-    box.setEmpty();
-    count = 0;
-    int found = 0;
-    for (std::size_t i = 1; i < kBins; ++i) {
-      box.extend(bins[i - 1].box);
-      count += bins[i - 1].count;
-      const float now = static_cast<float>(count) * area(box) + behind[i];
-      const std::size_t least = std::min(count, total - count);
-      if (least == 0 || least < total / kLeastShare || !(now < cost)) continue;
-      cost = now;
-      found = static_cast<int>(i);
-    }
-    return found;
-  }
-
-  struct Bin {
-    Box box;
-    std::size_t count = 0;
-  };
-  int axis;
-  float low, per_bin;
-  std::array<Bin, kBins> bins;
-};
-
-using Order = std::vector<std::uint32_t>::iterator;
-
-/// Divides boxes in two, neither of them empty.
-Order divide(const std::vector<Box>& boxes, Order begin, Order end) {
-  Box middles;
-  for (auto i = begin; i != end; ++i) middles.extend(boxes[*i].center());
-  const auto total = static_cast<std::size_t>(end - begin);
-  float cost = std::numeric_limits<float>::infinity();
-  std::optional<Bins> chosen;
-  int first = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(middles.sizes()[axis] > 0.0F)) continue;
-    Bins bins(axis, middles.min()[axis], middles.max()[axis]);
-    for (auto i = begin; i != end; ++i) bins.add(boxes[*i]);
-    const int best = bins.best(total, cost);
-    if (best == 0) continue;
-    first = best;
-    chosen = bins;
-  }
-  if (chosen) {
-    return std::partition(begin, end,
-                          [&](std::uint32_t i) { return chosen->of(boxes[i]) < first; });
-  }
-  int axis = 0;
-  middles.sizes().maxCoeff(&axis);
-  const auto half = begin + (end - begin) / 2;
-  std::nth_element(begin, half, end, [&](std::uint32_t a, std::uint32_t b) {
-    return boxes[a].center()[axis] < boxes[b].center()[axis];
-  });
-  return half;
+std::uint32_t link_of(const void* pointer) {
+  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(pointer));
+}
+void* pointer_of(std::size_t number, bool is_leaf) {
+  return reinterpret_cast<void*>(2 * number + (is_leaf ? 1 : 0));
 }
 
 }  // namespace
 
-void BoxTree::build(std::vector<Box> boxes) {
-  struct Part {
-    std::size_t begin, end;
-  };
+void* BoxTree::add_node(RTCThreadLocalAllocator, unsigned count, void* tree) {
+  std::vector<Node>& nodes = static_cast<BoxTree*>(tree)->nodes_;
+  nodes.emplace_back().count = count;
+  return pointer_of(nodes.size() - 1, false);
+}
+
+void* BoxTree::add_leaf(RTCThreadLocalAllocator, const RTCBuildPrimitive* box, std::size_t, void*) {
+  return pointer_of(box->primID, true);
+}
+
+void BoxTree::set_next(void* node, void** next, unsigned count, void* tree) {
+  Node& set = static_cast<BoxTree*>(tree)->nodes_[link_of(node) / 2];
+  std::transform(next, next + count, set.next.begin(), link_of);
+}
+
+void BoxTree::set_boxes(void* node, const RTCBounds** boxes, unsigned count, void* tree) {
+  Boxes4& set = static_cast<BoxTree*>(tree)->nodes_[link_of(node) / 2].boxes;
+  for (unsigned i = 0; i < count; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      set.min[axis][i] = (&boxes[i]->lower_x)[axis];
+      set.max[axis][i] = (&boxes[i]->upper_x)[axis];
+    }
+  }
+}
+
+void BoxTree::build(const std::vector<Box>& boxes) {
   nodes_.clear();
   bounds_.setEmpty();
-  if (boxes.empty()) return;
-  std::vector<std::uint32_t> order(boxes.size());
-  std::iota(order.begin(), order.end(), 0U);
-  const auto box_of = [&](const Part& part) {
-    Box box;
-    for (std::size_t i = part.begin; i < part.end; ++i) box.extend(boxes[order[i]]);
-    return box;
-  };
-  const auto split = [&](const Part& part, Part& left, Part& right) {
-    const auto at = [&](std::size_t i) { return order.begin() + static_cast<std::ptrdiff_t>(i); };
-    const auto middle =
-        static_cast<std::size_t>(divide(boxes, at(part.begin), at(part.end)) - order.begin());
-    left = {part.begin, middle};
-    right = {middle, part.end};
-  };
-  bounds_ = box_of({0, boxes.size()});
-  std::vector<std::pair<std::size_t, Part>> parts{{0, {0, boxes.size()}}};
-  nodes_.emplace_back();
-  while (!parts.empty()) {
-    const auto [number, part] = parts.back();
-    parts.pop_back();
-    std::array<Part, 4> children{part};
-    std::size_t count = 1;
-    while (count < 4) {
-      const auto largest = std::max_element(
-          children.begin(), children.begin() + count,
-          [](const Part& a, const Part& b) { return a.end - a.begin < b.end - b.begin; });
-      if (largest->end - largest->begin < 2) break;
-      Part left, right;
-      split(*largest, left, right);
-      *largest = left;
-      children[count++] = right;
-    }
-    Node node;
-    node.count = static_cast<std::uint32_t>(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Box box = box_of(children[i]);
-      for (int axis = 0; axis < 3; ++axis) {
-        node.boxes.min[axis][i] = box.min()[axis];
-        node.boxes.max[axis][i] = box.max()[axis];
-      }
-      node.is_leaf[i] = children[i].end - children[i].begin == 1;
-      node.next[i] = order[children[i].begin];
-      if (node.is_leaf[i]) continue;
-      node.next[i] = static_cast<std::uint32_t>(nodes_.size());
-      nodes_.emplace_back();
-      parts.emplace_back(node.next[i], children[i]);
-    }
-    nodes_[number] = node;
+  std::vector<RTCBuildPrimitive> parts;
+  for (const Box& box : boxes) {
+    bounds_.extend(box);
+    const Eigen::Vector3f &low = box.min(), &high = box.max();
+    const auto number = static_cast<unsigned>(parts.size());
+    parts.push_back({low.x(), low.y(), low.z(), 0, high.x(), high.y(), high.z(), number});
   }
+  if (boxes.empty()) return;
+  void* root = add_node(nullptr, 1, this);
+  const Eigen::Vector3f &low = bounds_.min(), &high = bounds_.max();
+  const RTCBounds all{low.x(), low.y(), low.z(), 0.0F, high.x(), high.y(), high.z(), 0.0F};
+  const RTCBounds* only = &all;
+  set_boxes(root, &only, 1, this);
+  const rays::Embree<RTCBVH> memory(rtcNewBVH(rays::device()));
+  RTCBuildArguments build = rtcDefaultBuildArguments();
+  build.maxBranchingFactor = 4;
+  build.maxDepth = kMaxDepth;
+  build.maxLeafSize = 1;
+  build.bvh = memory.get();
+  build.primitives = parts.data();
+  build.primitiveCount = build.primitiveArrayCapacity = parts.size();
+  build.createNode = add_node;
+  build.setNodeChildren = set_next;
+  build.setNodeBounds = set_boxes;
+  build.createLeaf = add_leaf;
+  build.userPtr = this;
+  void* next = rtcBuildBVH(&build);
+  set_next(root, &next, 1, this);
 }
 
 }  // namespace angen::render

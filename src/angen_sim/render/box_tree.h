@@ -1,5 +1,7 @@
 #pragma once
 
+#include <embree3/rtcore.h>
+
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
@@ -34,11 +36,11 @@ inline Four overlapping(const Box& box, const Boxes4& boxes) {
   return found;
 }
 
-/// A hierarchy of boxes, with four in each node.
+/// A hierarchy of boxes, with up to four in each node, which Embree divides.
 class BoxTree {
  public:
   /// Replaces all boxes.
-  void build(std::vector<Box> boxes);
+  void build(const std::vector<Box>& boxes);
 
   /// Around all boxes; there is at least one.
   const Box& bounds() const { return bounds_; }
@@ -46,7 +48,7 @@ class BoxTree {
   /// boxes at once.
   template <class Overlaps, class Visit>
   bool any(const Overlaps& overlaps, const Visit& visit) const {
-    std::array<std::uint32_t, 512> waiting;  // at least 1/8 of the boxes each: 166 levels, halved
+    std::array<std::uint32_t, 512> waiting;
     std::size_t count = 0;
     if (!nodes_.empty()) waiting[count++] = 0;
     while (count > 0) {
@@ -54,9 +56,10 @@ class BoxTree {
       const Four found = overlaps(node.boxes) & ((1U << node.count) - 1U);
       for (std::size_t i = 0; i < node.count; ++i) {
         if ((found >> i & 1U) == 0) continue;
-        if (!node.is_leaf[i]) {
-          waiting[count++] = node.next[i];
-        } else if (visit(node.next[i])) {
+        const std::uint32_t next = node.next[i] / 2;
+        if (node.next[i] % 2 == 0) {
+          waiting[count++] = next;
+        } else if (visit(next)) {
           return true;
         }
       }
@@ -67,12 +70,17 @@ class BoxTree {
  private:
   struct Node {
     Boxes4 boxes;
-    std::array<std::uint32_t, 4> next;  // a node, or the box's number in a leaf
-    std::array<bool, 4> is_leaf;
+    std::array<std::uint32_t, 4> next;  // twice a node's number, or a box's and one more
     std::uint32_t count = 0;
   };
 
-  std::vector<Node> nodes_;
+  // The builder calls these; a node is twice its number.
+  static void* add_node(RTCThreadLocalAllocator, unsigned count, void* tree);
+  static void* add_leaf(RTCThreadLocalAllocator, const RTCBuildPrimitive* box, std::size_t, void*);
+  static void set_next(void* node, void** next, unsigned count, void* tree);
+  static void set_boxes(void* node, const RTCBounds** boxes, unsigned count, void* tree);
+
+  std::vector<Node> nodes_;  // the first has all boxes
   Box bounds_;
 };
 

@@ -115,9 +115,9 @@ bool Hull::may_be_cut_by(const Face& face) const {
   return true;
 }
 
-// A segment from a to b passes an edge on the inner side by the sign of the volume that both span,
-// which is linear in a and in b: it is that of the middles, give or take what the boxes' halves
-// add.
+// A segment from a to b passes an edge on the inner side by the sign of the volume that both
+// span, which is linear in a and in b: it is that of the middles, give or take what the boxes'
+// halves add.
 bool Hull::is_cut_by(const Face& face) const {
   if (!may_be_cut_by(face)) return false;
   const auto at = [&](std::size_t i) -> Eigen::Vector3d {

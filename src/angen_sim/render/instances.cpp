@@ -129,7 +129,7 @@ void Instances::commit() {
     boxes.emplace_back(center - half, center + half);
     boxed_.push_back(i);
   }
-  boxes_.build(std::move(boxes));
+  boxes_.build(boxes);
 }
 
 void Instances::find_hits(const int* valid, const Among& among, RTCIntersectContextFlags flags,

@@ -6,8 +6,8 @@
 
 namespace angen::render {
 
-/// A shape as triangles in its own frame, m. Round ones are inside the true surface by up to 0.2 %
-/// of their radius; a plane without a size is 1 km wide. Bad sizes give no triangles.
+/// A shape as triangles in its own frame, m. Round ones are inside the true surface by up to
+/// 0.2 % of their radius; a plane without a size is 1 km wide. Bad sizes give no triangles.
 TriangleMesh tessellate(const Shape& shape);
 
 /// Texture coordinates of a triangle of a tessellated shape: u v of its three corners. The texture

@@ -16,8 +16,8 @@ struct Numbers {
 };
 
 /// Entries added and removed between two structures. Others keep their order. A model's entries are
-/// added and removed with it, also where its description was replaced. A light of the world's own
-/// that has changed is another.
+/// added and removed with it, also where its description was replaced. A light of the world's
+/// own that has changed is another.
 struct Changes {
   Numbers models;
   Numbers links;

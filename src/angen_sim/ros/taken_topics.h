@@ -18,8 +18,8 @@ struct NewSensor {
 /// Topics of a model.
 std::vector<NewSensor> new_sensors(const desc::Model& model);
 
-/// Throws Error if one of them would publish on a topic of this node that carries another type
-/// of message. Topics under a robot's name are not checked. Any thread.
+/// Throws Error if one of them would publish on a topic of this node that carries another type of
+/// message. Topics under a robot's name are not checked. Any thread.
 void check_topics(const std::vector<NewSensor>& sensors, Catalog& catalog, Topics topics);
 
 }  // namespace angen::node

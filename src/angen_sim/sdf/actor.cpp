@@ -82,14 +82,6 @@ constexpr double kSkin = 307.0;      // K: of a bare face and hands
 constexpr double kClothed = 299.0;   // K: of clothes, in a room
 constexpr double kBareShare = 0.12;  // share of a clothed person's surface: head and hands
 
-Element leaf(const std::string& name, const std::string& text, const Source& source) {
-  Element element;
-  element.name = name;
-  element.text = text;
-  element.source = source;
-  return element;
-}
-
 struct Waypoint {
   double time;
   Pose pose;
@@ -144,11 +136,6 @@ double given_temperature(const Element& plugin, const std::string& name, double 
               "<" + name + "> is " + number_text(kelvin) + " K; it must be greater than 0");
 }
 
-void set_source(Element& element, const Source& source) {
-  element.source = source;
-  for (Element& child : element.children) set_source(child, source);
-}
-
 }  // namespace
 
 desc::Model describe_actor(const Element& given, Session& session) {
@@ -187,7 +174,7 @@ desc::Model describe_actor(const Element& given, Session& session) {
   if (const Reader script = reader.block("script")) {
     const std::vector<Waypoint> waypoints = waypoints_of(script.element(), model.pose, session);
     for (const Waypoint& w : waypoints) {
-      plugin.children.push_back(leaf("waypoint", row(w), w.source));
+      plugin.children.push_back({"waypoint", row(w), {}, {}, w.source});
     }
     script.flag("loop", false);
     script.number("delay_start", Range::not_negative(limits::kTime));

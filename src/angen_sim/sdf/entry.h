@@ -16,9 +16,9 @@ struct Entry {
 
 Entry expand_entry(const Element& element, Session& session);
 
-/// Each entry's model, with its name, plug-ins and texts for `save`; the pose only of actors. One
-/// that includes the same file as another in the same way is read once. Names must differ. Throws
-/// Error; removes the entries that the dialect leaves out.
+/// Each entry's model, with its name, plug-ins and texts for `save`; the pose only of actors.
+/// One that includes the same file as another in the same way is read once. Names must differ.
+/// Throws Error; removes the entries that the dialect leaves out.
 std::vector<desc::Model> describe_entries(std::vector<Entry>& entries, Session& session);
 
 /// Adds the memory of an expanded <model>, <actor> or <light> to the session's sum: its

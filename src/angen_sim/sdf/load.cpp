@@ -71,8 +71,7 @@ Element model_from_text(Element root, Session& session) {
 }
 
 Element model_from_file(const std::string& what) {
-  Element include;
-  include.name = "include";
+  Element include{"include"};
   std::string uri = what;
   if (what.find("://") == std::string::npos) {
     std::error_code failed;
@@ -150,16 +149,8 @@ Element checked_lone(const std::string& what, const std::string& name, const std
 
 // A model whose one link holds the sensor.
 Element holder_of(const Element& sensor) {
-  Element link;
-  link.name = "link";
-  link.source = sensor.source;
-  link.attributes = {{"name", "link"}};
-  link.children = {sensor};
-  Element model = link;
-  model.name = "model";
-  model.attributes = {{"name", "model"}};
-  model.children = {link};
-  return model;
+  const Element link{"link", "", {{"name", "link"}}, {sensor}, sensor.source};
+  return {"model", "", {{"name", "model"}}, {link}, sensor.source};
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ void replace_child(Element& element, Element child) {
 
 Element& child_made(Element& element, const std::string& name) {
   if (Element* found = find_child(element, name)) return *found;
-  element.children.push_back(element_of(name));
+  element.children.push_back(Element{name});
   return element.children.back();
 }
 
@@ -34,15 +34,15 @@ bool equal(const desc::Inertial& a, const desc::Inertial& b) {
 }
 
 Element inertial_element(const desc::Inertial& inertial) {
-  Element element = element_of("inertial");
-  element.children.push_back(element_of("mass", number_text(inertial.mass)));
-  element.children.push_back(element_of("pose", pose_text(inertial.pose)));
-  Element inertia = element_of("inertia");
+  Element element{"inertial"};
+  element.children.push_back(Element{"mass", number_text(inertial.mass)});
+  element.children.push_back(Element{"pose", pose_text(inertial.pose)});
+  Element inertia{"inertia"};
   const char* const axes = "xyz";
   for (int i = 0; i < 3; ++i) {
     for (int j = i; j < 3; ++j) {
       const std::string name = std::string("i") + axes[i] + axes[j];
-      inertia.children.push_back(element_of(name, number_text(inertial.moment(i, j))));
+      inertia.children.push_back(Element{name, number_text(inertial.moment(i, j))});
     }
   }
   element.children.push_back(std::move(inertia));
@@ -50,18 +50,18 @@ Element inertial_element(const desc::Inertial& inertial) {
 }
 
 void write_light(const desc::Light& light, Element& element) {
-  replace_child(element, element_of("pose", pose_text(light.pose)));
-  replace_child(element, element_of("diffuse", vector_text(light.diffuse.cast<double>()) + " 1"));
-  replace_child(element, element_of("cast_shadows", light.cast_shadows ? "true" : "false"));
+  replace_child(element, Element{"pose", pose_text(light.pose)});
+  replace_child(element, Element{"diffuse", vector_text(light.diffuse.cast<double>()) + " 1"});
+  replace_child(element, Element{"cast_shadows", light.cast_shadows ? "true" : "false"});
   if (light.type != desc::Light::Type::kPoint) {
-    replace_child(element, element_of("direction", vector_text(light.direction)));
+    replace_child(element, Element{"direction", vector_text(light.direction)});
   }
 }
 
 void write_link(const desc::Link& read, const desc::Link& now, Element& element) {
   if (!equal(read.inertial, now.inertial)) replace_child(element, inertial_element(now.inertial));
   if (read.gravity != now.gravity) {
-    replace_child(element, element_of("gravity", now.gravity ? "true" : "false"));
+    replace_child(element, Element{"gravity", now.gravity ? "true" : "false"});
   }
   for (std::size_t i = 0; i < std::min(read.lights.size(), now.lights.size()); ++i) {
     if (read.lights[i] == now.lights[i]) continue;
@@ -109,25 +109,15 @@ Element& physics_of(const desc::World& read, Element& world) {
   if (const Element* found = chosen_physics(world)) {
     return world.children[static_cast<std::size_t>(found - world.children.data())];
   }
-  Element physics = element_of("physics");
-  set_attribute(physics, "name", "default");
-  set_attribute(physics, "type", "ode");
+  Element physics{"physics", "", {{"name", "default"}, {"type", "ode"}}};
+  physics.children.push_back(Element{"max_step_size", number_text(to_seconds(read.physics.step))});
   physics.children.push_back(
-      element_of("max_step_size", number_text(to_seconds(read.physics.step))));
-  physics.children.push_back(
-      element_of("real_time_factor", number_text(read.physics.real_time_factor)));
+      Element{"real_time_factor", number_text(read.physics.real_time_factor)});
   world.children.push_back(std::move(physics));
   return world.children.back();
 }
 
 }  // namespace
-
-Element element_of(const std::string& name, const std::string& text) {
-  Element element;
-  element.name = name;
-  element.text = text;
-  return element;
-}
 
 Element* find_part(Element& model, const std::string& element, const std::string& name) {
   const std::size_t at = name.find("::");
@@ -192,7 +182,7 @@ void write_lights(const desc::World& read, const std::vector<LightState>& now, E
 
 void write_settings(const desc::World& read, const WorldState& now, Element& world) {
   if (now.gravity != read.gravity) {
-    replace_child(world, element_of("gravity", vector_text(now.gravity)));
+    replace_child(world, Element{"gravity", vector_text(now.gravity)});
   }
   if (equal(now.physics, read.physics)) return;
   Element& ode = child_made(physics_of(read, world), "ode");

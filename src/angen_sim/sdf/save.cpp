@@ -75,22 +75,18 @@ Element written(const ModelState& state) {
 
 // A joint that is pushed a little into its stop is saved at the stop.
 Element joint_state(const desc::Joint& joint, const std::vector<double>& positions) {
-  Element element = element_of("joint");
-  set_attribute(element, "name", joint.name);
+  Element element{"joint", "", {{"name", joint.name}}};
   for (std::size_t i = 0; i < std::min(positions.size(), joint.axes.size()); ++i) {
     const desc::JointAxis& axis = joint.axes[i];
-    Element angle =
-        element_of("angle", number_text(std::clamp(positions[i], axis.lower, axis.upper)));
-    set_attribute(angle, "axis", std::to_string(i));
-    element.children.push_back(std::move(angle));
+    const double position = std::clamp(positions[i], axis.lower, axis.upper);
+    element.children.push_back({"angle", number_text(position), {{"axis", std::to_string(i)}}});
   }
   return element;
 }
 
 Element model_state(const ModelState& state) {
-  Element element = element_of("model");
-  set_attribute(element, "name", state.model->name);
-  element.children.push_back(element_of("pose", pose_text(state.pose)));
+  Element element{"model", "", {{"name", state.model->name}}};
+  element.children.push_back(Element{"pose", pose_text(state.pose)});
   for (const auto& [name, positions] : state.joint_positions) {
     for (const desc::Joint& joint : state.model->joints) {
       if (joint.name != name || joint.axes.empty()) continue;
@@ -113,15 +109,13 @@ std::string save(const desc::World& world, const std::vector<ModelState>& models
   Element saved = parse_xml(world.xml, world.name);
   write_settings(world, now, saved);
   write_lights(world, now.lights, saved);
-  Element states = element_of("state");
-  set_attribute(states, "world_name", world.name);
+  Element states{"state", "", {{"world_name", world.name}}};
   for (const ModelState& state : models) {
     saved.children.push_back(written(state));
     if (!state.model->is_static) states.children.push_back(model_state(state));
   }
   if (!states.children.empty()) saved.children.push_back(std::move(states));
-  Element root = element_of("sdf");
-  set_attribute(root, "version", "1.9");
+  Element root{"sdf", "", {{"version", "1.9"}}};
   root.children.push_back(std::move(saved));
   std::string text = print_xml(root);
   if (text.find("angen:") != std::string::npos) {  // other readers of XML want to know the prefix

@@ -1,9 +1,9 @@
 #include <map>
 #include <set>
-#include <sstream>
 #include <vector>
 
 #include "core/nearest.h"
+#include "core/text.h"
 #include "sdf/reader.h"
 
 namespace angen::load {
@@ -107,9 +107,8 @@ using Names = std::set<std::string>;
 
 std::map<std::string, Names> read_children() {
   std::map<std::string, Names> children;
-  std::istringstream words(kChildren);
   Names* names = nullptr;
-  for (std::string word; words >> word;) {
+  for (const std::string& word : words_in(kChildren)) {
     if (word.back() == ':') {
       names = &children[word.substr(0, word.size() - 1)];
     } else {

@@ -293,10 +293,7 @@ void place_all(const Parts& parts, desc::World& to, Session& session) {
       world.children.push_back(entry.expanded);  // placed by a frame of its own
       continue;
     }
-    Element model;
-    model.name = "model";
-    model.source = entry.original.source;
-    model.attributes = {{"name", name_of(entry.expanded)}};
+    Element model{"model", "", {{"name", name_of(entry.expanded)}}, {}, entry.original.source};
     if (const Element* pose = entry.expanded.child("pose")) model.children.push_back(*pose);
     world.children.push_back(std::move(model));
   }
@@ -375,9 +372,7 @@ std::string world_text(const std::string& path, bool allow_any) {
   Element world = std::move(parts.settings);
   for (Entry& entry : parts.entries) world.children.push_back(std::move(entry.expanded));
   for (Element& state : parts.states) world.children.push_back(std::move(state));
-  Element sdf;
-  sdf.name = "sdf";
-  sdf.attributes = {{"version", "1.9"}};
+  Element sdf{"sdf", "", {{"version", "1.9"}}};
   sdf.children.push_back(std::move(world));
   return print_xml(sdf);
 }

@@ -24,8 +24,8 @@ struct Obstacles {
   int floors = 0;
 };
 
-/// `way` is the path's unit vector; crossings are in its order. Shapes that overlap are one, as are
-/// those that touch face to face and make a wall of at most 0.5 m.
+/// `way` is the path's unit vector; crossings are in its order. Shapes that overlap are one, as
+/// are those that touch face to face and make a wall of at most 0.5 m.
 Obstacles obstacles_on(const std::vector<rays::Crossing>& crossings, const Vec3& way);
 
 /// dB that the obstacles add to the loss in free space.

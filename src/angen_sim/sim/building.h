@@ -92,8 +92,8 @@ class Building {
   void set_physics(const desc::Physics& physics, const Vec3& gravity);
   const Vec3& gravity() const { return gravity_; }  // m/s^2
 
-  /// The light of that name in Structure::lights, its pose in the world. Throws Error for names
-  /// that are unknown, or taken.
+  /// The light of that name in Structure::lights, its pose in the world. Throws Error for
+  /// names that are unknown, or taken.
   desc::Light light(const std::string& name) const;
   void set_light(const std::string& name, desc::Light light);
   void add_light(const desc::Light& light, const std::string& sdf, Nanoseconds now);

@@ -109,8 +109,8 @@ inline bool only_reads(const Action& action) {
   return std::holds_alternative<Save>(action) || std::holds_alternative<Observe>(action);
 }
 
-/// Gets each action before it is executed, in order, and the time of its execution; in the thread
-/// that ticks.
+/// Gets each action before it is executed, in order, and the time of its execution; in the
+/// thread that ticks.
 using ActionObserver = std::function<void(const Action&, Nanoseconds)>;
 
 struct Request {

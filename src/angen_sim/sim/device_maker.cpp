@@ -193,9 +193,7 @@ class DeviceMaker {
   // The index of "link" or "model::link"; the first for "".
   std::uint32_t link_index(const std::string& name) const {
     if (name.empty()) return 0;
-    const std::string prefix = model_.name + "::";
-    const std::string local = name.rfind(prefix, 0) == 0 ? name.substr(prefix.size()) : name;
-    if (const auto index = index_in(model_.links, local)) return *index;
+    if (const auto index = index_in(model_.links, local_name(model_.name, name))) return *index;
     throw Error("model '" + model_.name + "' has no link '" + name + "'; known are " +
                 join_names(info_.links));
   }

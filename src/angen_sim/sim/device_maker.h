@@ -18,8 +18,8 @@ namespace angen::sim {
 void make_devices(LiveModel& live, const std::vector<desc::Plugin>& world_plugins, Catalog& catalog,
                   std::vector<std::string>& warnings);
 
-/// The lamp of a light without a plug-in, for that light as `live` describes it now: at the level
-/// that it has, or at that of the start.
+/// The lamp of a light without a plug-in, for that light as `live` describes it now: at the
+/// level that it has, or at that of the start.
 void remake_own_lamp(LiveModel& live, DeviceInstance& lamp, bool keep_level, Catalog& catalog,
                      std::vector<std::string>& warnings);
 

@@ -37,8 +37,8 @@ std::vector<std::vector<std::uint32_t>> joints_by_child(const desc::Model& model
   return joints;
 }
 
-// Glass and the like, which lets more than half of the light through, is not seen. Limbs are bodies
-// of their own; limb -1 is the rest of the link.
+// Glass and the like, which lets more than half of the light through, is not seen. Limbs are
+// bodies of their own; limb -1 is the rest of the link.
 render::Body visible(const desc::Link& link, const Pose& pose, bool moves, int limb = -1) {
   render::Body body;
   body.pose = pose;

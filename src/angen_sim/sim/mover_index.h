@@ -10,10 +10,10 @@
 
 namespace angen::sim {
 
-/// Knows which moving shapes are near each watched region (a box in which a sensor's rays run), and
-/// which regions changed since when. A mover is indexed by a box somewhat larger than its own and
-/// indexed again only when it has left that box, so the cost of a tick depends on the movers in it,
-/// not on the number of regions.
+/// Knows which moving shapes are near each watched region (a box in which a sensor's rays run),
+/// and which regions changed since when. A mover is indexed by a box somewhat larger than its own
+/// and indexed again only when it has left that box, so the cost of a tick depends on the movers in
+/// it, not on the number of regions.
 class MoverIndex {
  public:
   using Box = Eigen::AlignedBox3d;

@@ -8,9 +8,9 @@
 
 namespace angen::sim {
 
-/// The sensors' part of a tick: those that are due aim, one cast answers all, they read. The rays
-/// of a sensor that does not move are cast against movers only; readings are the same as if each
-/// sensor had cast all its rays at each due time.
+/// The sensors' part of a tick: those that are due aim, one cast answers all, they read. The
+/// rays of a sensor that does not move are cast against movers only; readings are the same as if
+/// each sensor had cast all its rays at each due time.
 class SensorSystem {
  public:
   SensorSystem(std::uint64_t seed, const RequestedSensors& requested, Meter& meter)

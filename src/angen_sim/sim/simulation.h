@@ -66,8 +66,8 @@ class Simulation {
   /// To be executed in the next tick, after an accept_only_replay().
   void replay(std::vector<Action> actions);
 
-  /// The motion of a link now, by its number in Structure::links of the latest snapshot. The thread
-  /// that ticks; others post an Observe.
+  /// The motion of a link now, by its number in Structure::links of the latest snapshot. The
+  /// thread that ticks; others post an Observe.
   Motion motion(std::uint32_t link) const;
   /// Like an Observe; throws Error for names that do not exist. Only the thread that ticks may call
   /// it.

@@ -69,8 +69,8 @@ void expect_arrives(const char* verb, double free, const Torque& load, const std
   EXPECT_LT(found.took, 2.0 * free) << verb << " " << what;
 }
 
-// A load that comes with the command looks like an obstacle that holds the leaf: nothing was known
-// of it at the start.
+// A load that comes with the command looks like an obstacle that holds the leaf: nothing was
+// known of it at the start.
 TEST(DoorLoad, ArrivesInTwiceTheTimeAgainstATorqueUpToAHundred) {
   const std::vector<std::pair<double, std::vector<double>>> loads = {
       {-1.0, {-100.0, 6.0, 30.0, 100.0}},        // s after the command, N m; steady,

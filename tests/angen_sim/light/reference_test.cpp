@@ -255,9 +255,9 @@ TEST(Reference, ASpotHasHalfItsIntensityAtItsHalfAngle) {
   EXPECT_EQ(lux(open.lighting, facing(Vec3(0, 0, 4), -Vec3::UnitZ())), 0.0);
 }
 
-/// A closed cube of 4 m about the origin, of slabs that meet without an overlap. They are as thick
-/// as 1.5 times the spacing of points in the cells of the wider ones, so that a row of these points
-/// is in the plane of the neighbor's inner side.
+/// A closed cube of 4 m about the origin, of slabs that meet without an overlap. They are as
+/// thick as 1.5 times the spacing of points in the cells of the wider ones, so that a row of these
+/// points is in the plane of the neighbor's inner side.
 void add_flush_cube(rays::Scene& scene, const Eigen::Vector3f& albedo) {
   constexpr double kThick = 6.0 / 41;
   for (int axis = 0; axis < 3; ++axis) {

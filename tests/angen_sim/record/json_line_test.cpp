@@ -10,7 +10,7 @@ namespace {
 
 double number_in(const std::string& text) {
   const std::string line = "{\"x\":" + text + "}";
-  return LineReader(line, {"a.log", 3}, 100).number("x");
+  return LineReader(line, {"a.log", 3}, 100).get<double>("x");
 }
 
 std::string wrong_with(const std::string& text) {
@@ -26,14 +26,14 @@ TEST(JsonLine, NumbersAreReadAsTheyWereWritten) {
   const double tiny = std::numeric_limits<double>::denorm_min();
   const double most = std::numeric_limits<double>::max();
   std::uint64_t sum = 0;
-  const std::string line =
-      LineWriter()
-          .numbers("x", {0.1, -0.0, 1.0 / 3.0, tiny, -most, 3.0, INFINITY, -INFINITY, std::nan("")})
-          .whole("n", std::numeric_limits<std::uint64_t>::max())
-          .done(sum);
+  const std::string line = LineWriter()
+                               .add("x", std::vector<double>{0.1, -0.0, 1.0 / 3.0, tiny, -most, 3.0,
+                                                             INFINITY, -INFINITY, std::nan("")})
+                               .add("n", std::numeric_limits<std::uint64_t>::max())
+                               .done(sum);
   const std::string text = line.substr(0, line.size() - 1);
   const LineReader reader(text, {"a.log", 1}, 0);
-  const std::vector<double> numbers = reader.numbers("x");
+  const auto numbers = reader.get<std::vector<double>>("x");
   ASSERT_EQ(numbers.size(), 9U);
   EXPECT_EQ(numbers[0], 0.1);
   EXPECT_TRUE(std::signbit(numbers[1]));
@@ -44,7 +44,7 @@ TEST(JsonLine, NumbersAreReadAsTheyWereWritten) {
   EXPECT_EQ(numbers[6], INFINITY);
   EXPECT_EQ(numbers[7], -INFINITY);
   EXPECT_TRUE(std::isnan(numbers[8]));
-  EXPECT_EQ(reader.whole("n"), std::numeric_limits<std::uint64_t>::max());
+  EXPECT_EQ(reader.get<std::uint64_t>("n"), std::numeric_limits<std::uint64_t>::max());
 }
 
 TEST(JsonLine, ManyZerosAndLargeExponentsAreNumbersToo) {
@@ -68,8 +68,8 @@ TEST(JsonLine, ATextIsNotANumberNorTheOtherWayRound) {
   const std::string missing = "is missing, or not a ";
   EXPECT_NE(wrong_with("\"1\"").find("'x' " + missing + "number"), std::string::npos);
   const std::string line = "{\"x\":1.5}";
-  EXPECT_THROW(LineReader(line, {"a.log", 1}, 0).text("x"), Error);
-  EXPECT_THROW(LineReader(line, {"a.log", 1}, 0).whole("x"), Error);
+  EXPECT_THROW(LineReader(line, {"a.log", 1}, 0).get<std::string>("x"), Error);
+  EXPECT_THROW(LineReader(line, {"a.log", 1}, 0).get<std::uint64_t>("x"), Error);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <angen_msgs/DoorState.h>
 #include <angen_msgs/ElevatorState.h>
+#include <angen_msgs/LampState.h>
 #include <angen_msgs/PersonState.h>
 #include <angen_msgs/PirMsg.h>
 #include <angen_msgs/Reading.h>
@@ -52,6 +53,30 @@ TEST(Messages, Pir) {
   EXPECT_EQ(message.threshold, 0.1);
   EXPECT_EQ(message.signal, 4.0);
   EXPECT_EQ(message.signal_threshold, 1.0);
+}
+
+TEST(Messages, FieldsThatAReadingMayLackStayAsTheyAre) {
+  Reading heat;
+  heat.set("motion", true);
+  heat.set("signal", 4.0);
+  heat.set("signal_threshold", 1.0);
+  angen_msgs::PirMsg detected;
+  detected.threshold = 0.7;
+  fill("pir", heat, {}, detected);
+  EXPECT_TRUE(detected.motion);
+  EXPECT_FALSE(detected.departure);
+  EXPECT_EQ(detected.difference, 0.0);
+  EXPECT_EQ(detected.threshold, 0.7);
+  EXPECT_EQ(detected.signal, 4.0);
+  Reading bulb;
+  bulb.set("on", true);
+  bulb.set("level", 40.0);
+  bulb.set("luminous_flux", 800.0);
+  angen_msgs::LampState lamp;
+  fill("lamp", bulb, {"kitchen0", "world"}, lamp);
+  EXPECT_EQ(lamp.name, "kitchen0");
+  EXPECT_EQ(lamp.luminous_flux, 800.0);
+  EXPECT_EQ(lamp.illuminance, 0.0);
 }
 
 TEST(Messages, SwitchTakesTwoRanges) {

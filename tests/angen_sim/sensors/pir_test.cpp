@@ -272,8 +272,8 @@ TEST(Pir, OneThatDoesNotNodHasNoDepartures) {
   EXPECT_FALSE(reading.get<bool>("departure", true));
 }
 
-/// Numbers of samples in a row that are still, then report motion, then are still, … with something
-/// that moves before each of the first `moving` samples of `all`.
+/// Numbers of samples in a row that are still, then report motion, then are still, … with
+/// something that moves before each of the first `moving` samples of `all`.
 std::vector<int> run_lengths(const std::vector<std::pair<std::string, std::string>>& parameters,
                              int moving, int all) {
   Bench bench(kPir, plugin_element(parameters), fan(5, 1));

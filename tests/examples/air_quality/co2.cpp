@@ -4,9 +4,9 @@
 
 namespace air_quality {
 
-/// The CO2 of a well-mixed room: people in view breathe out, fresh air comes in (the mass balance
-/// of ASTM D6245). A person is in view where the first thing on the ray to the chest is near the
-/// chest.
+/// The CO2 of a well-mixed room: people in view breathe out, fresh air comes in (the mass
+/// balance of ASTM D6245). A person is in view where the first thing on the ray to the chest is
+/// near the chest.
 class Co2 : public angen::Sensor {
  public:
   void configure(angen::Params& params, angen::Wiring&) override {

@@ -39,8 +39,8 @@ void fill_transform(const Reading& reading, const Label& label,
   made.transform.rotation = to_ros(orientation_in(reading));
 }
 
-/// The truth of a link: velocities are along the axes of the frame, and the label's name is that
-/// of the link.
+/// The truth of a link: velocities are along the axes of the frame, and the label's name is that of
+/// the link.
 void fill_truth(const Reading& reading, const Label& label, nav_msgs::Odometry& message) {
   message.child_frame_id = label.name;
   fill_pose(reading, message.pose.pose);

@@ -15,8 +15,8 @@ struct Window {
   double high = 0.0;
 };
 
-/// The zones of a detector's two elements, through the facets of its Fresnel lens: rows of zones
-/// of alternating sign from right to left. Elements and the gaps between them are equally wide.
+/// The zones of a detector's two elements, through the facets of its Fresnel lens: rows of zones of
+/// alternating sign from right to left. Elements and the gaps between them are equally wide.
 class FresnelLens {
   struct Zones {
     Window window;

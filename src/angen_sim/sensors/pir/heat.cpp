@@ -140,8 +140,8 @@ bool Heat::radiates(const rays::WarmShape& shape, Nanoseconds now) const {
   return shape.course.at(now) != air_ || shape.course.limit != air_;
 }
 
-// While only temperatures change, hits stay the same. False where a surface radiates
-// that did not when it was sampled.
+// While only temperatures change, hits stay the same. False where a surface radiates that did not
+// when it was sampled.
 bool Heat::reheat(const View& view) {
   std::size_t next = 0;
   for (const rays::WarmShape& shape : view.warm_shapes()) {  // shapes_ has some, in this order

@@ -11,10 +11,7 @@ namespace angen::sensors {
 /// A motion detector, by one of two models.
 class PirPlugin : public Plugin {
  public:
-  const Kind& kind() const override {
-    static const Kind described = describe();
-    return described;
-  }
+  ANGEN_DESCRIBED_AS(describe())
   std::unique_ptr<Sensor> make_sensor(Params& params) const override {
     const std::string model =
         params.choice("model", kRanges, {kRanges, kHeat}, "how it detects motion");
