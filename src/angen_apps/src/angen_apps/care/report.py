@@ -1,18 +1,13 @@
 """The output of care: lines for people, warnings.csv, events.csv."""
-from __future__ import annotations
-
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Iterable, Sequence
+from typing import Any, Iterable, Sequence
 
 from angen_tools.common.clock import show_time
 from angen_apps.care.engine import RAISED, CareWarning, Change, Engine
 from angen_tools.session import Event
 from angen_tools.common.files import write_csv
-from angen_tools.common.output import table
+from angen_tools.common.output import Table, table
 from angen_tools.offline.events import COLUMNS, row
-
-if TYPE_CHECKING:
-    from rich.table import Table
 
 KIND = 'care'  # kind of its events
 LOGGED = {RAISED: 'warning'}  # its name in the event log, where that differs

@@ -1,20 +1,15 @@
 """Reports the accuracy of the answers: a table, a CSV file and a figure."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Iterable, Sequence
+from typing import Iterable, Sequence
 
 import numpy as np
 
 from angen_apps.locate.belief import Answer
 from angen_tools.common import files
 from angen_tools.common.home import Home
-from angen_tools.common.output import as_json, number, table
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
+from angen_tools.common.output import RenderableType, as_json, number, table
 
 HEAD = ('TAG', 'SECONDS', 'KNOWN', 'ROOM RIGHT', 'RIGHT WHERE KNOWN', 'MEDIAN', '90 %')
 ANSWERS = ('TAG', 'ROOM', 'CHANCE', 'X', 'Y', 'Z')

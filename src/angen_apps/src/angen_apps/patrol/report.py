@@ -1,20 +1,14 @@
 """Files and texts of a patrol: events.csv, rooms.csv, and the printed summary."""
-from __future__ import annotations
-
 import csv
 import math
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from angen_tools.common.files import write_csv
-from angen_tools.common.output import table
+from angen_tools.common.output import Table, table
 from angen_tools.world import sdf
-
-if TYPE_CHECKING:
-    from rich.table import Table
 
 from angen_apps.patrol.scene import Scene
 from angen_apps.patrol.sight import Sight

@@ -1,19 +1,13 @@
 """Files and texts of a search: of one, and of many."""
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from statistics import mean, median
-from typing import TYPE_CHECKING
 
 from angen_apps.robot.tables import write_events, write_figures, write_track
 from angen_apps.seek.home import Home
 from angen_apps.seek.run import Figures, Outcome
 from angen_tools.common.files import write_csv
-from angen_tools.common.output import table
-
-if TYPE_CHECKING:
-    from rich.table import Table
+from angen_tools.common.output import Table, table
 
 WITH, WITHOUT = 'WITH s', 'WITHOUT s'
 HEAD = ('SEED', WITH, 'ROOM', 'BESIDE cm', 'm', WITHOUT, 'ROOM ', 'BESIDE cm ', 'm ', 'COLLISIONS')

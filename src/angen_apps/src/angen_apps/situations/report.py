@@ -1,17 +1,12 @@
 """Reports the outcomes of the situations: a table for the terminal or a page, and JSON."""
-from __future__ import annotations
-
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Mapping, Sequence
+from typing import Any, Mapping, Sequence
 
 from angen_apps.situations.stage import Outcome
 from angen_tools.common import files
 from angen_tools.common.failure import Failure
-from angen_tools.common.output import table
-
-if TYPE_CHECKING:
-    from rich.table import Table
+from angen_tools.common.output import Table, table
 
 Results = Sequence[Sequence[Outcome]]  # each row's, of one or two models
 MARKED = re.compile(r'(<!-- situations -->\n).*?(<!-- end -->)', re.DOTALL)

@@ -1,8 +1,6 @@
 """Prints results of commands: tables, JSON. In a terminal tables are rich's and fit its width;
 elsewhere a row is one plain line, never cut or wrapped, for grep and the like.
 """
-from __future__ import annotations
-
 import json
 import sys
 from typing import TYPE_CHECKING, Any, Callable, Iterable, TextIO
@@ -10,6 +8,8 @@ from typing import TYPE_CHECKING, Any, Callable, Iterable, TextIO
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
     from rich.table import Table
+else:
+    Console = RenderableType = Table = object  # commands that print no table start without rich
 
 SEED = 2**53 - 1  # the largest: JSON has no larger whole numbers
 ENDLESS = 1_000_000  # columns, more than any table has

@@ -1,18 +1,13 @@
 """angen list: the contents of the world."""
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from angen_tools.common.catalog import kinds
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import yaw
 from angen_tools.common.nearest import did_you_mean
-from angen_tools.common.output import as_json, table
+from angen_tools.common.output import RenderableType, as_json, table
 from angen_tools.session import Entity
 from angen_tools.session.live import Live
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
 
 
 def list_entities(kind: str, json: bool) -> RenderableType:

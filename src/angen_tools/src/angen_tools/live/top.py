@@ -1,16 +1,11 @@
 """angen top: the costs of each device and sensor, live."""
-from __future__ import annotations
-
 import sys
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from angen_tools.common.failure import Failure
-from angen_tools.common.output import as_json, number, plain, table
+from angen_tools.common.output import RenderableType, as_json, number, plain, table
 from angen_tools.session.live import Live
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
 
 TOPIC = 'angen/cost'
 LIMIT = 10.0    # s of wall time for the first message; it comes after about one

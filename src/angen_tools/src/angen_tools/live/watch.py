@@ -1,21 +1,16 @@
 """angen watch: every sensor and device, live."""
-from __future__ import annotations
-
 import sys
 import time
 from contextlib import suppress
-from typing import TYPE_CHECKING, Sequence
+from typing import Sequence
 
 from angen_tools.common.catalog import kinds
 from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import did_you_mean
-from angen_tools.common.output import as_json, table
+from angen_tools.common.output import RenderableType, as_json, table
 from angen_tools.common.shown import values_of
 from angen_tools.live.summary import Board, Filter, Row
 from angen_tools.session.live import Live
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
 
 REFRESH = 0.25  # s of wall time between two pictures
 MARGIN = 0.5    # simulated s over its period in which a sensor's first reading comes

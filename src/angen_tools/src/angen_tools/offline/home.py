@@ -1,15 +1,10 @@
 """angen home: the description of a world's home, and its missing and wrong parts."""
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Door, Home
-from angen_tools.common.output import as_json, number, plain, table
-
-if TYPE_CHECKING:
-    from rich.table import Table
+from angen_tools.common.output import Table, as_json, number, plain, table
 
 Findings = list[tuple[str, str]]  # ('guessed' or 'contradicting', what)
 

@@ -1,21 +1,16 @@
 """angen luxcheck: compares closed forms of photometry with small worlds, measured by luminosity
 sensors, as any world's are.
 """
-from __future__ import annotations
-
 import tempfile
 from dataclasses import asdict, dataclass
 from itertools import product
 from math import atan, cos, hypot, log, pi, sin
 from pathlib import Path
-from typing import TYPE_CHECKING, Iterator
+from typing import Iterator
 
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.files import write_text
-from angen_tools.common.output import as_json, number, table
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
+from angen_tools.common.output import RenderableType, as_json, number, table
 
 NUMBERS = ('THEORY lx', 'MEASURED lx', 'ERROR', 'LIMIT')
 DIRECT_LIMIT = 0.01     # relative

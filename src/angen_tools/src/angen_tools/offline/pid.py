@@ -1,21 +1,15 @@
 """angen pid: how a door and an elevator answer a step under P, P + I, PID and Angen's own
 controller, each simulated as in any world and compared with the closed form.
 """
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from angen_tools.common.catalog import simulator
 from angen_tools.common.files import pyplot, save_figure
-from angen_tools.common.output import as_json, number, table
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
+from angen_tools.common.output import RenderableType, as_json, number, table
 
 STEP = 0.001            # s
 GRAVITY = 9.81          # m/s^2

@@ -1,17 +1,12 @@
 """angen plugins: the catalog of plug-ins, without a simulator."""
-from __future__ import annotations
-
 import re
-from typing import TYPE_CHECKING, Any, Iterator, Sequence
+from typing import Any, Iterator, Sequence
 
 from angen_tools.common.catalog import Plugin, kind_of, plugins
 from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import asked, nearest
-from angen_tools.common.output import as_json, table
+from angen_tools.common.output import RenderableType, as_json, table
 from angen_tools.common.verbs import described_forms
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
 
 
 def list_plugins(names: Sequence[str], json: bool) -> RenderableType:
