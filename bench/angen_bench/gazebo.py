@@ -1,6 +1,4 @@
 """Gazebo 11 as a peer for benches: gzserver of Debian 11 in a chroot, without ROS."""
-from __future__ import annotations
-
 import os
 import queue
 import subprocess
@@ -8,7 +6,7 @@ import threading
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Mapping
+from typing import Mapping, Self
 
 from angen_tools.common.failure import Failure
 from angen_tools.common.port import free_port
@@ -101,7 +99,7 @@ class Gazebo:
             end(self._process)
             raise
 
-    def __enter__(self) -> Gazebo:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -1,13 +1,11 @@
 """Measures a running node: processor time, simulated time, readings, memory."""
-from __future__ import annotations
-
 import math
 import subprocess
 import threading
 import time
 from dataclasses import dataclass
 from statistics import median
-from typing import Any, Callable, Sequence
+from typing import Any, Callable, Self, Sequence
 
 from angen_tools.common.failure import Failure
 from angen_tools.common.wait import wait
@@ -65,7 +63,7 @@ class Meter:
         self.first: dict[str, float] = {}  # topic: wall time of its first message
         self._subscribers = [rospy.Subscriber('/angen/stats', Stats, self._take)]
 
-    def __enter__(self) -> Meter:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -1,11 +1,9 @@
 """A browser without a window, for tests of the page of angen web."""
-from __future__ import annotations
-
 import os
 import signal
 import subprocess
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from harness import SLOWNESS, HasEnvironment, end, free_port, until
 from selenium.common.exceptions import StaleElementReferenceException
@@ -41,7 +39,7 @@ class Server:
             self.end()
             raise
 
-    def __enter__(self) -> Server:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -72,7 +70,7 @@ class Page:
         self.driver = Chrome(options=options, service=Service('/usr/bin/chromedriver'))
         self.driver.set_script_timeout(LIMIT)
 
-    def __enter__(self) -> Page:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:

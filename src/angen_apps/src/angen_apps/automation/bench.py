@@ -1,6 +1,4 @@
 """Runs a scenario: simulated time goes from event to event, and what is tested acts between."""
-from __future__ import annotations
-
 import math
 import tempfile
 from dataclasses import dataclass, field
@@ -63,7 +61,7 @@ class Subject(Protocol):
     @property
     def due(self) -> float: ...
 
-    def begin(self, bench: Bench) -> None: ...
+    def begin(self, bench: 'Bench') -> None: ...
 
     def observe(self, changes: Sequence[Change], now: float) -> None: ...
 
@@ -86,7 +84,7 @@ class HomeAssistant:
             self.automations += read_automations(path, entities)
         self.needs = set(_names(self.automations))
 
-    def begin(self, bench: Bench) -> None:
+    def begin(self, bench: 'Bench') -> None:
         sky = Sky(bench.house.start, latitude_of(bench.house.site.home))
         self.engine = Engine(self.automations, bench.entities, sky, bench.order, bench.now)
 

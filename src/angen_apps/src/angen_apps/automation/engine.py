@@ -1,7 +1,5 @@
 """Runs automations of Home Assistant in simulated time: changes of states and time in, services
 out. Its clock is told by the bench."""
-from __future__ import annotations
-
 import datetime
 import heapq
 import itertools
@@ -100,7 +98,7 @@ class Timers:
 class Watched:
     """A trigger that waits to fire; `for` is counted for each entity."""
 
-    def __init__(self, engine: Engine, trigger: Trigger, fire: Callable[[str], None]) -> None:
+    def __init__(self, engine: 'Engine', trigger: Trigger, fire: Callable[[str], None]) -> None:
         self._engine, self._trigger, self._fire = engine, trigger, fire
         self._timers: dict[str, int] = {}  # by entity
         self._left: dict[str, str] = {}  # the state that each with a timer has left
@@ -177,7 +175,7 @@ class Watched:
 class Run:
     """The actions of an automation, from a trigger on."""
 
-    def __init__(self, engine: Engine, automation: Automation, trigger: str) -> None:
+    def __init__(self, engine: 'Engine', automation: Automation, trigger: str) -> None:
         self._engine, self._automation, self._trigger = engine, automation, trigger
         self._steps = self._all(automation.actions)
         self._waits: list[Watched] = []

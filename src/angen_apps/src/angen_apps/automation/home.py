@@ -1,6 +1,4 @@
 """The home of a scenario: its world, its sensors, and the people in it."""
-from __future__ import annotations
-
 import datetime
 from contextlib import suppress
 from dataclasses import replace
@@ -51,7 +49,7 @@ class Clocked(Simulator):
 class Actor:
     """A person of the script."""
 
-    def __init__(self, home: House, name: str) -> None:
+    def __init__(self, home: 'House', name: str) -> None:
         self._home, self.name, self.posture, self.away = home, name, 'stand', True
 
     @property

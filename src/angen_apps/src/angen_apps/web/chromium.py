@@ -1,6 +1,4 @@
 """A browser without a window, moved through its pipe: it listens on no port, and ends with us."""
-from __future__ import annotations
-
 import base64
 import fcntl
 import json
@@ -11,7 +9,7 @@ import subprocess
 import tempfile
 import time
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from angen_tools.common.failure import Failure
 
@@ -67,7 +65,7 @@ class Chromium:
             self.__exit__()
             raise
 
-    def __enter__(self) -> Chromium:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:

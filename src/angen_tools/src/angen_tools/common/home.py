@@ -1,8 +1,6 @@
 """A home as the simulator describes it: rooms, their contents and connections (docs/home.md).
 
 Lengths in m, angles in rad, in the world."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field, is_dataclass
 from functools import cache
@@ -62,7 +60,7 @@ class Room:
     def at_height(self, z: float) -> bool:
         return self.floor - IN_WALL <= z <= self.ceiling + IN_WALL
 
-    def gap(self, other: Room) -> float:
+    def gap(self, other: 'Room') -> float:
         """Between the nearest edges of two rooms."""
         return min(min(other.distance(x, y) for x, y in self.polygon),
                    min(self.distance(x, y) for x, y in other.polygon))
@@ -130,13 +128,13 @@ class Home:
     elevators: list[Elevator] = field(default_factory=list)
 
     @staticmethod
-    def of(given: Any) -> Home:
+    def of(given: Any) -> 'Home':
         """The home of a dict such as `world.home`, or of an angen_msgs/Home."""
         home: Home = _made(Home, given)
         return home
 
     @staticmethod
-    def of_world(world: Any) -> Home:
+    def of_world(world: Any) -> 'Home':
         """The home of an `angen.World`."""
         return Home.of(world.home)
 

@@ -1,9 +1,7 @@
 """The progress of a command, on stderr."""
-from __future__ import annotations
-
 import sys
 import time
-from typing import Any
+from typing import Any, Self
 
 REFRESH = 0.1  # s of wall time between two pictures of the bar
 SILENT = 10.0  # s of wall time between two lines
@@ -30,7 +28,7 @@ class Progress:
             self._task = self._bar.add_task(what, total=1.0, text='')
             self._bar.start()
 
-    def __enter__(self) -> Progress:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:

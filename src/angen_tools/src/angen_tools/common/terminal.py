@@ -1,6 +1,4 @@
 """A terminal whose keys come one by one, and a live table that fills it."""
-from __future__ import annotations
-
 import math
 import os
 import select
@@ -8,7 +6,7 @@ import sys
 import termios
 import tty
 from contextlib import contextmanager
-from typing import Iterator, Sequence
+from typing import Iterator, Self, Sequence
 
 from angen_tools.common.output import console, table
 
@@ -49,7 +47,7 @@ class LiveTable:
         self._keys = single_keys()
         self._page = 0
 
-    def __enter__(self) -> LiveTable:
+    def __enter__(self) -> Self:
         self._keys.__enter__()
         self._live.__enter__()
         return self

@@ -1,8 +1,6 @@
 """./angen run: a ROS master where none runs, and the launch file. Ends all that it has started, and
 restarts both where the master was lost.
 """
-from __future__ import annotations
-
 import itertools
 import math
 import os
@@ -12,7 +10,7 @@ import sys
 import time
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, NoReturn, Sequence
+from typing import Any, NoReturn, Self, Sequence
 
 from angen_tools.common.clock import duration
 from angen_tools.common.failure import Failure, code_of
@@ -70,7 +68,7 @@ class Session:
         self._master: subprocess.Popen[bytes] | None = None
         self._launch: subprocess.Popen[bytes] | None = None
 
-    def __enter__(self) -> Session:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:

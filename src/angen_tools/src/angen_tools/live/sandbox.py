@@ -1,7 +1,5 @@
 """A ROS master of its own on a free port, the node, rviz. Ends its processes, by process id; when
 it is killed itself, a watchdog does."""
-from __future__ import annotations
-
 import os
 import re
 import shutil
@@ -10,7 +8,7 @@ import subprocess
 import time
 from contextlib import ExitStack, suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import later_signals
@@ -57,7 +55,7 @@ class Sandbox:
             self._all.close()
             raise
 
-    def __enter__(self) -> Sandbox:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -1,9 +1,7 @@
 """A world in this process: `import angen`, as fast as possible."""
-from __future__ import annotations
-
 import math
 from contextlib import suppress
-from typing import Any, Iterator, Sequence
+from typing import Any, Iterator, Self, Sequence
 
 from angen_tools.common.catalog import simulator
 from angen_tools.common.failure import Failure
@@ -20,7 +18,7 @@ class InProcess(World):
         self._stamps: dict[tuple[str, str], float] = {}  # stamps of states handed out
 
     @classmethod
-    def load(cls, path: str, seed: int = 1) -> InProcess:
+    def load(cls, path: str, seed: int = 1) -> Self:
         """The world of a file; Failure if it does not load."""
         with simulator() as angen:
             return cls(angen.World(path, seed))
