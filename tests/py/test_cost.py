@@ -1,15 +1,14 @@
 """Memory and time of large worlds; too large ones are rejected before they take it."""
-import multiprocessing
 import os
 import resource
 import subprocess
 import sys
-import time
 
 import pytest
 
 import angen
 from sdf_text import sdf_world
+from spent import spent_on
 
 
 def links(count: int) -> str:
@@ -42,25 +41,8 @@ def sensors(count: int) -> str:
     return f'<model name="m"><static>true</static><link name="l">{each}</link></model>'
 
 
-def measure(content: str, queue) -> None:
-    """Peak memory (MB above what an empty world takes) and CPU time (s) of loading a world."""
-    angen.World.from_text(sdf_world(''))
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    start = time.process_time()
+def load(content: str) -> None:
     angen.World.from_text(sdf_world(content))
-    cpu = time.process_time() - start
-    queue.put((max(0, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024, cpu))
-
-
-def cost_of(content: str) -> tuple[float, float]:
-    """The same in a process of its own."""
-    context = multiprocessing.get_context('spawn')
-    queue = context.Queue()
-    child = context.Process(target=measure, args=(content, queue))
-    child.start()
-    result = queue.get(timeout=300)
-    child.join()
-    return result
 
 
 @pytest.mark.parametrize('make, count, megabytes', [
@@ -68,7 +50,7 @@ def cost_of(content: str) -> tuple[float, float]:
     (sensors, 1200, 150)])
 def test_memory_of_a_large_model_grows_with_its_size(make, count, megabytes) -> None:
     """They took 165, 497, 220, 285 and 513 MB, and 9,000 links 14 s, with libsdformat's frames."""
-    memory, cpu = cost_of(make(count))
+    _, cpu, memory = spent_on(load, make(count))
     print(f'{make.__name__} {count}: {memory:.0f} MB, {cpu:.1f} s')
     assert memory < megabytes
 

@@ -1,14 +1,8 @@
 """The measurements of bench/physics.py, from SDF to published values, within its tolerances."""
-import sys
-from pathlib import Path
-
 import pytest
 
 import angen
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / 'bench'))
-
-import physics  # noqa: E402
+import physics
 
 EXPERIMENTS = {
     'fall': physics.free_fall,

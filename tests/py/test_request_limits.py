@@ -1,14 +1,12 @@
 """Limits of requests: checked before time and memory are spent on them."""
-import multiprocessing
-import resource
 import subprocess
 import sys
-import time
 
 import pytest
 
 import angen
 from sdf_text import sdf_world
+from spent import spent_on
 
 LONGEST, LARGEST = 5.0, 500.0  # s of CPU time, MB
 
@@ -83,41 +81,26 @@ TEXTS = {
 }
 
 
-def spend(text: str, queue) -> None:
-    """The answer to a spawn, its CPU time (s), and its peak memory (MB)."""
+def spawn(text: str) -> str:
+    """The answer to a spawn in a world of its own, with the omissions of a model."""
     world = angen.World.from_text(sdf_world(''))
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    start = time.process_time()
     try:
         world.spawn(text)
-        answer = ' '.join(event[4] for event in world.events())  # with the omissions of a model
     except Exception as error:
-        answer = str(error)
-    spent = time.process_time() - start
-    queue.put((answer, spent, (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024))
-
-
-def spent_on(text: str) -> tuple[str, float, float]:
-    """What spend() says, in a process of its own."""
-    context = multiprocessing.get_context('spawn')
-    queue = context.Queue()
-    child = context.Process(target=spend, args=(text, queue))
-    child.start()
-    spent = queue.get(timeout=300)
-    child.join()
-    return spent
+        return str(error)
+    return ' '.join(event[4] for event in world.events())
 
 
 @pytest.mark.parametrize('what', TEXTS)
 def test_too_much_is_rejected_at_once(what: str) -> None:
     text, reason = TEXTS[what]
-    answer, seconds, megabytes = spent_on(text)
+    answer, seconds, megabytes = spent_on(spawn, text)
     assert reason in answer and len(answer) < 2000
     assert seconds < LONGEST and megabytes < LARGEST
 
 
 def test_as_many_plug_ins_as_are_taken_are_read_at_once() -> None:
-    _, seconds, megabytes = spent_on(robot(plugins(9_900, 'libgazebo_ros_p3d.so')))
+    _, seconds, megabytes = spent_on(spawn, robot(plugins(9_900, 'libgazebo_ros_p3d.so')))
     assert seconds < LONGEST and megabytes < LARGEST
 
 

@@ -1,10 +1,5 @@
 """Models spawned into the furniture of a flat are not thrown: a sample of bench/spawns.py."""
-import sys
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / 'bench'))
-
-import spawns  # noqa: E402
+import spawns
 
 
 def test_no_model_is_thrown_out_of_an_overlap() -> None:
