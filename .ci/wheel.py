@@ -7,8 +7,6 @@ its applications, models and worlds, and the libraries that they need.
 writes FOLDER/angen-VERSION-….whl and prints its name. Each MODULE is the module angen for a
 further version of Python.
 """
-from __future__ import annotations
-
 import base64
 import hashlib
 import platform

@@ -5,8 +5,6 @@
 in ./angen shell, with mosquitto. CPU times say more than times on a busy machine; the load is
 printed.
 """
-from __future__ import annotations
-
 import argparse
 import os
 import statistics

@@ -6,8 +6,6 @@
 
 Exit code 1 where a figure is beyond its tolerance.
 """
-from __future__ import annotations
-
 import argparse
 import math
 import sys

@@ -8,8 +8,6 @@ Three rooms of movable furniture, a door ajar in one: each is written as a world
 Radiance. Exit code 1 where a sensor differs by more than 2 % or 0.05 lx and the tracer's own
 noise.
 """
-from __future__ import annotations
-
 import argparse
 import math
 import os

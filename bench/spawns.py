@@ -6,8 +6,6 @@
 Each loose model of worlds/models in turn is spawned at a random place in the lower flat of
 worlds/angen.world, for half a second; the person stands. Ends with exit code 1 if one is too fast.
 """
-from __future__ import annotations
-
 import argparse
 import random
 import sys

@@ -7,8 +7,6 @@
 CPU time of the ticking thread, without ROS. Once a minute a lamp and a luminosity sensor are
 spawned and deleted; their files are loaded in the same thread, unlike in the node.
 """
-from __future__ import annotations
-
 import argparse
 import gc
 import sys

@@ -6,8 +6,6 @@
 A person walks between places of the apartment whose doors are open, in two worlds with the
 sensors of `angen generate`. An event is equal if the other world has it within a sample (40 ms).
 """
-from __future__ import annotations
-
 import argparse
 import math
 import tempfile

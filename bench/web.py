@@ -4,8 +4,6 @@
 
 in ./angen shell. CPU times say more than times on a busy machine; the load is printed.
 """
-from __future__ import annotations
-
 import argparse
 import asyncio
 import json

@@ -1,6 +1,4 @@
 """The plots of docs/devices; docs/plots.py draws them."""
-from __future__ import annotations
-
 import matplotlib.pyplot as plt
 import numpy as np
 from plot_base import air, curves, figure, include, sampled, world

@@ -1,7 +1,5 @@
 #!/usr/bin/env python3
 """Makes pictures of the pages again, from this version: ./angen docs --pictures [NAME ...]"""
-from __future__ import annotations
-
 import shlex
 import shutil
 import subprocess

@@ -1,6 +1,4 @@
 """The plots of docs/sensors/pir.md; docs/plots.py draws them."""
-from __future__ import annotations
-
 import math
 from typing import Iterable
 

@@ -1,6 +1,4 @@
 """Worlds, runs and axes of the plots; docs/plots.py draws them."""
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 from typing import Callable, Iterable, Mapping, Sequence

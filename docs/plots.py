@@ -4,8 +4,6 @@
     ./angen shell
     python3 docs/plots.py            # all of them, or the names of some
 """
-from __future__ import annotations
-
 import sys
 from typing import Callable
 

@@ -6,8 +6,6 @@
 
 Residents live in this process until such a moment; its world is saved, and shown by a node.
 """
-from __future__ import annotations
-
 import datetime
 import math
 import multiprocessing

@@ -6,8 +6,6 @@
 
 VIEW is a saved view that ./angen run gives rviz.
 """
-from __future__ import annotations
-
 import subprocess
 import sys
 import tempfile

@@ -7,8 +7,6 @@
 The text comes from the catalog files beside the plug-in libraries, which the build makes of the
 plug-ins' own descriptions; the index comes from the titles of docs/devices/ and docs/sensors/.
 """
-from __future__ import annotations
-
 import argparse
 import json
 import re

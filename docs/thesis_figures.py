@@ -4,8 +4,6 @@
     ./angen shell
     python3 docs/thesis_figures.py [-o FOLDER] [NAME ...]     # all of them into docs/images/thesis
 """
-from __future__ import annotations
-
 import argparse
 import re
 from collections import Counter

@@ -6,8 +6,6 @@
 
 NAME is live, replay, tower, edit or film; without one it draws all.
 """
-from __future__ import annotations
-
 import subprocess
 import sys
 import tempfile

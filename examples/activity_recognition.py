@@ -3,8 +3,6 @@
 
     ./angen shell -c "python3 examples/activity_recognition.py --days 30 -o out"
 """
-from __future__ import annotations
-
 import argparse
 import subprocess
 from pathlib import Path

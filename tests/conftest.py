@@ -2,8 +2,6 @@
 
 The tests in ROS share a master of their own.
 """
-from __future__ import annotations
-
 import os
 import re
 import signal

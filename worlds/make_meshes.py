@@ -5,8 +5,6 @@
 
 The meshes are made here and carry the repository's licence (Apache-2.0).
 """
-from __future__ import annotations
-
 import argparse
 from math import cos, pi, sin
 from pathlib import Path

@@ -6,8 +6,6 @@
 Names, outer sizes and masses are those by which worlds use them; nothing else is theirs. Those that
 worlds name by their mesh (model://cafe_table/meshes/cafe_table.dae) have one.
 """
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
 

@@ -4,8 +4,6 @@
     python3 worlds/make_worlds.py                 write everything
     python3 worlds/make_worlds.py --list-doors    where to spawn the six doors of a floor
 """
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

@@ -1,6 +1,4 @@
 """angen bench on the command line."""
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

@@ -1,6 +1,4 @@
 """Runs the worlds of a bench in Angen and in Gazebo, in turn."""
-from __future__ import annotations
-
 import sys
 import tempfile
 import time

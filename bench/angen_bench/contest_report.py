@@ -1,6 +1,4 @@
 """angen bench sensors --vs gazebo: the same worlds in both simulators, measured in turn."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, fields
 from pathlib import Path

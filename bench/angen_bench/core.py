@@ -1,6 +1,4 @@
 """angen bench core: the cost of the core without ROS, as ratios, by google-benchmark."""
-from __future__ import annotations
-
 import json as jsonlib
 import resource
 import subprocess

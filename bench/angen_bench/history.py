@@ -1,6 +1,4 @@
 """bench/history.csv: the ratios of angen bench core, for each release."""
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 from typing import Mapping, Sequence

@@ -1,6 +1,4 @@
 """Imports homes and examines them: counts, areas, rays, doors, rooms that a person reaches."""
-from __future__ import annotations
-
 import time
 import zipfile
 from dataclasses import dataclass

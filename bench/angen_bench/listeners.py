@@ -4,8 +4,6 @@ They speak TCPROS and decode nothing, so that the machine measures the node and 
 read messages and drop them; sleepers connect and never read. A line on stdout
 says when all are connected.
 """
-from __future__ import annotations
-
 import os
 import resource
 import selectors

@@ -1,6 +1,4 @@
 """angen bench load: a node that serves many sensors, subscribers, commands and spawns at once."""
-from __future__ import annotations
-
 import itertools
 import random
 import sys

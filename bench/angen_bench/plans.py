@@ -1,6 +1,4 @@
 """Plans to import and examine: Sweet Home 3D's examples, buildings of Open-RMF, scans, maps."""
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
 

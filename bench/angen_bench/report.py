@@ -1,6 +1,4 @@
 """Reports of the benches: medians, CSV, a straight line, a figure."""
-from __future__ import annotations
-
 import math
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path

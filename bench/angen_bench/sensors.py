@@ -1,6 +1,4 @@
 """angen bench sensors: the cost of sensors, with a master, nodes and rviz of its own."""
-from __future__ import annotations
-
 import sys
 import tempfile
 from collections import Counter

@@ -1,6 +1,4 @@
 """angen bench soak: spawns and deletes everything again and again, and shows leaks."""
-from __future__ import annotations
-
 import gc
 import itertools
 import statistics

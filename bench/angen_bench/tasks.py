@@ -1,6 +1,4 @@
 """Runs demo, seek and care in imported homes: results, times and failures."""
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -1,6 +1,4 @@
 """The built-in building on a broker, and pictures of pages beside it."""
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -10,8 +10,6 @@ Python 3.11, into the folder. WHAT is
     wall       one scenario at rate 1, by the wall's clock, which takes half an hour
 Without a word it does entities and bench.
 """
-from __future__ import annotations
-
 import argparse
 import csv
 import json

@@ -7,8 +7,6 @@ It prints, as JSON, the number of its entities by domain, those that it has not 
 of the kitchen's lamp and door after it has switched and opened them. If the folder has a dashboard,
 ui-lovelace.yaml, it serves that until its input ends.
 """
-from __future__ import annotations
-
 import asyncio
 import json
 import logging

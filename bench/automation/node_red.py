@@ -8,8 +8,6 @@ is
     picture    docs/images/node_red.png: its editor beside angen mqtt, in chromium
 Without a word it does bench.
 """
-from __future__ import annotations
-
 import argparse
 import json
 import os

@@ -4,8 +4,6 @@
 
 in ./angen shell; pictures are in the folder.
 """
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

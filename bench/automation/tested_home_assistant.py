@@ -7,8 +7,6 @@ runs it in an environment that has Home Assistant.
 As its own tests do, it replaces the clock: that of timers, which the loop of events has, and that
 of dates. With --wall its clock is the wall's; a scenario must have `rate: 1` and `answers: quiet`.
 """
-from __future__ import annotations
-
 import asyncio
 import datetime
 import math

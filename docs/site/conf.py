@@ -1,6 +1,4 @@
 """The pages as a site with search, by Sphinx: ./angen docs. Its menu is the README's lists."""
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path

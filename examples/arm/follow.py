@@ -4,8 +4,6 @@
 Both controllers get a FollowJointTrajectory goal, as MoveIt sends them, and are compared all the
 way with the joint states that the simulator has.
 """
-from __future__ import annotations
-
 import sys
 
 import actionlib

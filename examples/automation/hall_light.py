@@ -4,8 +4,6 @@
 
 Times are simulated, of the topic angen/simulation/simulation/time.
 """
-from __future__ import annotations
-
 import socket
 import sys
 from typing import Any

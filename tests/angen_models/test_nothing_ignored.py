@@ -1,6 +1,4 @@
 """Angen's own worlds and models have no element that Angen ignores: typing errors show."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

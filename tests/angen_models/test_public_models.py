@@ -1,6 +1,4 @@
 """The models of names that public worlds include are what their script makes."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

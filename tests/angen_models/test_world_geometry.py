@@ -1,6 +1,4 @@
 """The built-in building, measured: nothing overlaps, all is reachable, sensors see their room."""
-from __future__ import annotations
-
 from collections import Counter
 from itertools import pairwise
 from math import hypot

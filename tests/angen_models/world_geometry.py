@@ -1,6 +1,4 @@
 """The collisions of a world, as `import angen` has them, and the gaps between them."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property

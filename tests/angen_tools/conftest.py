@@ -1,6 +1,4 @@
 """Fixtures of the tests of angen_tools."""
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from subprocess import CompletedProcess

@@ -3,8 +3,6 @@
 angen_bench imports angen_apps, both import angen_tools, which finds their commands by name, and all
 import angen_models.
 """
-from __future__ import annotations
-
 import ast
 import functools
 from graphlib import CycleError, TopologicalSorter

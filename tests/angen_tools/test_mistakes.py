@@ -1,6 +1,4 @@
 """Mistakes that people make, and the answer to each: a line, an exit code, no traceback."""
-from __future__ import annotations
-
 import functools
 import os
 import shlex

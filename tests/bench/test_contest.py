@@ -1,6 +1,4 @@
 """The contest continues where Gazebo fails."""
-from __future__ import annotations
-
 from contextlib import suppress
 
 import pytest

@@ -1,6 +1,4 @@
 """Tables of two simulators, from figures made up here."""
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 

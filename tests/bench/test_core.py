@@ -1,6 +1,4 @@
 """The table of angen bench core, from a report as google-benchmark writes it."""
-from __future__ import annotations
-
 import json
 
 import pytest

@@ -1,6 +1,4 @@
 """The probe in Gazebo and the chroot that it runs in."""
-from __future__ import annotations
-
 import os
 import subprocess
 from pathlib import Path

@@ -1,6 +1,4 @@
 """bench/history.csv, from rows as angen bench core makes them."""
-from __future__ import annotations
-
 from pathlib import Path
 
 from angen_bench import core, history

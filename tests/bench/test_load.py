@@ -1,6 +1,4 @@
 """The figures of a run of angen bench load, and its subscribers."""
-from __future__ import annotations
-
 import socket
 import struct
 import threading

@@ -1,6 +1,4 @@
 """Due times of measurements, and the choice of sensors to subscribe to."""
-from __future__ import annotations
-
 import pytest
 
 from angen_bench.measure import due, spread

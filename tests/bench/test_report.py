@@ -1,6 +1,4 @@
 """Reports of the bench: lines, medians, CSV, a figure."""
-from __future__ import annotations
-
 import csv
 import math
 from pathlib import Path

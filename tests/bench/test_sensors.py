@@ -1,6 +1,4 @@
 """The cases of a bench."""
-from __future__ import annotations
-
 import pytest
 
 from angen_bench import commands

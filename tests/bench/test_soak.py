@@ -1,6 +1,4 @@
 """The verdict of angen bench soak about samples."""
-from __future__ import annotations
-
 from typing import Sequence
 
 import pytest

@@ -1,6 +1,4 @@
 """The rows of the tasks in imported homes."""
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from types import SimpleNamespace

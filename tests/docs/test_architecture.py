@@ -1,6 +1,4 @@
 """Claims of docs/architecture.md about the code: who uses what, and who names what."""
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 Left out are those that do not end by themselves or take longer than a minute, and those that need
 root, a network, or hands.
 """
-from __future__ import annotations
-
 import os
 import re
 import signal

@@ -1,6 +1,4 @@
 """Comments of the code begin with their subject, and say if and instead of."""
-from __future__ import annotations
-
 import io
 import re
 import tokenize

@@ -1,6 +1,4 @@
 """The simulator accepts the models that docs/ shows, and the command the words."""
-from __future__ import annotations
-
 import re
 import shlex
 from pathlib import Path

@@ -1,6 +1,4 @@
 """Links within the repository lead to files and headings that exist, and each page is linked."""
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -2,8 +2,6 @@
 
 C++ tests are named after their sources, or CONTRIBUTING.md names them as tests across files.
 """
-from __future__ import annotations
-
 import functools
 import re
 from pathlib import Path

@@ -1,6 +1,4 @@
 """docs/reference/ has the output of docs/tables.py, and pages lead to each kind."""
-from __future__ import annotations
-
 import importlib.util
 from pathlib import Path
 from typing import Any

@@ -1,6 +1,4 @@
 """Pages have lines that fit an editor, and describe the present only."""
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

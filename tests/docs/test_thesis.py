@@ -1,6 +1,4 @@
 """docs/thesis.md has a row for each section, figure and appendix, whose command runs."""
-from __future__ import annotations
-
 import re
 from typing import Iterator
 

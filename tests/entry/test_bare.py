@@ -1,6 +1,4 @@
 """The script that runs commands on a bare Debian 12; debootstrap makes only empty folders here."""
-from __future__ import annotations
-
 import os
 from pathlib import Path
 import shutil

@@ -1,6 +1,4 @@
 """The first run of the shell entry: packages first, then the build; its output; one more try."""
-from __future__ import annotations
-
 import os
 from pathlib import Path
 import shutil

@@ -1,6 +1,4 @@
 """An installation works without the sources and the build: models, worlds, tools, plug-ins."""
-from __future__ import annotations
-
 import os
 import re
 import shlex

@@ -1,6 +1,4 @@
 """The wheel, and the Debian packages: what they list, contain and need."""
-from __future__ import annotations
-
 import base64
 import csv
 import hashlib

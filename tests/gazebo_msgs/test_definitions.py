@@ -1,6 +1,5 @@
 """Programs connect where types have gazebo_ros's md5 sums: facts of its interface (noetic)."""
 
-from __future__ import annotations
 
 from pathlib import Path
 

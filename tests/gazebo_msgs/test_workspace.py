@@ -1,6 +1,5 @@
 """A catkin workspace that has another gazebo_msgs, as docs/gazebo.md says."""
 
-from __future__ import annotations
 
 import re
 from pathlib import Path

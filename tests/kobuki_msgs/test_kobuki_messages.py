@@ -1,6 +1,4 @@
 """Programs connect where types have the md5 sums of kobuki_msgs 0.7."""
-from __future__ import annotations
-
 from pathlib import Path
 
 from genmsg import MsgContext

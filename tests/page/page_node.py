@@ -1,6 +1,4 @@
 """Runs scripts of this folder, which import the page's modules, in node."""
-from __future__ import annotations
-
 import shutil
 import subprocess
 from pathlib import Path

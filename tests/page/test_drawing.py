@@ -1,6 +1,4 @@
 """The edits of the page's drawing, run by node, which TypeScript's compiler brings along."""
-from __future__ import annotations
-
 import shutil
 import subprocess
 from pathlib import Path

@@ -1,6 +1,4 @@
 """The floors of things on the plan and in 3D."""
-from __future__ import annotations
-
 import dataclasses
 import json
 from pathlib import Path

@@ -1,6 +1,4 @@
 """The page in other languages: every text of it has one there, and nothing else has."""
-from __future__ import annotations
-
 import json
 import re
 from html.parser import HTMLParser

@@ -1,6 +1,4 @@
 """The places of names on a plan."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import page_node

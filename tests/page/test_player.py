@@ -1,6 +1,4 @@
 """The time of a recording on the page."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import page_node

@@ -1,6 +1,4 @@
 """Worlds for the tests of `import angen`; none of them needs ROS."""
-from __future__ import annotations
-
 from typing import Callable
 
 import pytest

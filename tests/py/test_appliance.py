@@ -1,6 +1,4 @@
 """Fans, televisions and stereos: power, sound and light against the laws that they follow."""
-from __future__ import annotations
-
 from math import inf, log10
 
 import pytest

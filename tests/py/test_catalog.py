@@ -1,6 +1,4 @@
 """The small sensors of the catalog, each against what geometry or physics say it must read."""
-from __future__ import annotations
-
 from math import asin, exp
 
 import pytest

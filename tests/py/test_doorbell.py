@@ -1,6 +1,4 @@
 """The doorbell: how long it rings, and how loud it is elsewhere."""
-from __future__ import annotations
-
 from math import log10, pi
 
 import pytest

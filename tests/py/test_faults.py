@@ -1,6 +1,4 @@
 """Faults of sensors: as often as requested, and each of them is reported."""
-from __future__ import annotations
-
 from math import log
 
 import pytest

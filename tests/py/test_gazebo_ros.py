@@ -1,6 +1,4 @@
 """gzserver's and spawn_model's words, without a master."""
-from __future__ import annotations
-
 import io
 import math
 from pathlib import Path

@@ -1,6 +1,4 @@
 """Queries of shapes, joints and fields of view; tests/angen_apps/plan/test_outlines.py has more."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import angen

@@ -1,6 +1,4 @@
 """Rays, rasters and floors in Python: closed forms."""
-from __future__ import annotations
-
 import pickle
 
 import angen

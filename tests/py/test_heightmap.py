@@ -1,6 +1,4 @@
 """A heightmap of the largest size: its cost, and that bodies rest on it and cameras see them."""
-from __future__ import annotations
-
 import os
 import struct
 import subprocess

@@ -1,6 +1,4 @@
 """The home that is derived from a world: `world.home` and its findings."""
-from __future__ import annotations
-
 import math
 from typing import Callable
 

@@ -1,6 +1,4 @@
 """People in air and in narrow places: their heat and breath, and who gives way to whom."""
-from __future__ import annotations
-
 from math import cos, exp, hypot, pi, sin
 
 import pytest

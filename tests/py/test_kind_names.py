@@ -1,6 +1,4 @@
 """The C++ of the node names a kind in the kind's own files only: others read its registration."""
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Long steps of people who walk free of contact, and of leaves: the same readings, to a sample, as
 by 1 ms."""
-from __future__ import annotations
-
 import math
 from typing import Callable
 

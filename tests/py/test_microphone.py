@@ -1,6 +1,4 @@
 """The microphone against the closed forms of one room, of two rooms, and of free air."""
-from __future__ import annotations
-
 from math import log10, pi, sin
 
 import pytest

@@ -1,6 +1,4 @@
 """The rule for names, as the tools use it; core/names_test has all of it."""
-from __future__ import annotations
-
 import pytest
 
 import angen

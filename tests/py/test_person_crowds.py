@@ -1,6 +1,4 @@
 """Several people who are sent through one door or corridor at the same time, from both sides."""
-from __future__ import annotations
-
 from math import hypot
 from random import Random
 from typing import Callable

@@ -1,6 +1,4 @@
 """Cameras see a person whose legs swing while it walks, and hang down while it stands."""
-from __future__ import annotations
-
 import numpy as np
 
 import angen

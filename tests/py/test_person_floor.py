@@ -1,6 +1,4 @@
 """What is not floor is not walked on: holes, edges and open shafts."""
-from __future__ import annotations
-
 from math import hypot
 from typing import Callable
 

@@ -1,7 +1,5 @@
 """A person who is sent to places that it reaches only nearly, or not at all: it does not try for
 ever."""
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,6 +1,4 @@
 """A person at doors that are not built as ours: hinges at any height, leaves that lean or slide."""
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,6 +1,4 @@
 """A person who is sent to a room, a thing or a floor by its name."""
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,6 +1,4 @@
 """People who sit and lie: on things, on the floor, and up again."""
-from __future__ import annotations
-
 from math import hypot
 from typing import Any, Callable
 

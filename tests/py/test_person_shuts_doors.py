@@ -1,6 +1,4 @@
 """Doors that a person shuts: those that it is told to, and those whose leaves are in the way."""
-from __future__ import annotations
-
 from math import hypot
 from pathlib import Path
 from typing import Any, Callable

@@ -1,6 +1,4 @@
 """Ways of a commanded person: through rooms and doors, or an event where there is none."""
-from __future__ import annotations
-
 from math import hypot
 from typing import Callable, Iterator
 

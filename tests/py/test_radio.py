@@ -1,6 +1,4 @@
 """Radio: signal strength in free space, behind walls, doors, floors and bodies."""
-from __future__ import annotations
-
 from math import ceil, log10
 
 import pytest

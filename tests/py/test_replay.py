@@ -1,6 +1,4 @@
 """A run of the whole building that is recorded, and run again."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import angen

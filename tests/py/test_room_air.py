@@ -1,6 +1,4 @@
 """Surfaces that devices warm, in a room whose climate differs from the world's air."""
-from __future__ import annotations
-
 from math import exp
 
 import pytest

@@ -1,6 +1,4 @@
 """A day's start that is saved and loaded continues unchanged."""
-from __future__ import annotations
-
 import subprocess
 import sys
 

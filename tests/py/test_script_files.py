@@ -1,6 +1,4 @@
 """Plug-ins in files of Python on the plug-in path, which no program has registered."""
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

@@ -1,6 +1,4 @@
 """angen task seek in two rooms with a door between them: with a person, and without one."""
-from __future__ import annotations
-
 import csv
 import json
 import math

@@ -1,6 +1,4 @@
 """Slow motion goes on: a body falls asleep at rest, not while it is slow."""
-from __future__ import annotations
-
 import math
 
 import angen

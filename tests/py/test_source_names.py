@@ -1,6 +1,4 @@
 """A world that includes flats, doors and elevator under the names of the thesis."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import angen

@@ -1,6 +1,4 @@
 """The stove: its plates against the closed form, its heat in the room, and its commands."""
-from __future__ import annotations
-
 from math import exp
 
 import pytest

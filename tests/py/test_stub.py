@@ -1,6 +1,4 @@
 """The types of the module: angen.pyi, inspect.signature, and what mypy says of a program."""
-from __future__ import annotations
-
 import importlib.util
 import inspect
 import subprocess

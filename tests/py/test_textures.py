@@ -1,6 +1,4 @@
 """The texture of a mesh's file in a camera's picture."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

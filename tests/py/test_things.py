@@ -1,6 +1,4 @@
 """A cup, a weighing table and a potted plant, against closed forms."""
-from __future__ import annotations
-
 from math import exp, tan
 
 import numpy as np

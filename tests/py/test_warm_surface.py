@@ -3,8 +3,6 @@
 The oracle is the filter's differential equation in continuous time, by Runge-Kutta in numpy; the
 simulator has it as a recursion at 100 Hz.
 """
-from __future__ import annotations
-
 from math import exp, pi
 
 import numpy as np

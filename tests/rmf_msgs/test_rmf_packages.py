@@ -1,7 +1,5 @@
 """The fields and constants of Open-RMF's messages, and a workspace that has other packages of their
 names, as docs/rmf.md says."""
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,6 +1,4 @@
 """The nodes of the tests in ROS, on the master of tests/conftest.py."""
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Iterator
 

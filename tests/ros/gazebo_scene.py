@@ -1,6 +1,5 @@
 """Models that the tests of gazebo_ros's services spawn, and short ways to call them."""
 
-from __future__ import annotations
 
 from typing import Any
 

@@ -1,6 +1,4 @@
 """A hand at the page of angen edit: each press, drag and key counts as a gesture."""
-from __future__ import annotations
-
 from browser import Page
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.actions.action_builder import ActionBuilder

@@ -3,7 +3,6 @@
 Prints how often it did each.
 """
 
-from __future__ import annotations
 
 import random
 import sys

@@ -2,8 +2,6 @@
 
 CTest builds it as its author would, in a workspace of its own; sourcing that workspace is enough.
 """
-from __future__ import annotations
-
 import os
 import re
 import subprocess

@@ -1,6 +1,4 @@
 """~allow_paths of the node: a world's models may name files anywhere."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

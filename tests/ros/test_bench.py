@@ -1,6 +1,4 @@
 """angen bench sensors against real nodes: its output, never the speed."""
-from __future__ import annotations
-
 import csv
 import os
 import signal

@@ -1,6 +1,4 @@
 """angen care on the running simulator."""
-from __future__ import annotations
-
 import csv
 import subprocess
 from pathlib import Path

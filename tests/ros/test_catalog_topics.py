@@ -1,6 +1,5 @@
 """The small sensors and devices of the catalog, as subscribers see them."""
 
-from __future__ import annotations
 
 import math
 

@@ -1,6 +1,4 @@
 """The angen command against the real node."""
-from __future__ import annotations
-
 import json
 import os
 import signal

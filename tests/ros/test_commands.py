@@ -1,6 +1,5 @@
 """Commands on topics, and the states that follow."""
 
-from __future__ import annotations
 
 import time
 

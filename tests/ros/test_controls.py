@@ -1,6 +1,4 @@
 """Interactive markers: what rviz sends when one clicks opens doors and switches lamps."""
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 from typing import Iterator

@@ -1,6 +1,4 @@
 """angen drive in a terminal of its own, against the real node."""
-from __future__ import annotations
-
 import json
 import os
 import signal

@@ -1,6 +1,4 @@
 """The page of angen edit in a real browser: a home is drawn, kept, saved, opened and simulated."""
-from __future__ import annotations
-
 import json
 import subprocess
 from pathlib import Path

@@ -1,6 +1,5 @@
 """A node that leaps over time in which nothing happens."""
 
-from __future__ import annotations
 
 import subprocess
 from pathlib import Path

@@ -1,6 +1,5 @@
 """gazebo_ros's services and topics, each against a closed form or another of them."""
 
-from __future__ import annotations
 
 import math
 import time

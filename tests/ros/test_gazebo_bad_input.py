@@ -1,6 +1,5 @@
 """No request to a service of gazebo_ros that makes no sense changes anything or ends the node."""
 
-from __future__ import annotations
 
 import copy
 import math

@@ -1,6 +1,5 @@
 """Clients of gazebo_ros spawn lights, read errors, and set parameters by dynamic_reconfigure."""
 
-from __future__ import annotations
 
 import math
 from typing import Any

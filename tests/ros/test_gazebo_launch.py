@@ -1,6 +1,4 @@
 """A launch file of others' robots: xacro, empty_world.launch, spawn_model and tf_prefix."""
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 from typing import Iterator

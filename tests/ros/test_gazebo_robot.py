@@ -1,7 +1,5 @@
 """A robot made for Gazebo on a launch file's server: it drives true to its odometry, and its topics
 and frames are where navigation wants them."""
-from __future__ import annotations
-
 import math
 import subprocess
 from typing import Any, Iterator

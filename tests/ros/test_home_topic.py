@@ -1,6 +1,4 @@
 """/angen/home and the rooms of /angen/list."""
-from __future__ import annotations
-
 from pathlib import Path
 import angen as simulator
 from angen_msgs.msg import Home as HomeMessage

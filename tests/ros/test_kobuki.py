@@ -1,6 +1,4 @@
 """The events and commands of a Kobuki base, on the topics of Gazebo's plug-in."""
-from __future__ import annotations
-
 import math
 from typing import Any, Iterator
 

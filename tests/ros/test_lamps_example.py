@@ -1,6 +1,4 @@
 """examples/lamps_by_pir.py in a house of three rooms without walls, where a person walks."""
-from __future__ import annotations
-
 import re
 import subprocess
 import sys

@@ -1,6 +1,5 @@
 """The begin and the end of the node, and its remains."""
 
-from __future__ import annotations
 
 import fcntl
 import os

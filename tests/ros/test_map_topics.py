@@ -1,6 +1,4 @@
 """The node that publishes maps: latched, one a floor."""
-from __future__ import annotations
-
 import signal
 import subprocess
 from pathlib import Path

@@ -1,6 +1,5 @@
 """The node when its master ends, or is restarted."""
 
-from __future__ import annotations
 
 import signal
 import subprocess

@@ -1,6 +1,5 @@
 """The meter from the node's first second on."""
 
-from __future__ import annotations
 
 import statistics
 from pathlib import Path

@@ -1,6 +1,4 @@
 """angen mqtt between the node and Debian's mosquitto."""
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -1,6 +1,4 @@
 """Two houses on one master, each in a namespace of its own."""
-from __future__ import annotations
-
 import subprocess
 from typing import Iterator
 

@@ -1,7 +1,5 @@
 """The interface of amcl and move_base: frames, maps, open doors; and the nodes that their launch
 file gives them. The run itself is in docs/navigation.md: CI has no navigation stack."""
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

@@ -1,6 +1,4 @@
 """angen task patrol in two rooms with a door between them: its files, and that it repeats."""
-from __future__ import annotations
-
 import csv
 import os
 import random

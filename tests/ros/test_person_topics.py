@@ -1,6 +1,4 @@
 """A person who is sent somewhere by topic, and by the command line."""
-from __future__ import annotations
-
 from math import hypot
 from typing import Iterator
 

@@ -1,6 +1,4 @@
 """Meshes in each other hold up neither calls nor the end of the node."""
-from __future__ import annotations
-
 import random
 import struct
 import time

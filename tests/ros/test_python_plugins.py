@@ -1,6 +1,4 @@
 """A sensor and a device in files of Python, which the node runs."""
-from __future__ import annotations
-
 import json
 import subprocess
 from pathlib import Path

@@ -3,7 +3,6 @@
 ANGEN_REPLAY_SECONDS says how long the session is, in simulated seconds.
 """
 
-from __future__ import annotations
 
 import json
 import os

@@ -1,6 +1,4 @@
 """People who live in the node by its public topics and services, started before it."""
-from __future__ import annotations
-
 import json
 import math
 import subprocess

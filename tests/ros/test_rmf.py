@@ -1,6 +1,4 @@
 """Doors and lifts by Open-RMF's topics: requests, states, sessions."""
-from __future__ import annotations
-
 import subprocess
 import time
 from pathlib import Path

@@ -1,6 +1,4 @@
 """Two robots in one world: each hears its own commands, and no name of one is the other's."""
-from __future__ import annotations
-
 from typing import Iterator
 
 import pytest

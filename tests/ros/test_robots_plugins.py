@@ -1,6 +1,4 @@
 """Plug-ins of robots made for Gazebo, on the topics and in the frames of Gazebo's plug-ins."""
-from __future__ import annotations
-
 import math
 import struct
 from typing import Any, Iterator

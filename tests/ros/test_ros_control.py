@@ -3,8 +3,6 @@
 That is a substitute for ros_control, which Debian 12 does not have: its controller manager leads
 all joints of examples/arm to a position.
 """
-from __future__ import annotations
-
 import os
 import subprocess
 import threading

@@ -1,6 +1,4 @@
 """rviz itself, on a display without a screen: a click of the mouse on a door's button opens it."""
-from __future__ import annotations
-
 import os
 import subprocess
 import time

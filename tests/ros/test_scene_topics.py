@@ -1,6 +1,4 @@
 """/angen/scene and /angen/scene_changes against other topics of the node."""
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,6 +1,5 @@
 """Time, spawning, deleting, listing and saving by service."""
 
-from __future__ import annotations
 
 import math
 

@@ -1,6 +1,4 @@
 """angen bench soak with a node: 1,000 spawns and deletions of all kinds leave nothing behind."""
-from __future__ import annotations
-
 import csv
 import os
 import subprocess

@@ -1,6 +1,5 @@
 """The messages that are sent: none without a subscriber, one for all of a kind."""
 
-from __future__ import annotations
 
 import json
 import subprocess

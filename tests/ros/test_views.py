@@ -1,6 +1,5 @@
 """Topics of viewers: markers and frames."""
 
-from __future__ import annotations
 
 import time
 from pathlib import Path

@@ -1,6 +1,5 @@
 """The TurtleBot's lidar, cameras, bumper and joints, and a room camera, as subscribers see them."""
 
-from __future__ import annotations
 
 import math
 import struct

@@ -1,6 +1,5 @@
 """Calls that wait: they leave threads for others, can be interrupted, and end with their client."""
 
-from __future__ import annotations
 
 import socket
 import struct

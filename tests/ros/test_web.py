@@ -1,6 +1,4 @@
 """The page of angen web in a real browser, on a real node."""
-from __future__ import annotations
-
 import concurrent.futures
 import subprocess
 import time

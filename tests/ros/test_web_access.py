@@ -1,6 +1,4 @@
 """The page for everybody: contrast as WCAG AA asks, in light and dark, and all by keys alone."""
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any, Iterator
 

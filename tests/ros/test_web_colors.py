@@ -1,6 +1,4 @@
 """Colors of the page that no style of an element has: of its drawings, in both themes."""
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """angen web --replay without ROS: of a generated day residents, leaves and sensors are as its files
 say."""
-from __future__ import annotations
-
 import asyncio
 import gzip
 import itertools

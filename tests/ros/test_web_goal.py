@@ -1,6 +1,4 @@
 """The goal of a robot, set in 3D and by keys in a real browser; sensors added and deleted in 3D."""
-from __future__ import annotations
-
 import math
 from typing import Iterator
 

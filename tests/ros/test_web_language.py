@@ -1,6 +1,4 @@
 """The page of angen web in German: all that it says by itself, on a phone too."""
-from __future__ import annotations
-
 import json
 from typing import Iterator
 

@@ -1,6 +1,4 @@
 """Hostile browsers on a running building: rejected messages are answered, the node continues."""
-from __future__ import annotations
-
 import asyncio
 import json
 import random

@@ -1,6 +1,4 @@
 """The plan of the page of angen web, touched as people do: real events at real places."""
-from __future__ import annotations
-
 import io
 import random
 import re

@@ -1,6 +1,4 @@
 """Kinds of plug-ins of one's own on the page: cards, verbs, rows and plots without JavaScript."""
-from __future__ import annotations
-
 import subprocess
 from typing import Iterator
 

@@ -1,6 +1,4 @@
 """Links that may do less: the page says so, and the server refuses the rest, on a running node."""
-from __future__ import annotations
-
 import json
 import time
 from pathlib import Path

@@ -1,6 +1,4 @@
 """The tools of the page of angen web in a real browser, on the built-in building."""
-from __future__ import annotations
-
 import csv
 import math
 import subprocess

@@ -1,6 +1,4 @@
 """A building of several floors on the page: closed below the top one, each open by itself."""
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,6 +1,4 @@
 """The page of angen web before its node, with an empty world, without rooms, with many lamps."""
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Iterator
 

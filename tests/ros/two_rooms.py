@@ -1,5 +1,4 @@
 """A world of two rooms with a door between them, for robots."""
-from __future__ import annotations
 
 WALLS = {'south': (3, -0.06, 6.24, 0.12), 'north': (3, 3.06, 6.24, 0.12),
          'west': (-0.06, 1.5, 0.12, 3), 'east': (6.06, 1.5, 0.12, 3),

@@ -1,6 +1,4 @@
 """ros2/angen_msgs makes messages of ROS 2 out of those of ROS 1."""
-from __future__ import annotations
-
 import re
 import runpy
 from pathlib import Path

@@ -4,8 +4,6 @@
     python3 src/angen_sim/py/make_stub.py            in ./angen shell, after a build
     python3 src/angen_sim/py/make_stub.py --check    writes nothing, ends with 1 if the file differs
 """
-from __future__ import annotations
-
 import inspect
 import re
 import sys

@@ -1,6 +1,4 @@
 """Automations over entities without a simulator: a home whose states a test sets."""
-from __future__ import annotations
-
 import datetime
 from pathlib import Path
 from typing import Any

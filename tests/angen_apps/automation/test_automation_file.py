@@ -1,6 +1,4 @@
 """What the bench does not run is told with file and line."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,6 +1,4 @@
 """The card of a plan: entities of the bridge, at their places in the picture."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import angen

@@ -1,7 +1,5 @@
 """Shipped automations over simulated homes: naive ones fail their scenario, good ones pass.
 bench/automation/shipped.py runs all of them."""
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

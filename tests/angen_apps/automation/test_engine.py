@@ -1,6 +1,4 @@
 """Automations do what Home Assistant documents of theirs."""
-from __future__ import annotations
-
 import datetime
 from pathlib import Path
 

@@ -1,6 +1,4 @@
 """Expectations over time lines that are written here, judged by hand."""
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from random import Random

@@ -1,6 +1,4 @@
 """Mistakes in a scenario are told with file and line."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

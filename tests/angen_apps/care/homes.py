@@ -1,6 +1,4 @@
 """A home without a simulator: its sensors and devices, and rules about it."""
-from __future__ import annotations
-
 from pathlib import Path
 
 from angen_apps.care.engine import Change, Engine

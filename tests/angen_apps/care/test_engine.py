@@ -1,6 +1,4 @@
 """The rule engine: events in, warnings out."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,6 +1,4 @@
 """The picture of warnings: each rule where it looks, on the plan of the home."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

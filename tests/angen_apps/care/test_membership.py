@@ -1,6 +1,4 @@
 """Degrees of membership, durations and times of day."""
-from __future__ import annotations
-
 import pytest
 
 from angen_tools.common.clock import duration, show_duration, show_time, time_of_day

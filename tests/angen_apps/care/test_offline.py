@@ -1,6 +1,4 @@
 """The shipped rules on the shipped days, simulated."""
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

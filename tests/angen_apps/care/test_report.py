@@ -1,6 +1,4 @@
 """The output of care, and the commands of a day."""
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 

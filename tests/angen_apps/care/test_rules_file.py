@@ -1,6 +1,4 @@
 """The rules file: its meaning, and the errors of a wrong one."""
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import replace

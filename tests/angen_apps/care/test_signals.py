@@ -1,6 +1,4 @@
 """Signals: their state, by the events of sensors."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

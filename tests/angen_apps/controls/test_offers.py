@@ -1,6 +1,4 @@
 """Menus and clicks follow the verbs of the kinds."""
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import pytest

@@ -1,6 +1,4 @@
 """A place in each room of a storey, to which a menu sends people and robots."""
-from __future__ import annotations
-
 import math
 from types import SimpleNamespace
 from typing import Any

@@ -1,6 +1,4 @@
 """angen edit on the command line: the file that it writes, and the plan that it reads."""
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

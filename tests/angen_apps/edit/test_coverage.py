@@ -1,6 +1,4 @@
 """What sensors see of a floor, compared with what the simulator's sensors report."""
-from __future__ import annotations
-
 from base64 import b64decode
 from typing import Any, Callable
 

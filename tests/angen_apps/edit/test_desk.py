@@ -1,6 +1,4 @@
 """A home that is edited: its draft, its file, two who edit it, a disk that is full."""
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any, Iterator

@@ -1,6 +1,4 @@
 """Days that are drawn: from profiles, and back to profiles that residents read."""
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any

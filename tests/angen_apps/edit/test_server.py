@@ -1,6 +1,4 @@
 """The server of angen edit: its orders, and who may give them."""
-from __future__ import annotations
-
 import asyncio
 import json
 from pathlib import Path

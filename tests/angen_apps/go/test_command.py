@@ -1,6 +1,4 @@
 """The goals of angen go."""
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from pathlib import Path

@@ -1,6 +1,4 @@
 """A drive with a person in the way, with a robot on a map."""
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from types import SimpleNamespace

@@ -1,6 +1,4 @@
 """An import in a process of its own: its end, and what it cost."""
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -1,6 +1,4 @@
 """200 damaged files: each ends with one line that says what and where, and writes nothing."""
-from __future__ import annotations
-
 import functools
 import io
 import random

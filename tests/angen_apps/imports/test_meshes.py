@@ -1,6 +1,4 @@
 """Meshes in a home's zip: they are looks, scaled to their pieces; boxes stay for contacts."""
-from __future__ import annotations
-
 import zipfile
 from pathlib import Path
 

@@ -1,6 +1,4 @@
 """Plans that are pictures, against a plan of known areas at four sizes of noise."""
-from __future__ import annotations
-
 import struct
 import warnings
 import zlib

@@ -1,6 +1,4 @@
 """Buildings of Open-RMF: a small one of our own, whose sizes are known."""
-from __future__ import annotations
-
 from math import pi
 from pathlib import Path
 

@@ -1,6 +1,4 @@
 """Walls and doors of pictures with other walls, pixels and noise."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

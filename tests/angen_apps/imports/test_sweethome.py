@@ -1,6 +1,4 @@
 """The nine homes of Debian's package sweethome3d, and small homes with further features."""
-from __future__ import annotations
-
 import re
 from math import hypot, pi
 from pathlib import Path

@@ -1,6 +1,4 @@
 """Types of pieces of furniture."""
-from __future__ import annotations
-
 import pytest
 
 from angen_apps.imports.things import table, what_is

@@ -1,6 +1,4 @@
 """The picture of located tags: discs and crosses on the plan, on the storey where they are."""
-from __future__ import annotations
-
 from math import nan
 from pathlib import Path
 

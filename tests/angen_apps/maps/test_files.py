@@ -1,6 +1,4 @@
 """map_server's files."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,6 +1,4 @@
 """Maps of floors: closed forms on small worlds, and the building's rooms."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import angen

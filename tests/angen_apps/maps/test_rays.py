@@ -1,6 +1,4 @@
 """Rays against the lidar and the map."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import angen

@@ -1,6 +1,4 @@
 """Debian's mosquitto on a free port of 127.0.0.1, and a client that watches it."""
-from __future__ import annotations
-
 import json
 import subprocess
 from pathlib import Path

@@ -1,6 +1,4 @@
 """Checks discovery messages against home_assistant.yaml."""
-from __future__ import annotations
-
 from functools import cache
 from pathlib import Path
 from typing import Any, Callable, Mapping

@@ -1,6 +1,4 @@
 """The bridge between a world and a broker, in this process."""
-from __future__ import annotations
-
 import json
 
 import pytest

@@ -1,6 +1,4 @@
 """The connection to a real broker."""
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 from typing import Any, Iterator

@@ -1,6 +1,4 @@
 """The words of angen mqtt."""
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

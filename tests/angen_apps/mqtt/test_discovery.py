@@ -1,6 +1,4 @@
 """Discovery of every component, against Home Assistant's keys."""
-from __future__ import annotations
-
 import copy
 import json
 from typing import Any

@@ -1,6 +1,4 @@
 """Habits of hardware, in simulated time."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

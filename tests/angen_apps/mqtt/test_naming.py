@@ -1,6 +1,4 @@
 """Names of things."""
-from __future__ import annotations
-
 import pytest
 from angen_apps.mqtt.naming import area, distinct, label, slug
 

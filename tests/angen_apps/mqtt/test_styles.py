@@ -1,6 +1,4 @@
 """Topics and payloads of Zigbee2MQTT."""
-from __future__ import annotations
-
 import json
 
 import pytest

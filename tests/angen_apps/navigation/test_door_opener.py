@@ -1,6 +1,4 @@
 """Which doors are opened on a path."""
-from __future__ import annotations
-
 import pytest
 from angen_apps.navigation.door_opener import AHEAD, in_the_way
 

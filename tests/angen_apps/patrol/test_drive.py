@@ -1,6 +1,4 @@
 """The states of doors as the robot of a patrol knows them."""
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 

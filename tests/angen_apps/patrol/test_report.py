@@ -1,6 +1,4 @@
 """Which events count as a detection."""
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

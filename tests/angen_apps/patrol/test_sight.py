@@ -1,6 +1,4 @@
 """Lines of sight by geometry."""
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from pathlib import Path

@@ -1,6 +1,4 @@
 """Homes by seed: sizes by the stated sources, and nothing wrong in the world."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,6 +1,4 @@
 """People open both leaves of a double door where one alone is narrow."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import angen

@@ -1,6 +1,4 @@
 """Odd names of rooms and storeys, as a world has them, on the plan and in the table."""
-from __future__ import annotations
-
 from html import unescape
 from pathlib import Path
 

@@ -1,6 +1,4 @@
 """The drawing that a world contains: the same world comes of it again, and bad ones are refused."""
-from __future__ import annotations
-
 import json
 import random
 from pathlib import Path

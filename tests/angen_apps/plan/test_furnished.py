@@ -1,6 +1,4 @@
 """Furniture of homes by seed: what residents need is there, apart, and people get to it."""
-from __future__ import annotations
-
 from collections import Counter
 from itertools import combinations
 from math import cos, sin

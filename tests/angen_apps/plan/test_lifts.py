@@ -1,6 +1,4 @@
 """Elevators of plans."""
-from __future__ import annotations
-
 from math import hypot, pi
 from pathlib import Path
 from typing import Callable

@@ -1,6 +1,4 @@
 """Rooms that are drawn within another room."""
-from __future__ import annotations
-
 from angen_apps.plan.model import Opening, Plan, Room, Storey, Wall
 from angen_apps.plan.finish import finish
 from angen_apps.plan.polygons import area

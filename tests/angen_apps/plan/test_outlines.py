@@ -1,6 +1,4 @@
 """The shapes of a world that a plan draws."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import angen

@@ -1,6 +1,4 @@
 """Files that are drawn over a plan: events, and tracks as tasks and generated data have them."""
-from __future__ import annotations
-
 import gzip
 import itertools
 from pathlib import Path

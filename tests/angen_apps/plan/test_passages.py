@@ -1,6 +1,4 @@
 """Openings between rooms that touch without a wall."""
-from __future__ import annotations
-
 from math import cos, pi, sin
 
 import pytest

@@ -1,6 +1,4 @@
 """Polygons of plans, against those of one point."""
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,6 +1,4 @@
 """Apartment buildings: each apartment has all its rooms, and the elevator serves all storeys."""
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
 

@@ -1,6 +1,4 @@
 """The travel of leaves."""
-from __future__ import annotations
-
 from math import degrees, pi
 
 import pytest

@@ -1,6 +1,4 @@
 """Where a world is written: files, links and pipes."""
-from __future__ import annotations
-
 import os
 import threading
 from pathlib import Path

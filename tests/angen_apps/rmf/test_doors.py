@@ -1,6 +1,4 @@
 """A door's commands by requests, and its reports."""
-from __future__ import annotations
-
 import pytest
 from angen_apps.rmf.doors import Door
 from angen_tools.session import State

@@ -1,6 +1,4 @@
 """A lift's sessions, their commands, and its reports."""
-from __future__ import annotations
-
 import pytest
 from angen_apps.rmf.lifts import Lift
 from angen_tools.session import State

@@ -1,6 +1,4 @@
 """Two rooms with a door, as a map."""
-from __future__ import annotations
-
 import math
 
 import numpy as np

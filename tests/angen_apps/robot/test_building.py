@@ -1,6 +1,4 @@
 """A survey of a building whose leaves hang on the world, several in one model."""
-from __future__ import annotations
-
 import math
 
 import angen

@@ -1,6 +1,4 @@
 """Doors and elevators that come and go, in a world in this process."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,6 +1,4 @@
 """Doors by their description and the states of their devices."""
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,6 +1,4 @@
 """A route's actions with an ideal robot."""
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from types import SimpleNamespace

@@ -1,6 +1,4 @@
 """The place of the robot, by scans and odometry."""
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,6 +1,4 @@
 """Steering."""
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,6 +1,4 @@
 """Ways over a map."""
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,6 +1,4 @@
 """A route through the rooms of a home that has neither robot nor person."""
-from __future__ import annotations
-
 from math import pi
 from pathlib import Path
 

@@ -1,6 +1,4 @@
 """Waypoints become actions."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,6 +1,4 @@
 """The route's file."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,6 +1,4 @@
 """The order of visits to places on a floor."""
-from __future__ import annotations
-
 import math
 from itertools import permutations
 

@@ -1,6 +1,4 @@
 """The filter over cells, and the evidence of events."""
-from __future__ import annotations
-
 import tracemalloc
 from dataclasses import replace
 

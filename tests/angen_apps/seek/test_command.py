@@ -1,6 +1,4 @@
 """angen task seek: the processes of --seeds, with searches that take no time; its route."""
-from __future__ import annotations
-
 import signal
 from dataclasses import replace
 from pathlib import Path

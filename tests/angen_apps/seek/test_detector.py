@@ -1,6 +1,4 @@
 """Arcs in scans and figures in depth images, against synthetic ones."""
-from __future__ import annotations
-
 import math
 from types import SimpleNamespace
 from typing import Callable

@@ -1,6 +1,4 @@
 """A search in a home of Sweet Home 3D, where people and robots meet at close quarters."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,6 +1,4 @@
 """The plans of situations: who is where, the way, and the outcome in its color."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

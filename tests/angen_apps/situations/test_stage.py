@@ -1,6 +1,4 @@
 """Situations before a PIR: the table itself, a quick part of it, and how the command ends."""
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path

@@ -1,6 +1,4 @@
 """The box around a world."""
-from __future__ import annotations
-
 from math import cos, sin
 
 import numpy as np

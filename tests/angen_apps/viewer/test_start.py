@@ -1,6 +1,4 @@
 """The screen on which rviz opens."""
-from __future__ import annotations
-
 import os
 import subprocess
 

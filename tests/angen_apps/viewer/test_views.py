@@ -1,6 +1,4 @@
 """Views of rviz that show all of a world."""
-from __future__ import annotations
-
 from itertools import product
 from math import cos, sin, tan
 from pathlib import Path

@@ -1,6 +1,4 @@
 """Walk tests that PIRs pass and fail."""
-from __future__ import annotations
-
 import csv
 import math
 

@@ -1,6 +1,4 @@
 """The walks of people in a walk test."""
-from __future__ import annotations
-
 import math
 
 import pytest

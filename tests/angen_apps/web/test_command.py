@@ -1,6 +1,4 @@
 """The address that angen web prints."""
-from __future__ import annotations
-
 import io
 import json
 

@@ -1,6 +1,4 @@
 """The parts of a generated day that a page plays."""
-from __future__ import annotations
-
 import pytest
 from angen_apps.web.day import Moment, getting_up, moment_of
 

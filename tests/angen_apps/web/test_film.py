@@ -1,6 +1,4 @@
 """angen web --video: frames at even times, and what it says where it cannot be made."""
-from __future__ import annotations
-
 import argparse
 import dataclasses
 import itertools

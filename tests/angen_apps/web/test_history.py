@@ -1,6 +1,4 @@
 """The readings of a run are kept within bounds, without the loss of a peak."""
-from __future__ import annotations
-
 import csv
 import io
 import json

@@ -1,6 +1,4 @@
 """Malformed orders are rejected before anything is sent."""
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,6 +1,4 @@
 """A recorded run as pages play it, without ROS."""
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 from typing import Any

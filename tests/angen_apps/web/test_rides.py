@@ -1,6 +1,4 @@
 """A cabin of a generated day carries who stands in it."""
-from __future__ import annotations
-
 import pytest
 from angen_apps.web.rides import Cabin, Rider, cabins
 

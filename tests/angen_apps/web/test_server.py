@@ -1,6 +1,4 @@
 """The server with a source of the test's own: access, files, orders."""
-from __future__ import annotations
-
 import asyncio
 import json
 import random

@@ -1,6 +1,4 @@
 """Each browser gets what changed since it got some last, and only the newest of it."""
-from __future__ import annotations
-
 import struct
 from typing import Any
 

@@ -1,6 +1,4 @@
 """A recording keeps all changes with their times, by the names of links."""
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

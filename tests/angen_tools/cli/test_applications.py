@@ -1,6 +1,4 @@
 """The commands of other packages: how the angen command finds them, and its errors without them."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

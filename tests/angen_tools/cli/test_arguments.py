@@ -1,6 +1,4 @@
 """Values of the command line."""
-from __future__ import annotations
-
 import argparse
 import math
 from typing import Any, Callable

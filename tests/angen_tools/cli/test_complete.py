@@ -1,6 +1,4 @@
 """Completions that a shell offers after TAB."""
-from __future__ import annotations
-
 from pathlib import Path
 from types import SimpleNamespace
 

@@ -1,6 +1,4 @@
 """The words of the angen command, and how it ends; no simulator runs here."""
-from __future__ import annotations
-
 import argparse
 import os
 import re

@@ -1,6 +1,4 @@
 """The catalog, which is read from files beside the plug-in libraries."""
-from __future__ import annotations
-
 import json
 import os
 from pathlib import Path

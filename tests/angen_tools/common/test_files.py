@@ -1,6 +1,4 @@
 """Files that are whole under their name, whatever happens while they are written."""
-from __future__ import annotations
-
 import ast
 import os
 import random

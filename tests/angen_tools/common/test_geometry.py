@@ -1,6 +1,4 @@
 """Rotations, against those of the simulator."""
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import angen

@@ -1,6 +1,4 @@
 """Where files are found: in a workspace, in a wheel, and in Debian's package."""
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

@@ -1,6 +1,4 @@
 """Work in a process of its own: its results, its limits, and signals."""
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

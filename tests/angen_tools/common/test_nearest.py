@@ -1,6 +1,4 @@
 """Suggestions for a name that is not known."""
-from __future__ import annotations
-
 from angen_tools.common.nearest import did_you_mean, nearest
 
 NAMES = ['kitchen_lamp0', 'kitchen_door0', 'bathroom_lamp0', 'ground_plane', 'sofa']

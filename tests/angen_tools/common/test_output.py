@@ -1,6 +1,4 @@
 """Tables for people and for pipes."""
-from __future__ import annotations
-
 import io
 import os
 import subprocess

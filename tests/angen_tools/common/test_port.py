@@ -1,6 +1,4 @@
 """The port of a page."""
-from __future__ import annotations
-
 import socket
 
 import pytest

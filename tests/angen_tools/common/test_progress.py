@@ -1,6 +1,4 @@
 """Progress where stderr is not a terminal: lines for a log."""
-from __future__ import annotations
-
 import pytest
 
 from angen_tools.common import progress as module

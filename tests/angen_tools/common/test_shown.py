@@ -1,6 +1,4 @@
 """Values out of the words that the simulator shows."""
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

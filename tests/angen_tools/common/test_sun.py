@@ -1,6 +1,4 @@
 """The sun's place against an ephemeris (VSOP87 by libastro, 1010 hPa, 10 C), and in the page."""
-from __future__ import annotations
-
 import json
 import math
 import random

@@ -1,6 +1,4 @@
 """Text files that people write."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

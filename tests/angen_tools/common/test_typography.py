@@ -1,6 +1,4 @@
 """Words that were pasted from a PDF."""
-from __future__ import annotations
-
 import pytest
 
 from angen_tools.common.typography import straightened

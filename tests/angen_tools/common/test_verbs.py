@@ -1,6 +1,4 @@
 """Commands in the words of their kind."""
-from __future__ import annotations
-
 import pytest
 
 from angen_tools.common import verbs

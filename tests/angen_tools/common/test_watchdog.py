@@ -1,6 +1,4 @@
 """The processes of a command end with it."""
-from __future__ import annotations
-
 import os
 import random
 import signal

@@ -1,6 +1,4 @@
 """XML is measured before it is parsed."""
-from __future__ import annotations
-
 import time
 from typing import Callable
 

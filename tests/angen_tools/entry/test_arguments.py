@@ -1,6 +1,4 @@
 """Arguments of the launch file that are wrong."""
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 

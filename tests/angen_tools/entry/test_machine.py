@@ -1,6 +1,4 @@
 """Whom ./angen run lets reach the master: this machine, unless the environment says otherwise."""
-from __future__ import annotations
-
 import os
 
 import pytest

@@ -1,6 +1,4 @@
 """The program at the address of the ROS master."""
-from __future__ import annotations
-
 import socket
 import threading
 from typing import Iterator

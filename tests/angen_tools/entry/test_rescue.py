@@ -1,6 +1,4 @@
 """The world that the node leaves when it has lost the ROS master."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,6 +1,4 @@
 """The words with which a building starts again."""
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

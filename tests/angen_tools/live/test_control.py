@@ -1,6 +1,4 @@
 """When a command waits for others."""
-from __future__ import annotations
-
 from typing import Any, Callable
 
 import pytest

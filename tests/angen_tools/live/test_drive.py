@@ -1,6 +1,4 @@
 """Keys and the robot's motion by them; the test sets the time."""
-from __future__ import annotations
-
 import json
 
 import pytest

@@ -1,6 +1,4 @@
 """The output of angen list."""
-from __future__ import annotations
-
 import json
 
 import pytest

@@ -1,6 +1,4 @@
 """The rows that angen watch shows, from the summaries of a world."""
-from __future__ import annotations
-
 from typing import Any, Callable
 
 import pytest

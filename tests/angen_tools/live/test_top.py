@@ -1,6 +1,4 @@
 """The output of angen top for a message of costs."""
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 

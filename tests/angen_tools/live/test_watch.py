@@ -1,6 +1,4 @@
 """The output of angen watch, and its missing rows."""
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

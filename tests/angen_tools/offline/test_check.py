@@ -1,6 +1,4 @@
 """angen check."""
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from subprocess import CompletedProcess

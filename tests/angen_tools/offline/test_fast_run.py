@@ -1,6 +1,4 @@
 """angen run --fast: a world without ROS."""
-from __future__ import annotations
-
 import csv
 import gzip
 import random

@@ -1,6 +1,4 @@
 """angen home: tables, JSON and findings."""
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

@@ -1,6 +1,4 @@
 """angen plugins."""
-from __future__ import annotations
-
 import json
 import os
 import subprocess

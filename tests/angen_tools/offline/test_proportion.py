@@ -1,6 +1,4 @@
 """Lengths and angles in other units, which angen check says."""
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

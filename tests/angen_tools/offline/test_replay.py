@@ -1,6 +1,4 @@
 """The output of angen replay."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import angen

@@ -1,6 +1,4 @@
 """The way to the simulator, without one."""
-from __future__ import annotations
-
 import subprocess
 import sys
 from types import SimpleNamespace

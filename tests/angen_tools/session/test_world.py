@@ -1,6 +1,4 @@
 """The contract of a World, which both of its back ends keep."""
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Iterator

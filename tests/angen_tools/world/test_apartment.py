@@ -1,6 +1,4 @@
 """The apartment world, in the simulator."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import angen

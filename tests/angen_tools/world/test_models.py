@@ -1,6 +1,4 @@
 """Models and their parts."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,6 +1,4 @@
 """The places of sensors."""
-from __future__ import annotations
-
 from collections import Counter
 
 import angen

@@ -1,6 +1,4 @@
 """The words and files of SDF."""
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

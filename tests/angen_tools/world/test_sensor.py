@@ -1,6 +1,4 @@
 """The SDF of sensors that the angen command builds, judged by the simulator that has to read it."""
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Iterator

@@ -1,6 +1,4 @@
 """The files of this package that a user may copy and change."""
-from __future__ import annotations
-
 from pathlib import Path
 
 from angen_tools.common.installed import share

@@ -1,6 +1,4 @@
 """Models under the names that the thesis has for them: each takes its parts from one of ours."""
-from __future__ import annotations
-
 from pathlib import Path
 
 from angen_models import plan

@@ -1,6 +1,4 @@
 """Appliances, the microphone, and radio transmitters and receivers."""
-from __future__ import annotations
-
 from math import pi
 from pathlib import Path
 

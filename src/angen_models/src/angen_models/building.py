@@ -1,6 +1,4 @@
 """The apartment and its six doors."""
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any

@@ -1,6 +1,4 @@
 """Worlds of angen care: floor 0, and a person who spends a day in it, from 6:00 to 6:00."""
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from math import atan2, hypot
 from pathlib import Path

@@ -1,6 +1,4 @@
 """The small sensors of the catalog, and their surroundings."""
-from __future__ import annotations
-
 from math import pi
 from pathlib import Path
 

@@ -1,6 +1,4 @@
 """Lamp, sensors and robot."""
-from __future__ import annotations
-
 from math import pi, radians
 from pathlib import Path
 from typing import Sequence

@@ -1,6 +1,4 @@
 """The elevator: cabin, cabin doors and the landing doors that guard the shaft."""
-from __future__ import annotations
-
 from pathlib import Path
 
 from lxml import etree

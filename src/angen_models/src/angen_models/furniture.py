@@ -1,6 +1,4 @@
 """Furniture. Every piece faces +x, its origin on the floor under its middle."""
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from math import pi
 from pathlib import Path

@@ -3,8 +3,6 @@
 A leaf's frame is on its hinge at its foot: x along the shut leaf, it opens towards -y. A flap's
 hinge is its foot, along x.
 """
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import cos, pi, sin
 from pathlib import Path

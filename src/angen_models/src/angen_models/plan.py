@@ -2,8 +2,6 @@
 
 Every pose is for floor 0; the same things are STOREY higher on each further floor.
 """
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import pi
 

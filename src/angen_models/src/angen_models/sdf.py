@@ -1,6 +1,4 @@
 """Writes SDF: parts (box, cylinder, sphere, mesh) -> links, joints, models, files."""
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -1,6 +1,4 @@
 """Triangle meshes from a few primitives, written as COLLADA and binary STL. Meters, z up."""
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

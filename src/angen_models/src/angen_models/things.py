@@ -1,6 +1,4 @@
 """Things that are used: a cup, a table with load cells, the soil of a plant, an RFID gate."""
-from __future__ import annotations
-
 from pathlib import Path
 
 from lxml import etree

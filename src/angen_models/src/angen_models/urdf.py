@@ -1,6 +1,4 @@
 """Writes URDF: the same parts as SDF has, for robot_state_publisher and rviz."""
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -1,6 +1,4 @@
 """The worlds, assembled from <include> blocks."""
-from __future__ import annotations
-
 from math import atan2, cos, hypot, pi, sin
 from pathlib import Path
 from typing import Iterable, Sequence

@@ -1,6 +1,4 @@
 """gzclient: rviz with Angen's view."""
-from __future__ import annotations
-
 import os
 import shutil
 import sys

@@ -1,6 +1,4 @@
 """Calls of Gazebo's services, as scripts import them from gazebo_ros."""
-from __future__ import annotations
-
 from typing import Any, Sequence
 
 import rospy

@@ -1,6 +1,4 @@
 """gzserver's command line as one of Angen's node."""
-from __future__ import annotations
-
 import argparse
 import os
 import sys

@@ -1,6 +1,4 @@
 """spawn_model: a model from a file, a parameter, the model path or stdin into the simulator."""
-from __future__ import annotations
-
 import argparse
 import math
 import re

@@ -1,7 +1,5 @@
 """Reads automations as Home Assistant writes them; what the bench does not run is a Failure with
 file and line."""
-from __future__ import annotations
-
 import math
 import re
 from pathlib import Path

@@ -1,6 +1,4 @@
 """The parts of an automation of Home Assistant, as its file has them; times in s."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Union

@@ -1,6 +1,4 @@
 """A plan as a card of Home Assistant: a picture-elements card with the entities of angen mqtt."""
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Iterator, NamedTuple

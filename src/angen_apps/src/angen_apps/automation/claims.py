@@ -1,6 +1,4 @@
 """Claims about a home, as scenarios write them: `light.hall_lamp is on and anyone in hall0`."""
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import dataclass

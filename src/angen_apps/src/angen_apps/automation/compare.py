@@ -1,6 +1,4 @@
 """Two automations over the same days of the same people: comfort, energy, false alarms."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from pathlib import Path

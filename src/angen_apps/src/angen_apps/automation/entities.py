@@ -1,6 +1,4 @@
 """The entities that Home Assistant makes of a world, and their states, in this process."""
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from typing import Any, Iterable, Iterator, Mapping

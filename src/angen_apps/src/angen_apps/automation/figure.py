@@ -1,7 +1,5 @@
 """A picture of a run: the plan of the home with what takes part, and below it the time line of
 people, states, commands and expectations."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from pathlib import Path

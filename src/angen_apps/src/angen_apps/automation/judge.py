@@ -1,6 +1,4 @@
 """Judges the expectations of a scenario by what was recorded."""
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 from angen_apps.automation.bench import Record

@@ -1,6 +1,4 @@
 """The results of a bench: lines for people, JUnit XML, and tables of what happened."""
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Any, Sequence

@@ -1,6 +1,4 @@
 """Reads the scenario of a bench from its YAML file; Failure has file, line and what is right."""
-from __future__ import annotations
-
 import datetime
 import math
 import re

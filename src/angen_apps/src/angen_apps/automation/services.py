@@ -1,6 +1,4 @@
 """Services of Home Assistant: the part of an entity that one commands, and the payload."""
-from __future__ import annotations
-
 from typing import Any
 
 from angen_apps.automation.entities import Entity

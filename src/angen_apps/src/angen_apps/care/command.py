@@ -1,6 +1,4 @@
 """angen care: warns about situations in a home, by rules over its sensors."""
-from __future__ import annotations
-
 import sys
 from contextlib import suppress
 from pathlib import Path

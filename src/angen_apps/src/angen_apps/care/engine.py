@@ -1,6 +1,4 @@
 """The rule engine: events and time in, warnings out. It knows neither ROS nor a world."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from heapq import heappop, heappush

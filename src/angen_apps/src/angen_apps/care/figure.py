@@ -1,7 +1,5 @@
 """A picture of the warnings: on the plan of the home where each rule looks, and below it the
 degree of each rule over the day."""
-from __future__ import annotations
-
 import math
 from collections import Counter
 from pathlib import Path

@@ -1,6 +1,4 @@
 """Care rules over a world: its events and time in, changes of warnings out."""
-from __future__ import annotations
-
 from angen_apps.care.engine import Change, Engine
 from angen_apps.care.rules import Rules
 from angen_apps.care.sources import at_home, check_sources

@@ -1,6 +1,4 @@
 """Care rules on the running simulator: publishes warnings."""
-from __future__ import annotations
-
 import time
 from typing import Callable
 

@@ -1,6 +1,4 @@
 """Fuzzy membership: the degree, 0 to 1, to which a quantity belongs to a set."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Sequence

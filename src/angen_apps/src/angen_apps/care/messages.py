@@ -1,6 +1,4 @@
 """Warnings as ROS messages: the topic, the list of active ones, markers, the event log."""
-from __future__ import annotations
-
 from textwrap import fill
 from typing import Any, Sequence
 

@@ -1,6 +1,4 @@
 """Care rules over a simulated time without ROS: as fast as possible, by the same engine."""
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Sequence
 

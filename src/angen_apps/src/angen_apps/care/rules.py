@@ -1,6 +1,4 @@
 """The parts of care rules, as their file has them."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

@@ -1,6 +1,4 @@
 """Reads care rules from their YAML file; Failure has file, line, the error and its fix."""
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any, Callable, Sequence
 

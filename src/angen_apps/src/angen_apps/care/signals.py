@@ -1,6 +1,4 @@
 """The state of signals: events in; whether each is true, and since when, out."""
-from __future__ import annotations
-
 from typing import Collection, Mapping
 
 from angen_apps.care.rules import Signal

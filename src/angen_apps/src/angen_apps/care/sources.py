@@ -1,6 +1,4 @@
 """Which sensors and devices of a world the signals of rules mean."""
-from __future__ import annotations
-
 from dataclasses import replace
 from fnmatch import fnmatchcase
 from pathlib import Path

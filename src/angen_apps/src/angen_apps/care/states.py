@@ -1,6 +1,4 @@
 """States of sensors and devices that rules can name: which events begin and end them."""
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 

@@ -1,6 +1,4 @@
 """The commands of angen_apps, which the angen command finds here."""
-from __future__ import annotations
-
 from typing import Any
 
 from angen_apps.cli import (apartment, automation, care, data, edit, go, imports, locate, maps,

@@ -1,6 +1,4 @@
 """angen generate, validate and realism on the command line."""
-from __future__ import annotations
-
 import argparse
 import os
 from pathlib import Path

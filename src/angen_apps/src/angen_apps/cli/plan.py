@@ -1,6 +1,4 @@
 """angen plan on the command line."""
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

@@ -1,6 +1,4 @@
 """angen walktest on the command line."""
-from __future__ import annotations
-
 import argparse
 from typing import Any
 

@@ -1,6 +1,4 @@
 """angen web on the command line."""
-from __future__ import annotations
-
 import argparse
 import re
 from pathlib import Path

@@ -3,8 +3,6 @@
 It follows spawns, deletions and rides of elevators only; the state of a device is read when it is
 clicked.
 """
-from __future__ import annotations
-
 from typing import Any
 
 import roslib.message

@@ -1,6 +1,4 @@
 """The entries of a menu and the command of a click, by the verbs of a kind."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, Sequence
 

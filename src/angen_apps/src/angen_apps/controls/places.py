@@ -1,6 +1,4 @@
 """Places of a home to which a menu sends people and robots."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from typing import Any, Iterator

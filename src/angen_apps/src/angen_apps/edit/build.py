@@ -1,6 +1,4 @@
 """Makes worlds of drawings, and says what is wrong with a home."""
-from __future__ import annotations
-
 from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path

@@ -1,6 +1,4 @@
 """What one can put into a home: furniture, sensors, and what their fields of view are."""
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass, replace
 from math import isfinite, pi
 from typing import Any

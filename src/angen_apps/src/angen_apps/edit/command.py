@@ -1,6 +1,4 @@
 """angen edit: opens a home, and serves the page that draws it."""
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

@@ -1,6 +1,4 @@
 """The part of a floor in which sensors detect somebody, by rays and zones of the simulator."""
-from __future__ import annotations
-
 from base64 import b64encode
 from math import ceil
 from typing import Any

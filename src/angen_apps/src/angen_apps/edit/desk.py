@@ -1,6 +1,4 @@
 """The home that is edited: its file, its draft beside it, and who has changed it last."""
-from __future__ import annotations
-
 import hashlib
 import json
 import os

@@ -1,6 +1,4 @@
 """The usual day of a person who is drawn: from a profile, and as a profile of its own."""
-from __future__ import annotations
-
 import tempfile
 from pathlib import Path
 from typing import Any

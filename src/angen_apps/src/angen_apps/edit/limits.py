@@ -1,7 +1,5 @@
 """What orders of pages and drafts may contain beside a drawing, whose numbers plan/drawing.py
 limits."""
-from __future__ import annotations
-
 from typing import Any
 
 from angen_apps.data.shapes import number

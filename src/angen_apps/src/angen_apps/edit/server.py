@@ -1,6 +1,4 @@
 """The server of angen edit: gives the page a home, and checks, keeps, writes and simulates it."""
-from __future__ import annotations
-
 import asyncio
 import json
 from contextlib import suppress

@@ -1,6 +1,4 @@
 """A simulator of the home that is drawn, on a master of its own, and its page."""
-from __future__ import annotations
-
 import json
 import shutil
 import sys

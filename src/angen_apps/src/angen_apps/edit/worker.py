@@ -1,6 +1,4 @@
 """A process that works on drawings, each in a process of its own with limits."""
-from __future__ import annotations
-
 import os
 import signal
 import threading

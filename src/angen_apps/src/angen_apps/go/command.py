@@ -1,6 +1,4 @@
 """angen go: sends the robot of the running simulator to a room."""
-from __future__ import annotations
-
 import math
 import os
 import re

@@ -1,6 +1,4 @@
 """Whether a robot may drive on: its way is free, it makes progress, and it is localized."""
-from __future__ import annotations
-
 import math
 
 import numpy as np

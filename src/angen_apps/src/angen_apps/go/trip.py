@@ -1,6 +1,4 @@
 """A drive to a goal: where it is blocked, the robot finds its pose and plans again."""
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Callable, Mapping

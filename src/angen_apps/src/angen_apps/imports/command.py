@@ -1,6 +1,4 @@
 """angen import: reads a plan of any known kind and writes a world."""
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

@@ -1,6 +1,4 @@
 """Rooms between walls, found by flood fill, as polygons."""
-from __future__ import annotations
-
 from typing import Sequence
 
 import numpy as np

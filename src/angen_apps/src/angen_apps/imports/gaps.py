@@ -1,6 +1,4 @@
 """Doors in a picture: gaps between its walls."""
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from math import pi
 

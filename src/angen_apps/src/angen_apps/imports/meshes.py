@@ -1,6 +1,4 @@
 """Looks of furniture: OBJ meshes in a home's zip, turned and scaled to a unit box."""
-from __future__ import annotations
-
 import hashlib
 import io
 import tempfile

@@ -1,6 +1,4 @@
 """Reads plans that are pictures: scans, drawings, and the maps of map_server (map.yaml)."""
-from __future__ import annotations
-
 from dataclasses import replace
 from math import radians
 from pathlib import Path

@@ -1,6 +1,4 @@
 """Pixels of a plan: how dark they are, which are walls, and by how much they are turned."""
-from __future__ import annotations
-
 from math import cos, radians, sin
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Reads buildings of Open-RMF's traffic editor (building.yaml): pixels with y down, a level each.
 """
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from math import atan2, hypot, pi, sin
 from pathlib import Path

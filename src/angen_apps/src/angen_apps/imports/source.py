@@ -1,6 +1,4 @@
 """Files that a home is imported from: bounded reading, and errors with file and line."""
-from __future__ import annotations
-
 import codecs
 import math
 import re

@@ -1,6 +1,4 @@
 """Walls in a picture: its dark pixels without noise, as boxes along x and y."""
-from __future__ import annotations
-
 import numpy as np
 from scipy.ndimage import (binary_closing, binary_opening, distance_transform_edt, find_objects,
                            label, maximum_filter)

@@ -1,7 +1,5 @@
 """Reads homes of Sweet Home 3D (5.3 and later). The file has cm and y down; plans have m and y up.
 """
-from __future__ import annotations
-
 from dataclasses import replace
 from math import cos, pi, sin
 from pathlib import Path

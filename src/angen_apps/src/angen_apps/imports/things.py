@@ -1,6 +1,4 @@
 """Finds the thing, model and shape of a piece of furniture by words in its name."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path

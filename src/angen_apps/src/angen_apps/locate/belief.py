@@ -1,6 +1,4 @@
 """In which room each tag is: a Bayes filter over rooms, whose doors join them."""
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Iterable, Mapping
 

@@ -1,6 +1,4 @@
 """A picture of where tags were located: on the plan of the home, beside the truth."""
-from __future__ import annotations
-
 from collections import Counter
 from itertools import cycle
 from pathlib import Path

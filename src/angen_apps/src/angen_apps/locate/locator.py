@@ -1,6 +1,4 @@
 """Locates tags in a world, by the readings of its sensors, and compares with the truth."""
-from __future__ import annotations
-
 from typing import Callable
 
 from angen_apps.locate.belief import STEP, Answer, Belief, Evidence

@@ -1,6 +1,4 @@
 """Knowledge of a home for locating: the ways between its rooms, and its sensors."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from typing import Iterable

@@ -1,6 +1,4 @@
 """Cells of a grid that a mask (rows, columns) contains: at a place, near it, and connected ones."""
-from __future__ import annotations
-
 import numpy as np
 from angen import Grid
 from scipy.ndimage import label

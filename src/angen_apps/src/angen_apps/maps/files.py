@@ -1,6 +1,4 @@
 """angen map: a floor's map as the files of map_server."""
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

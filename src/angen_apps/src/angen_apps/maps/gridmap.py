@@ -1,6 +1,4 @@
 """Occupancy maps of a world's floors, measured by rays against its geometry."""
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any, Callable, Collection, Sequence
 

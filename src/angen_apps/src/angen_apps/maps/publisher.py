@@ -1,6 +1,4 @@
 """The node that publishes the maps of a building's floors."""
-from __future__ import annotations
-
 import sys
 from multiprocessing import Pipe, Process
 from multiprocessing.connection import Connection

@@ -1,6 +1,4 @@
 """Lines of sight in a world's geometry, without ROS."""
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,6 +1,4 @@
 """The bridge between a world and a broker: states to topics, messages to commands."""
-from __future__ import annotations
-
 import json
 import math
 import secrets

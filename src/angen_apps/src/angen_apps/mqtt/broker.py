@@ -1,6 +1,4 @@
 """The connection to an MQTT broker: comes back by itself, and says of each trouble one line."""
-from __future__ import annotations
-
 import secrets
 import socket
 import ssl

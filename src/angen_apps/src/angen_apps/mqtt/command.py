@@ -1,6 +1,4 @@
 """angen mqtt: connects the running building to a broker until Ctrl-C."""
-from __future__ import annotations
-
 import math
 import os
 import signal

@@ -1,6 +1,4 @@
 """The messages from which Home Assistant makes its entities."""
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,6 +1,4 @@
 """Habits of hardware: what a thing reports, and when."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from pathlib import Path

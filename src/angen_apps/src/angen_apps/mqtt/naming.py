@@ -1,6 +1,4 @@
 """Names of things as people say them, and as topics have them."""
-from __future__ import annotations
-
 import re
 from functools import lru_cache
 from typing import Iterable, Sequence

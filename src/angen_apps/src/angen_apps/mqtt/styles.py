@@ -1,6 +1,4 @@
 """Topics and payloads: a topic for each value, or those of Zigbee2MQTT."""
-from __future__ import annotations
-
 import json
 from typing import Any, Callable, Iterable, Mapping, Protocol
 

@@ -1,6 +1,4 @@
 """The components of Home Assistant that a kind has: by components.yaml, else by a rule."""
-from __future__ import annotations
-
 import dataclasses
 import math
 from dataclasses import dataclass

@@ -1,6 +1,4 @@
 """The things of a world: each is a device of Home Assistant."""
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any, Iterator

@@ -1,6 +1,4 @@
 """Values of parts: from fields of states, and from what is received."""
-from __future__ import annotations
-
 import json
 import math
 from typing import Any, Mapping

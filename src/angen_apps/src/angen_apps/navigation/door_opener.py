@@ -1,6 +1,4 @@
 """A node that opens the doors on a robot's planned path before it gets there."""
-from __future__ import annotations
-
 import math
 from typing import Any, Mapping, Sequence
 

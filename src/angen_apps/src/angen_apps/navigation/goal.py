@@ -1,6 +1,4 @@
 """Goals of navigation (docs/navigation.md), as rviz's tool 2D Nav Goal publishes them."""
-from __future__ import annotations
-
 import math
 from typing import Any
 

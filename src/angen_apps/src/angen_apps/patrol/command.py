@@ -1,6 +1,4 @@
 """angen task patrol: from the words of the command to the folder that it leaves."""
-from __future__ import annotations
-
 import os
 import shutil
 import signal

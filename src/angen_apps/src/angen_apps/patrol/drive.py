@@ -1,6 +1,4 @@
 """The patrol itself: the robot does its route's actions on a node that is stepped."""
-from __future__ import annotations
-
 import random
 from typing import Callable
 

@@ -1,6 +1,4 @@
 """A patrol's figure of a floor: rooms, track, and where each sensor noticed the robot."""
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

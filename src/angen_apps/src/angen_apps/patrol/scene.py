@@ -1,6 +1,4 @@
 """A patrol's knowledge before it starts: a copy of the world, maps, doors, the whole route."""
-from __future__ import annotations
-
 import random
 from dataclasses import dataclass
 from typing import Any

@@ -1,6 +1,4 @@
 """angen task patrol --seeds N: one patrol after the other, each with its seed, and a table."""
-from __future__ import annotations
-
 import subprocess
 import sys
 from dataclasses import asdict

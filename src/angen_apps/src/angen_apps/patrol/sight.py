@@ -1,6 +1,4 @@
 """When a sensor could first notice the robot, by geometry: rays, and no sensor's reading."""
-from __future__ import annotations
-
 import math
 from typing import Any, Iterable
 

@@ -4,8 +4,6 @@ Bedrooms have at least 11.5 m2 and 2.75 m (the first) or 7.5 m2 and 2.15 m, ceil
 Nationally Described Space Standard (England, 2015) requires that and 2.3 m. Leaves are 0.86 m
 wide: Approved Document M (2015) requires 0.75 m clear for a straight approach.
 """
-from __future__ import annotations
-
 from dataclasses import replace
 from math import pi
 from random import Random

@@ -1,6 +1,4 @@
 """Leaves of doors and sashes of windows: how far they open, and their models."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from lxml import etree

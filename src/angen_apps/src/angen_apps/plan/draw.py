@@ -1,6 +1,4 @@
 """Draws a world as an architect's plan, to scale, floors side by side."""
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from math import cos, pi, sin
 from pathlib import Path

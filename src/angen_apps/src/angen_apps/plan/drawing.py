@@ -1,6 +1,4 @@
 """A plan as JSON: a world contains the one that it was written from, so that it can be edited."""
-from __future__ import annotations
-
 import hashlib
 import json
 import re

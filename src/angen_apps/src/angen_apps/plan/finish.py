@@ -1,6 +1,4 @@
 """Completes a plan that was read: names, uses of rooms, and the main entrance."""
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from math import sin

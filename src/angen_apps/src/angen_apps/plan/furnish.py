@@ -1,6 +1,4 @@
 """Furniture: models of worlds/models scaled to a piece's box, and boxes for the rest."""
-from __future__ import annotations
-
 from copy import deepcopy
 from functools import cache
 from math import pi, prod

@@ -1,7 +1,5 @@
 """Furniture by rules: what residents need first, each piece with its back to a wall, nothing in
 a door's swing, chairs at tables, ways free."""
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import cos, hypot, pi, sin

@@ -1,6 +1,4 @@
 """Lifts: cabin, shaft doors and stops as a model with Angen's elevator plug-in."""
-from __future__ import annotations
-
 from dataclasses import replace
 from math import pi, sin
 from typing import Sequence

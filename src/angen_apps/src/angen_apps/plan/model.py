@@ -2,8 +2,6 @@
 
 Lengths in m, angles in rad, x to the right and y up on the page; heights z are of the world.
 """
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from math import hypot, pi
 

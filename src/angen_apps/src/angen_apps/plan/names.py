@@ -1,6 +1,4 @@
 """Names of rooms and models from the texts of a plan, and the uses of rooms."""
-from __future__ import annotations
-
 import re
 import unicodedata
 

@@ -1,6 +1,4 @@
 """Rooms with walls around them that are drawn within another room: holes in that one."""
-from __future__ import annotations
-
 from dataclasses import replace
 from math import ceil, cos, hypot, sin
 from typing import Sequence

@@ -1,6 +1,4 @@
 """The shapes of a world seen from above: collisions, and leaves of doors from shut to open."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import cos, sin
 from typing import Any, Sequence

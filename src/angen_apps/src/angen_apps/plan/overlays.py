@@ -1,6 +1,4 @@
 """Draws over a plan: sensors with their fields of view, events, and tracks."""
-from __future__ import annotations
-
 import csv
 import gzip
 import math

@@ -1,6 +1,4 @@
 """Passages between rooms that touch without a wall between them, as in open plans."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import pi
 

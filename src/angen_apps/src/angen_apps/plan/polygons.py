@@ -1,6 +1,4 @@
 """Polygons of a plan: area, inside, rectangles that overlap, and the strips of a raster."""
-from __future__ import annotations
-
 from math import cos, hypot, inf, sin
 from typing import Sequence
 

@@ -1,6 +1,4 @@
 """Sensors of a home by rules: the sensors of each room, and their heights."""
-from __future__ import annotations
-
 from math import atan2, hypot, pi
 
 import numpy as np

@@ -1,6 +1,4 @@
 """Floors and ceilings as boxes: the plan in cells, each room's cells covered by rectangles."""
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from math import ceil, floor
 from typing import Iterable, Sequence

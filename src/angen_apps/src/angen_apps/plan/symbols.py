@@ -1,7 +1,5 @@
 """Symbols of furniture on a plan, as lines in the thing's own frame from -1 to 1; x is its front.
 """
-from __future__ import annotations
-
 from math import cos, pi, sin
 
 Line = list[tuple[float, float]]

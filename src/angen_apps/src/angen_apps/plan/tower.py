@@ -2,8 +2,6 @@
 
 The apartments of a side are wings with a court between them, so that each room has a window.
 """
-from __future__ import annotations
-
 from dataclasses import replace
 from math import pi
 from random import Random

@@ -1,6 +1,4 @@
 """Opens the leaves of a storey until they touch a wall, a thing or another leaf."""
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import ceil, copysign, cos, degrees, pi

@@ -1,6 +1,4 @@
 """Walls as boxes: joints closed, nothing twice in one place, openings cut out."""
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from math import atan2, ceil, cos, degrees, hypot, pi, radians, sin, tan
 from typing import Callable, Iterable, Sequence

@@ -1,6 +1,4 @@
 """Writes a plan as a world in SDF that people can read and edit."""
-from __future__ import annotations
-
 from contextlib import ExitStack
 from dataclasses import replace
 from math import pi

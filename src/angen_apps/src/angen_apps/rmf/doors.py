@@ -1,6 +1,4 @@
 """A door in Open-RMF's words."""
-from __future__ import annotations
-
 from typing import Any
 
 from rmf_door_msgs.msg import DoorMode, DoorState

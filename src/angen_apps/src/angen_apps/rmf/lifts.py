@@ -1,6 +1,4 @@
 """An elevator in Open-RMF's words: a lift, which serves one session at a time."""
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from typing import Any

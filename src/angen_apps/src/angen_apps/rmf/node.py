@@ -1,6 +1,4 @@
 """The node that serves doors and elevators to Open-RMF."""
-from __future__ import annotations
-
 import math
 from typing import Any, Iterable
 

@@ -1,6 +1,4 @@
 """A robot's knowledge of a building before it starts: its floors' maps and doors, and itself."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Collection

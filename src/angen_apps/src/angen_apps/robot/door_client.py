@@ -1,6 +1,4 @@
 """Doors and elevators, as the programs of robots use them."""
-from __future__ import annotations
-
 from contextlib import suppress
 from dataclasses import dataclass
 

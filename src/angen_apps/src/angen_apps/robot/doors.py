@@ -1,6 +1,4 @@
 """The doors of a building, as its home and its devices describe them."""
-from __future__ import annotations
-
 import math
 from typing import Any, Mapping
 

@@ -1,6 +1,4 @@
 """Does a route's actions: the robot drives cycle by cycle, has doors turned, and rides."""
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Any, Callable
 

@@ -1,6 +1,4 @@
 """Devices and sensors of a world, with their floors."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,6 +1,4 @@
 """The inputs and outputs of a robot's program, through ROS or in this process."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol

@@ -1,6 +1,4 @@
 """Localizes a robot: its odometry, corrected by laser scans against the map."""
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,6 +1,4 @@
 """Ways over a map: the shortest that keeps its distance, and its crossings of doors."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

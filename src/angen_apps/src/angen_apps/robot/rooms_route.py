@@ -1,6 +1,4 @@
 """A route through the rooms of any home, and the home with a robot and a person in it."""
-from __future__ import annotations
-
 import os
 import sys
 from dataclasses import replace

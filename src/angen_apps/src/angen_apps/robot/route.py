@@ -1,6 +1,4 @@
 """Turns a route's waypoints into actions of the robot: drive, have doors turned, ride."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from angen_apps.robot.planner import Door, NoRoom, Planner, Point, passages

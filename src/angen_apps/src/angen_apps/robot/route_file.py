@@ -1,6 +1,4 @@
 """A patrol's route, read from its YAML file: where to go, and how fast."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any

@@ -1,6 +1,4 @@
 """Files of every task of a robot: events.csv, track.csv and a table of figures."""
-from __future__ import annotations
-
 from dataclasses import astuple, fields
 from pathlib import Path
 from typing import Any, Sequence

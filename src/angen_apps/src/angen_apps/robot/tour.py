@@ -1,6 +1,4 @@
 """The order of a robot's visits: a short way through all places of a floor."""
-from __future__ import annotations
-
 from typing import Sequence
 
 import numpy as np

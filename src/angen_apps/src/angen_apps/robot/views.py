@@ -1,6 +1,4 @@
 """The fields of view of a building's sensors, by their SDF."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

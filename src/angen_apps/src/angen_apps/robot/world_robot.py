@@ -1,6 +1,4 @@
 """A robot in a world, in this process or in ROS."""
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 

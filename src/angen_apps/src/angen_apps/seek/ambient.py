@@ -1,6 +1,4 @@
 """Evidence of ambient sensors about a person, unless the robot itself causes it."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 

@@ -1,6 +1,4 @@
 """The belief of a person's place: a Bayes filter over cells, standing or walking."""
-from __future__ import annotations
-
 import numpy as np
 from scipy.sparse import csr_matrix, diags, identity
 

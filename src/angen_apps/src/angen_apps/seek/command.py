@@ -1,6 +1,4 @@
 """angen task seek: from the words of the command to the folder that it leaves."""
-from __future__ import annotations
-
 import gc
 import multiprocessing
 import os

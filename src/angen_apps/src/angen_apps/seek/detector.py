@@ -1,6 +1,4 @@
 """Finds people in a robot's own measurements: arcs in a scan, figures in a depth image."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

@@ -1,6 +1,4 @@
 """A search's figures: where he may be, moment by moment; and how long it takes, seed by seed."""
-from __future__ import annotations
-
 from pathlib import Path
 from statistics import median
 from typing import Any

@@ -1,6 +1,4 @@
 """A search's knowledge of the building: rooms, cells, visibility between them, the sensors."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any

@@ -1,6 +1,4 @@
 """The person of a search: a resident who walks from room to room, as the robot's cycles pass."""
-from __future__ import annotations
-
 import math
 from typing import Any
 

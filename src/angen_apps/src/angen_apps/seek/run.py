@@ -1,6 +1,4 @@
 """One search from its seed to its figures."""
-from __future__ import annotations
-
 import math
 import time
 from dataclasses import dataclass, replace

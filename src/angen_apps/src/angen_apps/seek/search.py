@@ -1,6 +1,4 @@
 """The search: the next viewpoint, observations on the way, and when the person is found."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from typing import Callable

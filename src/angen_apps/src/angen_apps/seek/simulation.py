@@ -3,8 +3,6 @@
 The robot receives the messages of its topics: events, states of doors and elevator, odometry,
 scans, depth images. The true poses of robot and person are for the person's own eyes and the judge.
 """
-from __future__ import annotations
-
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Callable

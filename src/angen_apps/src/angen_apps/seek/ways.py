@@ -1,6 +1,4 @@
 """The times of the robot to the viewpoints: ways, doors, and the elevator."""
-from __future__ import annotations
-
 from collections import deque
 from typing import Mapping
 

@@ -1,6 +1,4 @@
 """The cast of a situation besides the detector: a row's `cast` as puppets, models, commands."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from typing import Any, Callable, Mapping, Sequence

@@ -1,6 +1,4 @@
 """angen situations: a PIR's reports of everyday situations, against expectations."""
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

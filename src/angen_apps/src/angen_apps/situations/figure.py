@@ -1,7 +1,5 @@
 """A picture of situations: the room of each on a plan, the detector and its field, and the ways of
 the cast."""
-from __future__ import annotations
-
 from math import ceil
 from pathlib import Path
 from tempfile import TemporaryDirectory

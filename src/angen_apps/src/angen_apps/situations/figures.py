@@ -4,8 +4,6 @@ A person is 1.75 m tall and lives in a room of `air` K: head and hands are skin,
 clothing. Between skin (306.5 K on average) and air there are the 0.155 m^2 K/W of 1 clo and the
 0.085 of its surface (ISO 9920), so that it is warmer than the air by 35 % of the difference.
 """
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Callable

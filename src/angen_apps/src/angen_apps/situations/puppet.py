@@ -1,6 +1,4 @@
 """Things that move by a script: links on joints that motors drive, as SDF and as a device."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Callable, Mapping, Sequence

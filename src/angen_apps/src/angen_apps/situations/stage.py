@@ -1,6 +1,4 @@
 """Plays one situation in a room of its own and reads the detector. Needs no ROS."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any, Mapping, Sequence

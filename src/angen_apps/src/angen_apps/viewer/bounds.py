@@ -1,6 +1,4 @@
 """The box around a world, by its angen_msgs/Scene."""
-from __future__ import annotations
-
 from itertools import product
 from typing import Any
 

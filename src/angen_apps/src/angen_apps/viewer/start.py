@@ -1,6 +1,4 @@
 """The node that starts rviz with views of the world at hand, and becomes it."""
-from __future__ import annotations
-
 import ctypes
 import os
 import sys

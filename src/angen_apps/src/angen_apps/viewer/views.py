@@ -1,6 +1,4 @@
 """Views of rviz that show a whole world, and each of its floors from above."""
-from __future__ import annotations
-
 import copy
 import re
 from math import cos, sin, tan

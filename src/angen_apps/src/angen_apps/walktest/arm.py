@@ -1,6 +1,4 @@
 """The arm of a walk test's minor motion: a warm box that turns about its elbow on command."""
-from __future__ import annotations
-
 import math
 from functools import cache
 from typing import Any, Mapping

@@ -1,6 +1,4 @@
 """angen walktest: a standard's walk test of a motion detector, without ROS."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,6 +1,4 @@
 """The walks of a person in a walk test. In m; the detector is at 0 0 and faces along x."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from typing import Any, Iterator, Mapping

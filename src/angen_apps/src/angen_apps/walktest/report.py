@@ -1,6 +1,4 @@
 """The results of a walk test: words, CSV, a plan of detected and missed steps."""
-from __future__ import annotations
-
 import math
 from dataclasses import asdict
 from pathlib import Path

@@ -1,5 +1,4 @@
 """The empty room in which detectors are tested."""
-from __future__ import annotations
 
 
 def room(depth: float, half: float, ambient: float, step: float, content: str = '') -> str:

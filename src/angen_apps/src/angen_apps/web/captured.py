@@ -1,6 +1,4 @@
 """A while of the running building as a source with a time line: it is read as it happens."""
-from __future__ import annotations
-
 import time
 
 from angen_apps.web.feed import Feed

@@ -1,6 +1,4 @@
 """A generated day as the source of pages: what angen generate wrote, in the home that it is of."""
-from __future__ import annotations
-
 import datetime
 import math
 import tempfile

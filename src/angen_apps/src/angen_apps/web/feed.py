@@ -1,7 +1,5 @@
 """The store filled from a running node, by its public topics: readings always, for their history;
 the others while a browser is open."""
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import dataclasses

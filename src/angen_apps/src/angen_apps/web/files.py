@@ -1,6 +1,4 @@
 """The files of the page, compressed: over a slow network its first view waits for them."""
-from __future__ import annotations
-
 import gzip
 import mimetypes
 from pathlib import Path

@@ -1,6 +1,4 @@
 """angen web --video: the page at even simulated times, as a video."""
-from __future__ import annotations
-
 import asyncio
 import json
 import shutil

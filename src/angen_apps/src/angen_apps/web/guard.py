@@ -1,6 +1,4 @@
 """Access to the server: the Host and Origin of requests, tokens and their roles, and limits."""
-from __future__ import annotations
-
 import hmac
 import ipaddress
 import secrets

@@ -1,6 +1,4 @@
 """The readings of a whole run, of which the older ones get fewer: memory stays within TOTAL."""
-from __future__ import annotations
-
 import threading
 from array import array
 from typing import Any, Iterator

@@ -1,6 +1,4 @@
 """Images of cameras as JPEG."""
-from __future__ import annotations
-
 import io
 from typing import Any
 

@@ -1,6 +1,4 @@
 """This process as a node of ROS that outlives its master."""
-from __future__ import annotations
-
 import sys
 import time
 

@@ -1,6 +1,4 @@
 """The orders of a page to the simulator, all by public services and topics."""
-from __future__ import annotations
-
 import math
 import threading
 from contextlib import suppress

@@ -1,6 +1,4 @@
 """A source that is played with a time line, and filled once."""
-from __future__ import annotations
-
 import asyncio
 import dataclasses
 import sys

@@ -1,6 +1,4 @@
 """A recorded run as the source of pages: it is replayed in this process."""
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

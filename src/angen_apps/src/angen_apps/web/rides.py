@@ -1,6 +1,4 @@
 """Elevators of a generated day, and the residents whom their cabins carry."""
-from __future__ import annotations
-
 import bisect
 import math
 from dataclasses import dataclass, field

@@ -1,6 +1,4 @@
 """The scene of a world as the page reads it."""
-from __future__ import annotations
-
 import base64
 from typing import Any
 

@@ -1,6 +1,4 @@
 """The HTTP and WebSocket server of angen web."""
-from __future__ import annotations
-
 import asyncio
 import gzip
 import json

@@ -1,8 +1,6 @@
 """The newest state of the building, of which each browser gets what changed since it got some last:
 a slow browser gets fewer and larger changes, never a backlog.
 """
-from __future__ import annotations
-
 import itertools
 import struct
 import threading

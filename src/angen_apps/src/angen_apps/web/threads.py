@@ -1,6 +1,4 @@
 """Calls that wait, in threads that do not outlive the program: asyncio's own pool is waited for."""
-from __future__ import annotations
-
 import asyncio
 import threading
 from concurrent.futures import Future

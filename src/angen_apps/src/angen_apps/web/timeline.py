@@ -1,6 +1,4 @@
 """A recorded run as a page plays it: all that changed, with its time; the page keeps it."""
-from __future__ import annotations
-
 import bisect
 from typing import Any, Iterable
 

@@ -1,6 +1,4 @@
 """Drives of robots to goals that pages order: by move_base where it runs, else by angen go."""
-from __future__ import annotations
-
 import re
 import signal
 import subprocess

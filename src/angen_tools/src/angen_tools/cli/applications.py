@@ -1,6 +1,4 @@
 """Commands of other packages. Each of these modules has add_commands(commands)."""
-from __future__ import annotations
-
 from importlib import import_module
 from typing import Any
 

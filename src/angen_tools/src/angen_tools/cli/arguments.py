@@ -1,8 +1,6 @@
 """Values of the command line: each function returns the meaning of a word, or a ValueError with the
 error and its fix.
 """
-from __future__ import annotations
-
 import argparse
 import math
 from pathlib import Path

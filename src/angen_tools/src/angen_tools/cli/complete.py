@@ -1,6 +1,4 @@
 """Completions that a shell offers after TAB; none if there is no simulator to query."""
-from __future__ import annotations
-
 import argparse
 from typing import Any, Callable
 

@@ -1,6 +1,4 @@
 """The commands that work on the running simulator."""
-from __future__ import annotations
-
 import argparse
 import shlex
 import sys

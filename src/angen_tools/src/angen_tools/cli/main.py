@@ -1,6 +1,4 @@
 """The angen command: its words, and how it ends."""
-from __future__ import annotations
-
 import argparse
 import logging
 import os

@@ -1,7 +1,5 @@
 """The commands that need no running simulator: plugins, check, home, luxcheck, world, run,
 replay."""
-from __future__ import annotations
-
 import argparse
 from dataclasses import asdict
 from pathlib import Path

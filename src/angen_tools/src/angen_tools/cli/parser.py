@@ -1,6 +1,4 @@
 """The parts that the subcommands of angen are made of."""
-from __future__ import annotations
-
 import argparse
 import re
 import sys

@@ -1,6 +1,4 @@
 """Angles as people write them, in rad or in degrees."""
-from __future__ import annotations
-
 import math
 import sys
 

@@ -3,8 +3,6 @@
 Beside each plug-in library libX.so is libX.json, written when it was built: read here without
 loading the library, so that --help stays quick.
 """
-from __future__ import annotations
-
 import json
 import mmap
 import os

@@ -1,6 +1,4 @@
 """Durations and times of day as people write them; in s."""
-from __future__ import annotations
-
 import re
 
 MINUTE, HOUR, DAY = 60.0, 3600.0, 86400.0

@@ -1,8 +1,6 @@
 """Files that commands write. A file has its name only when all of it is written: before, it is
 NAME.part beside it. After an error, a full disk or SIGKILL, an older file of the name is unchanged.
 """
-from __future__ import annotations
-
 import csv
 import errno
 import fcntl

@@ -1,7 +1,5 @@
 """Where the files of this Angen are: in a workspace, or beside the module of a wheel or of Debian's
 package."""
-from __future__ import annotations
-
 import importlib.util
 from functools import cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Work on files of others in a process of its own, as angen_mesh reads meshes: its memory and CPU
 time have limits, and a signal ends it at once, also inside a library in C."""
-from __future__ import annotations
-
 import ctypes  # noqa: F401: end_with_parent() imports it, once instead of in each process
 import os
 import re

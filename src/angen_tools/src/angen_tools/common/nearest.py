@@ -1,6 +1,4 @@
 """Suggestions where a name is not known."""
-from __future__ import annotations
-
 from difflib import SequenceMatcher
 from typing import Iterable, Sequence
 

@@ -1,6 +1,4 @@
 """The port of a page that this machine serves."""
-from __future__ import annotations
-
 import socket
 
 from angen_tools.common.failure import Failure

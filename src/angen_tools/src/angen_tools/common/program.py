@@ -1,6 +1,4 @@
 """The start of the scripts."""
-from __future__ import annotations
-
 import signal
 import sys
 from importlib import import_module

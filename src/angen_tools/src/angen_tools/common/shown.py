@@ -1,6 +1,4 @@
 """The values in the words of /angen/summary, with their units."""
-from __future__ import annotations
-
 from typing import Any, Mapping
 
 BETWEEN = '  '  # two fields

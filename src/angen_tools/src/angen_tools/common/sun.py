@@ -1,6 +1,4 @@
 """Where the sun is, by the clock of a home: local mean time, without a time zone."""
-from __future__ import annotations
-
 import datetime
 import math
 

@@ -1,6 +1,4 @@
 """Text files that people write: UTF-8, also with the byte order mark that Windows programs add."""
-from __future__ import annotations
-
 import codecs
 from pathlib import Path
 

@@ -1,6 +1,4 @@
 """Words of a command that were pasted from a PDF: curly quotes, minus signs and dashes."""
-from __future__ import annotations
-
 import re
 from typing import Iterable, Iterator
 

@@ -1,6 +1,4 @@
 """Commands to devices in the words of their kind: its verbs in the catalog."""
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import dataclass

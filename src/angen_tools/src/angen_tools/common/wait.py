@@ -1,6 +1,4 @@
 """Waiting for a condition, with a limit."""
-from __future__ import annotations
-
 import time
 from typing import Callable
 

@@ -3,8 +3,6 @@
 A process of its own waits at a pipe that only the command holds open. The command's processes are
 found by a mark in their environment, which children inherit, whatever their parent and session are.
 """
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

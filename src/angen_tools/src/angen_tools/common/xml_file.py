@@ -1,7 +1,5 @@
 """XML of others: measured before it is parsed, with the limits of document/xml.cpp, because a
 parser takes memory for all of it and compares each attribute of an element with all others."""
-from __future__ import annotations
-
 import re
 from itertools import islice
 from typing import Any

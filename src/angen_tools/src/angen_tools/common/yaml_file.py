@@ -1,6 +1,4 @@
 """YAML files that people write: each error has file, line, and its fix."""
-from __future__ import annotations
-
 import math
 import re
 from pathlib import Path

@@ -1,6 +1,4 @@
 """The arguments of a launch file, NAME:=VALUE: roslaunch ignores names that it does not know."""
-from __future__ import annotations
-
 import math
 import os
 import sys

@@ -1,6 +1,4 @@
 """The machine of ./angen run: its display, and the access to its ROS master."""
-from __future__ import annotations
-
 import os
 import re
 import subprocess

@@ -1,6 +1,4 @@
 """The ROS master that ./angen run uses: one that runs already, or one of its own."""
-from __future__ import annotations
-
 import http.client
 import shutil
 import socket

@@ -1,6 +1,4 @@
 """angen set: commands to devices, checked before they are sent."""
-from __future__ import annotations
-
 import time
 from typing import Any, Sequence
 

@@ -1,6 +1,4 @@
 """angen drive: a robot by the arrow keys."""
-from __future__ import annotations
-
 import json
 import os
 import select

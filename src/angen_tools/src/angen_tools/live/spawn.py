@@ -1,6 +1,4 @@
 """angen spawn, delete, save: the contents of the world."""
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any, Callable, Sequence

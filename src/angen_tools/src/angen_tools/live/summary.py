@@ -1,6 +1,4 @@
 """/angen/summary: the last reading or state of every sensor and device, in words."""
-from __future__ import annotations
-
 import math
 import time
 from dataclasses import dataclass

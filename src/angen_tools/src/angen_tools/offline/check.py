@@ -1,6 +1,4 @@
 """angen check: whether the file of a world, a model or a robot loads."""
-from __future__ import annotations
-
 import os
 import re
 from contextlib import contextmanager

@@ -1,6 +1,4 @@
 """A simulated day: commands to devices at times of day, from a CSV file."""
-from __future__ import annotations
-
 import csv
 import io
 from dataclasses import dataclass, replace

@@ -1,6 +1,4 @@
 """Events as rows of a CSV file."""
-from __future__ import annotations
-
 import re
 from typing import Any
 

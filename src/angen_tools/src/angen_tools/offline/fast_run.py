@@ -1,6 +1,4 @@
 """angen run --fast: a world in this process, leaping over time in which nothing happens."""
-from __future__ import annotations
-
 import csv
 import sys
 import time

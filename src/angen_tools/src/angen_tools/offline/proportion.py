@@ -1,6 +1,4 @@
 """Lengths and angles of a world that are out of proportion, as those in other units are."""
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any, Iterator

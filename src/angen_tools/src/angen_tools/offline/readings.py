@@ -1,6 +1,4 @@
 """All readings of a run as one long table: a row for each field of each reading."""
-from __future__ import annotations
-
 import csv
 import gzip
 import io

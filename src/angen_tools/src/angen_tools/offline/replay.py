@@ -1,6 +1,4 @@
 """angen replay: runs a recorded session again, and compares its fingerprints."""
-from __future__ import annotations
-
 import os
 import sys
 import time

@@ -2,8 +2,6 @@
 
 Each wait has a limit of wall time (s).
 """
-from __future__ import annotations
-
 import math
 import queue
 import re

@@ -1,6 +1,4 @@
 """The states of devices and readings of sensors in messages of ROS."""
-from __future__ import annotations
-
 import re
 from typing import Any, Callable
 

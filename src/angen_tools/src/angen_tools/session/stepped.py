@@ -3,8 +3,6 @@
 No result depends on how fast messages travel: before a step the node has counted all commands as
 received, and after it all events have arrived that it has counted as published.
 """
-from __future__ import annotations
-
 import time
 from typing import Any, Iterable
 

@@ -1,6 +1,4 @@
 """The interface of a world to its tools, which is the same in this process and in ROS."""
-from __future__ import annotations
-
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field

@@ -1,6 +1,4 @@
 """Writes a world of stacked apartments with a number of sensors of each kind."""
-from __future__ import annotations
-
 from copy import deepcopy
 from pathlib import Path
 from typing import Mapping, Sequence

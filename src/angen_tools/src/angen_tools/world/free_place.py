@@ -1,6 +1,4 @@
 """A place in a world at which there is room for a model."""
-from __future__ import annotations
-
 import math
 from typing import Any, Iterator
 

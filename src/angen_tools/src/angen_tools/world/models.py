@@ -1,6 +1,4 @@
 """Finds models and their parts, where the simulator finds them."""
-from __future__ import annotations
-
 import os
 from functools import cache
 from pathlib import Path

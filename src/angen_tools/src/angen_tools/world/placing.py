@@ -3,8 +3,6 @@
 Meters and radians. Each room has a stream of random numbers for each kind of sensor, so that the
 sensors of one kind move none of another, and more sensors move none that exist already.
 """
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from itertools import islice, zip_longest

@@ -1,6 +1,4 @@
 """Reads and writes SDF, and the words of the angen command for it. Lengths in m, angles in rad."""
-from __future__ import annotations
-
 import math
 from copy import deepcopy
 from pathlib import Path

@@ -1,6 +1,4 @@
 """Builds the SDF of a sensor of any kind in the catalog."""
-from __future__ import annotations
-
 from typing import Sequence
 
 from lxml import etree
