@@ -1,6 +1,4 @@
 """Programs connect where types have gazebo_ros's md5 sums: facts of its interface (noetic)."""
-
-
 from pathlib import Path
 
 import pytest

@@ -1,6 +1,4 @@
 """A catkin workspace that has another gazebo_msgs, as docs/gazebo.md says."""
-
-
 import re
 from pathlib import Path
 

@@ -1,6 +1,4 @@
 """Models that the tests of gazebo_ros's services spawn, and short ways to call them."""
-
-
 from typing import Any
 
 import gazebo_msgs.srv as srv

@@ -1,5 +1,4 @@
 """A ROS master of the tests' own, and the node in it. Ends its own processes, by pid."""
-
 from __future__ import annotations
 
 import fcntl

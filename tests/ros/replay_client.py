@@ -2,8 +2,6 @@
 
 Prints how often it did each.
 """
-
-
 import random
 import sys
 import time

@@ -1,6 +1,4 @@
 """The small sensors and devices of the catalog, as subscribers see them."""
-
-
 import math
 
 import pytest

@@ -1,6 +1,4 @@
 """Commands on topics, and the states that follow."""
-
-
 import time
 
 from angen_msgs.msg import Command, DoorState, Event, LampState

@@ -1,6 +1,4 @@
 """A node that leaps over time in which nothing happens."""
-
-
 import subprocess
 from pathlib import Path
 

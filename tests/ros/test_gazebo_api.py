@@ -1,6 +1,4 @@
 """gazebo_ros's services and topics, each against a closed form or another of them."""
-
-
 import math
 import time
 from typing import Any, Iterator

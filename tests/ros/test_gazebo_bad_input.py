@@ -1,6 +1,4 @@
 """No request to a service of gazebo_ros that makes no sense changes anything or ends the node."""
-
-
 import copy
 import math
 from typing import Any, Iterator

@@ -1,6 +1,4 @@
 """Clients of gazebo_ros spawn lights, read errors, and set parameters by dynamic_reconfigure."""
-
-
 import math
 from typing import Any
 

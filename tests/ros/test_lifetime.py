@@ -1,6 +1,4 @@
 """The begin and the end of the node, and its remains."""
-
-
 import fcntl
 import os
 import signal

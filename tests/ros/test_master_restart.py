@@ -1,6 +1,4 @@
 """The node when its master ends, or is restarted."""
-
-
 import signal
 import subprocess
 import sys

@@ -1,6 +1,4 @@
 """The meter from the node's first second on."""
-
-
 import statistics
 from pathlib import Path
 

@@ -2,8 +2,6 @@
 
 ANGEN_REPLAY_SECONDS says how long the session is, in simulated seconds.
 """
-
-
 import json
 import os
 import re

@@ -1,6 +1,4 @@
 """Time, spawning, deleting, listing and saving by service."""
-
-
 import math
 
 import pytest

@@ -1,6 +1,4 @@
 """The messages that are sent: none without a subscriber, one for all of a kind."""
-
-
 import json
 import subprocess
 from pathlib import Path

@@ -1,6 +1,4 @@
 """Topics of viewers: markers and frames."""
-
-
 import time
 from pathlib import Path
 from typing import Any

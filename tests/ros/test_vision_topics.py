@@ -1,6 +1,4 @@
 """The TurtleBot's lidar, cameras, bumper and joints, and a room camera, as subscribers see them."""
-
-
 import math
 import struct
 

@@ -1,6 +1,4 @@
 """Calls that wait: they leave threads for others, can be interrupted, and end with their client."""
-
-
 import socket
 import struct
 import threading
