@@ -100,16 +100,6 @@ def test_a_window_takes_a_doors_commands(world):
     assert w.device('window', 'hall0')['mode'] == 'CLOSED'
 
 
-def test_a_cabinet_opens_and_its_reed_tells(world):
-    w = world(include('wall_cabinet', 'wall_cabinet0', '0 0 1.4 0 0 0'))
-    w.run(0.5)
-    assert w.sensor('reed', 'wall_cabinet0')['closed']
-    w.command('cabinet', 'wall0', 'Open')
-    w.run(4)
-    assert w.device('cabinet', 'wall0')['mode'] == 'OPEN'
-    assert not w.sensor('reed', 'wall_cabinet0')['closed']
-
-
 def test_a_cabinet_that_bounces_off_something_hard_is_blocked_until_it_is_gone(world):
     w = world(include('wall_cabinet', 'wall_cabinet0', '0 0 1.4 0 0 0')
               + box('post', '0.36 -0.74 1.7 0 0 0', '0.04 0.04 0.4', static=True))

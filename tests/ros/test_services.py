@@ -20,16 +20,6 @@ SENSOR = """<sensor name="beam" type="ray"><update_rate>10</update_rate>
   <plugin name="pir" filename="libpir_controller.so"/></sensor>"""
 
 
-def test_a_spawned_sensor_speaks_and_a_deleted_one_is_gone(angen: Angen) -> None:
-    angen.spawn("p1", PIR, 1, 1, 1)
-    assert angen.master.topics()["/angen/pir/p1"] == "angen_msgs/PirMsg"
-    message = angen.wait("/angen/pir/p1", PirMsg)
-    assert message.header.frame_id == "p1" and message.threshold > 0
-    angen.delete("p1")
-    assert "/angen/pir/p1" not in angen.master.topics()
-    assert "p1" not in angen.names()
-
-
 def test_a_sensor_on_a_link(angen: Angen) -> None:
     angen.spawn("p2", SENSOR, 0, 0, 0.5, on="turtlebot::base_footprint")
     angen.wait("/angen/pir/p2", PirMsg)

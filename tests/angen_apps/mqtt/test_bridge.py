@@ -2,7 +2,6 @@
 import json
 
 import pytest
-from angen_apps.mqtt.bridge import ANSWER
 from angen_tools.common.failure import Failure
 
 from tests.angen_apps.mqtt.fakes import OUTSIDE, FakeBroker, Rig
@@ -124,21 +123,6 @@ def test_things_come_and_go(rig: Rig) -> None:
     assert lamp(rig) == ('ON', '40')
 
 
-def test_leftovers_go_and_those_of_others_stay(rig: Rig) -> None:
-    others = {'homeassistant/light/angen/other_lamp/config': '{}', 'angen/lamp/other/state': 'ON',
-              'house2/lamp/kitchen0/state': 'OFF'}
-    rig.broker.retained |= others
-    rig.world.keys.remove('lamp/kitchen0')
-    rig.broker.retained['angen/bridge/state'] = 'offline'  # its will
-    rig.broker.connections += 1
-    rig.bridge = rig.another()
-    rig.turns()
-    assert not [topic for topic in rig.broker.retained if 'kitchen0' in topic
-                and topic not in others]
-    assert others.items() <= rig.broker.retained.items()
-    assert rig.broker.retained['angen/bridge/state'] == 'online'
-
-
 @pytest.mark.parametrize('text', [
     'no JSON', '[' * 10_000, '7', '{"id": 1, "topics": [3]}', '{"topics": ["angen/x"]}',
     '{"id": "x", "topics": ["elsewhere/lamp", "angen/#", "homeassistant/+/a"]}'])
@@ -169,16 +153,6 @@ def test_the_birth_of_home_assistant_has_all_sent_again(rig: Rig) -> None:
     topics = [topic for topic, _ in rig.after()]
     assert {'homeassistant/light/angen/lamp_kitchen0_state/config',
             'angen/lamp/kitchen0/state', 'angen/bridge/state'} <= set(topics)
-
-
-def test_a_second_bridge_with_the_prefix_ends(rig: Rig, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr('angen_apps.mqtt.bridge.ANSWER', 100 * ANSWER)
-    second = rig.another(FakeBroker(rig.broker))
-    with pytest.raises(Failure, match='has the prefix angen on this broker'):
-        for _ in range(5):
-            second.turn()
-            rig.bridge.turn()
-    assert rig.broker.retained['angen/bridge/state'] == 'online'
 
 
 def test_an_answer_that_is_read_late_ends_it_too(rig: Rig, monkeypatch: pytest.MonkeyPatch

@@ -9,7 +9,7 @@ from typing import Any, Awaitable, Callable
 import pytest
 from aiohttp import ClientSession, WSMsgType, WSServerHandshakeError, web
 from angen_apps.web import guard, server as server_module
-from angen_apps.web.guard import BUILD, LOOK, MAY, SWITCH, Budget, Guard, is_loopback
+from angen_apps.web.guard import BUILD, LOOK, MAY, SWITCH, Guard, is_loopback
 from angen_apps.web.orders import Orders
 from angen_apps.web.server import BURST, LARGEST_MESSAGE, Browser, Server, json_text
 from angen_apps.web.store import Store
@@ -383,11 +383,6 @@ def test_a_connection_without_a_request_is_closed(monkeypatch: pytest.MonkeyPatc
                 assert answer.headers['X-Content-Type-Options'] == 'nosniff'
         serving.cancel()
     asyncio.run(asyncio.wait_for(go(), 60))
-
-
-def test_budget() -> None:
-    budget = Budget(0.001, BURST)
-    assert [budget.take() for _ in range(int(BURST) + 2)] == [True] * int(BURST) + [False] * 2
 
 
 def test_topics_are_requested_while_a_browser_shows_them() -> None:

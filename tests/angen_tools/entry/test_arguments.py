@@ -60,14 +60,6 @@ def test_a_world_of_the_users_own_folder_is_found(tmp_path: Path, monkeypatch: p
         check_arguments(LAUNCH, ['world:=~/my.wrld'])
 
 
-def test_roslaunch_itself_is_checked(monkeypatch: pytest.MonkeyPatch,
-                                     capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setattr('sys.argv', ['/usr/bin/roslaunch', 'angen_sim', 'angen.launch', 'wrld:=x'])
-    with pytest.raises(SystemExit, match='2'):
-        check_roslaunch(str(LAUNCH))
-    assert capsys.readouterr().err.startswith('angen: wrld:=x: not an argument')
-
-
 @pytest.mark.parametrize(('words', 'lit'), [
     (['web:=true', 'gui:=false'], 'livingroom0 On'), (['gui:=false'], "''"),
     (['web:=true', 'gui:=false', f'world:={ROOT}/worlds/empty.world'], "''")])
