@@ -217,8 +217,8 @@ void Person::show(Mode mode, const Step& step) {
 
 Nanoseconds Person::idle_until(const View& view) const {
   const Nanoseconds needed = rests_until(view);
-  if (climates(view).empty()) return needed;
-  return std::min(needed, Body::feels_next(view.time()));
+  const Nanoseconds feels = Body::feels_next(view.time());
+  return needed <= feels || climates(view).empty() ? needed : feels;
 }
 
 Nanoseconds Person::rests_until(const View& view) const {

@@ -120,18 +120,18 @@ std::optional<double> edge_before(double reach, const HasFloor& has_floor) {
 
 class Grid {
  public:
-  Grid(const Vec2& middle, const std::vector<Vec2>& points, double body)
-      : middle_(middle), body_(body) {
-    gap_.fill(kRoomy);
+  Grid(const Vec2& middle, const std::vector<Vec2>& points) : middle_(middle) {
+    gap_.fill(std::numeric_limits<double>::infinity());
     for (const Vec2& point : points) add(point);
+    for (double& gap : gap_) gap = std::min(kRoomy, kCell * std::sqrt(gap));
   }
 
   Vec2 place(int cell) const {
     return middle_ + kCell * Vec2(cell % kSide - kHalf, cell / kSide - kHalf);
   }
 
-  // Dijkstra's shortest ways from the middle to all cells, by cost.
-  void spread(const Vec2& left) {
+  // Dijkstra's shortest ways of a body from the middle to all cells, by cost.
+  void spread(const Vec2& left, double body) {
     cost_.fill(std::numeric_limits<double>::infinity());
     from_.fill(-1);
     using Entry = std::pair<double, int>;
@@ -151,7 +151,7 @@ class Grid {
           const int next = y * kSide + x;
           const double length = lengths[std::abs(dx) + std::abs(dy)];
           if (cost + length >= cost_[next]) continue;  // no rate is below 1
-          if (!passable(next)) continue;
+          if (!passable(next, body)) continue;
           const double aside = std::max(0.0, left.dot(place(next) - middle_));
           const double rate = 1.0 + kTight * (kRoomy - gap_[next]) + kLeft * aside;
           const double reached = cost + length * rate;
@@ -195,18 +195,17 @@ class Grid {
     const int row = static_cast<int>(std::lround(at.y()));
     for (int y = std::max(row - reach, -kHalf); y <= std::min(row + reach, kHalf); ++y) {
       for (int x = std::max(column - reach, -kHalf); x <= std::min(column + reach, kHalf); ++x) {
-        double& gap = gap_[(y + kHalf) * kSide + x + kHalf];
-        gap = std::min(gap, kCell * (Vec2(x, y) - at).norm());
+        double& square = gap_[(y + kHalf) * kSide + x + kHalf];
+        square = std::min(square, (Vec2(x, y) - at).squaredNorm());
       }
     }
   }
 
-  bool passable(int cell) const {
-    return gap_[cell] >= body_ || (place(cell) - middle_).norm() < kStuck;
+  bool passable(int cell, double body) const {
+    return gap_[cell] >= body || (place(cell) - middle_).norm() < kStuck;
   }
 
   Vec2 middle_;
-  double body_;
   std::array<double, kCells> gap_;   // m to the next point, at most kRoomy
   std::array<double, kCells> cost_;  // cost of the way from the middle
   std::array<int, kCells> from_;
@@ -448,8 +447,8 @@ std::optional<Vec2> Surroundings::to_nearest(const Vec2& from) const {
 
 bool Surroundings::reaches(const Vec2& from, const Vec2& to) const {
   if (is_free(from, to)) return true;
-  Grid grid(from, points_, kBody);
-  grid.spread({0.0, 0.0});
+  Grid grid(from, points_);
+  grid.spread({0.0, 0.0}, kBody);
   return (grid.place(grid.best(to)) - to).norm() < 2.0 * kCell;
 }
 
@@ -492,26 +491,23 @@ bool Surroundings::is_walkable(const View& view, const Vec3& feet, const Vec2& t
 // At a distance from seen points, as it sees no more of an obstacle; close if there is no other
 // way.
 std::optional<Surroundings::Vec2> Surroundings::way_round(const Vec2& from, const Vec2& to) const {
-  const std::optional<Vec2> wide = way_round(from, to, kWide);
-  return wide ? wide : way_round(from, to, kBody);
-}
-
-std::optional<Surroundings::Vec2> Surroundings::way_round(const Vec2& from, const Vec2& to,
-                                                          double body) const {
   const double straight = (to - from).norm();
   if (straight < 1e-6) return std::nullopt;
   const Vec2 ahead = (to - from) / straight;
-  Grid grid(from, points_, body);
-  grid.spread({-ahead.y(), ahead.x()});
-  const std::vector<int> way = grid.way_to(grid.best(to));
-  const double left = (to - grid.place(way.back())).norm();
-  const double length = kCell * static_cast<double>(way.size());
-  if (straight - left < std::min(kNearer, 0.5 * straight)) return std::nullopt;
-  if (length > kLongestWay * (straight - left) + kExtra) return std::nullopt;
-  for (std::size_t i = way.size() - 1; i > 1; --i) {
-    if (is_free(from, grid.place(way[i]), body)) return grid.place(way[i]);
+  Grid grid(from, points_);
+  for (const double body : {kWide, kBody}) {
+    grid.spread({-ahead.y(), ahead.x()}, body);
+    const std::vector<int> way = grid.way_to(grid.best(to));
+    const double left = (to - grid.place(way.back())).norm();
+    const double length = kCell * static_cast<double>(way.size());
+    if (straight - left < std::min(kNearer, 0.5 * straight)) continue;
+    if (length > kLongestWay * (straight - left) + kExtra) continue;
+    for (std::size_t i = way.size() - 1; i > 1; --i) {
+      if (is_free(from, grid.place(way[i]), body)) return grid.place(way[i]);
+    }
+    return grid.place(way[std::min<std::size_t>(1, way.size() - 1)]);
   }
-  return grid.place(way[std::min<std::size_t>(1, way.size() - 1)]);
+  return std::nullopt;
 }
 
 }  // namespace angen::people

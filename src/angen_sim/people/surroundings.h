@@ -65,7 +65,6 @@ class Surroundings {
   static void remove_gone(const View& view, const Vec3& feet, std::vector<Vec2>& points);
 
  private:
-  std::optional<Vec2> way_round(const Vec2& from, const Vec2& to, double body) const;
   void find_edges(const View& view, const Vec3& feet, std::vector<Vec2>& seen) const;
 
   std::vector<Vec2> points_;  // points of the last scan first

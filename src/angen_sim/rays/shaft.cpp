@@ -108,8 +108,8 @@ std::uint32_t Shaft::blocked_by() const {
 }
 
 bool Shaft::reaches(const Ray& ray) const {
-  SceneQuery q;
-  return q.prepare(ray, kAll) && q.try_solid(*target_.solid, target_.fixed);
+  Intersection hit;
+  return find_hit(*target_.solid, ray.origin, ray.direction, std::max(0.0, ray.min), ray.max, hit);
 }
 
 bool Shaft::sees(const Ray& ray) const {

@@ -40,6 +40,7 @@ std::vector<FoundDevice> DevicesByField::find(const Building& building, const st
                                               const Eigen::AlignedBox3d& within) {
   const Having& all = having(building, field);
   std::vector<FoundDevice> in_box;
+  in_box.reserve(all.fixed.size() + all.movable.size());
   const auto add = [&](const FoundDevice& device) {
     if (within.contains(device.pose.position) || within.contains(device.place)) {
       in_box.push_back(device);

@@ -112,7 +112,6 @@ class Recorder:
         self._looked = 0.0  # s, at power
         self._over: dict[tuple[int, str], tuple[float, float]] = {}  # a cell: first and last time
         self._cells = [s for s in site.sensors if s.kind == 'motion' and s.name.startswith('cell')]
-        self._middles = np.array([(s.x, s.y) for s in self._cells]).reshape(-1, 2)
         self._left: list[Missed] = []
         self._stepped: dict[str, float] = {}
         self._late: dict[tuple[str, str], list[tuple[str, str, str]]] = {}  # whose delayed are
@@ -272,9 +271,9 @@ class Recorder:
     def _follow(self, resident: Any) -> None:
         """Records the cells that a resident walks over, and those whose sensor detected nothing."""
         now = resident.looked
-        away = ((self._middles - resident.at) ** 2).sum(axis=1)
-        inside = {(int(i), resident.name) for i in np.nonzero(away < CELL ** 2)[0]
-                  if self._storeys[self._cells[i].id] == resident.storey}
+        inside = {(i, resident.name) for i, cell in enumerate(self._cells)
+                  if math.dist((cell.x, cell.y), resident.at) < CELL
+                  and self._storeys[cell.id] == resident.storey}
         for key in sorted(key for key in self._over if key[1] == resident.name):
             if key in inside:
                 continue
