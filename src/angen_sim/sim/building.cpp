@@ -64,9 +64,23 @@ Pose Building::pose_of(const LiveModel& live) const {
   return first * live.desc->links.front().pose.inverse();
 }
 
-std::vector<FoundDevice> Building::find_devices(const std::string& field,
-                                                const Eigen::AlignedBox3d& within) const {
+std::vector<const FoundDevice*> Building::find_devices(const std::string& field,
+                                                       const Eigen::AlignedBox3d& within) const {
   return by_field_.find(*this, field, within);
+}
+
+void Building::note_state(const LiveModel& live, DeviceInstance& device, const Pose& pose,
+                          MoverIndex::Moment when) const {
+  const Heights at = FoundDevice(live, device, pose).heights();
+  if (engines_->states.note(*device.last, at, device.changes, when)) by_field_.clear();
+}
+
+void Building::note_states(LiveModel& live, MoverIndex::Moment when) const {
+  if (live.devices.empty() || live.is_light) return;  // queries do not find the world's own lights
+  const Pose pose = pose_of(live);
+  for (DeviceInstance& device : live.devices) {
+    if (device.last) note_state(live, device, pose, when);
+  }
 }
 
 std::vector<Building::Target> Building::devices_named(const std::string& kind,

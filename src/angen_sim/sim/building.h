@@ -49,8 +49,13 @@ class Building {
 
   /// The devices whose last state has a field of that name and that are in `within`, or whose
   /// models are, in the order of the models.
-  std::vector<FoundDevice> find_devices(const std::string& field,
-                                        const Eigen::AlignedBox3d& within) const;
+  std::vector<const FoundDevice*> find_devices(const std::string& field,
+                                               const Eigen::AlignedBox3d& within) const;
+  /// To be called when a device of a model at `pose` reports another state.
+  void note_state(const LiveModel& live, DeviceInstance& device, const Pose& pose,
+                  MoverIndex::Moment when) const;
+  /// To be called when a model has moved: its devices have.
+  void note_states(LiveModel& live, MoverIndex::Moment when) const;
   /// To be called when a device has other fields than before.
   void forget_fields() {
     by_field_.clear();

@@ -31,9 +31,7 @@ const std::vector<LiveModel*>& Building::note_awake(std::int64_t tick) {
 void Building::note_moved(LiveModel& live, MoverIndex::Moment when) const {
   if (live.changed >= when) return;
   live.changed = when;
-  for (const DeviceInstance& device : live.devices) {
-    if (device.last) engines_->states.note(*device.last, when);
-  }
+  note_states(live, when);
 }
 
 std::vector<LiveModel*> Building::take_placed() { return std::exchange(placed_, {}); }

@@ -88,7 +88,7 @@ void DeviceSystem::update(Building& building, Clock clock, Nanoseconds last,
     const bool long_steps = device.device->takes_long_steps();
     const Clock own{clock.time, long_steps ? last : clock.step};
     const InstanceView view(building, live, own);
-    InstanceOutputs outputs(building.engines(), live, device, clock.time, events, commands_);
+    InstanceOutputs outputs(building, live, device, clock.time, events, commands_);
     const std::string thrown = thrown_by([&] {
       device.catch_up(own.time, own.step);
       device.device->update(view, outputs);
@@ -171,12 +171,15 @@ void DeviceSystem::report(Building& building, Clock clock, Snapshot& next) {
     if (all) device.to_report = false;
     if (device.last && device.last->same_values(device.scratch)) continue;
     if (!device.last || !device.last->same_names(device.scratch)) {
+      device.changes = {};
       building.forget_fields();
-    } else {
-      building.engines().states.note(device.scratch, building.engines().movers.now());
     }
     device.scratch.stamp = clock.time;
     device.last = std::make_shared<const Reading>(device.scratch);
+    device.offset = DeviceView::place_of(Pose(), *device.last);
+    if (!live.is_light) {
+      building.note_state(live, device, building.pose_of(live), building.engines().movers.now());
+    }
     next.devices.set(index, device.last);
     next.new_states.push_back(index);
   }

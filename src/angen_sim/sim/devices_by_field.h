@@ -18,10 +18,11 @@ struct FoundDevice {
   const DeviceInstance* device;
   Pose pose;   // pose of its model
   Vec3 place;  // see DeviceView::place()
-  std::size_t order;
+  std::size_t order = 0;
+  bool fixed = true;  // its model cannot move
 
-  double low() const { return std::min(pose.position.z(), place.z()); }
-  double high() const { return std::max(pose.position.z(), place.z()); }
+  FoundDevice(const LiveModel& live, const DeviceInstance& device, const Pose& pose);
+  Heights heights() const;
 };
 
 /// The devices of a building by the fields of their last states, for those fields that were queried
@@ -29,19 +30,19 @@ struct FoundDevice {
 class DevicesByField {
  public:
   /// The devices that have the field and are in `within`, or whose models are, in the order of the
-  /// models.
-  std::vector<FoundDevice> find(const Building& building, const std::string& field,
-                                const Eigen::AlignedBox3d& within);
+  /// models. They are valid until the next call.
+  std::vector<const FoundDevice*> find(const Building& building, const std::string& field,
+                                       const Eigen::AlignedBox3d& within);
+  /// To be called when devices came or went, have other fields, or have left Heights around them.
   void clear() { by_field_.clear(); }
 
  private:
   struct Having {
     std::vector<FoundDevice>
-        fixed;             // by height: a storey's are found without going through a tower
-    double tallest = 0.0;  // m, the largest span of low() to high() of these
-    std::vector<FoundDevice> movable;
+        devices;           // by height: a storey's are found without going through a tower
+    double tallest = 0.0;  // m, the largest of their heights
   };
-  const Having& having(const Building& building, const std::string& field);
+  Having& having(const Building& building, const std::string& field);
 
   std::unordered_map<std::string, Having> by_field_;
 };

@@ -37,7 +37,10 @@ bool queries_unchanged(const Engines& engines, const LiveModel& live,
   if (queried.model && model_changed) return false;
   if (queried.heat && heat_changed(engines, sensor)) return false;
   if (queried.heat_set && heat_set(engines, sensor)) return false;
-  if (queried.devices && engines.states.changed_since(queried.fields, sensor.seen)) return false;
+  if (queried.devices &&
+      engines.states.changed_since(queried.fields, queried.heights, sensor.seen)) {
+    return false;
+  }
   if (queried.light && !light_unchanged(engines, sensor)) return false;
   if (queried.contacts && contacts_revision(engines, sensor) != sensor.contacts_seen) return false;
   return !sensor.link_moves || !model_changed || pose_of(engines, live, sensor) == sensor.seen_from;
@@ -125,13 +128,15 @@ void DueSensors::activate_changed(const Engines& engines, const SensorScheduler:
     if (&scheduler_.group(scheduler_.group_of(index)) != &group) return;
     if (engines.movers.changed_or_warmed_since(region, group.checked)) scheduler_.activate(index);
   });
-  const auto states_changed = [&](StateChanges::Fields fields) {
-    return engines.states.changed_since(fields, group.checked);
+  const auto states_changed = [&](StateChanges::Fields fields, const Heights& heights) {
+    return engines.states.changed_since(fields, heights, group.checked);
   };
-  if (!group.queries_devices || !states_changed(group.fields)) return;
+  if (!group.queries_devices || !states_changed(group.fields, group.heights)) return;
   for (const std::uint32_t index : group.idle) {
     const Queried& queried = entries_[index].sensor->queried;
-    if (queried.devices && states_changed(queried.fields)) scheduler_.activate(index);
+    if (queried.devices && states_changed(queried.fields, queried.heights)) {
+      scheduler_.activate(index);
+    }
   }
 }
 
@@ -233,6 +238,7 @@ void DueSensors::stop_visits(const Engines& engines, std::uint32_t index) {
   if (!sensor.queried.devices) return;
   group.queries_devices = true;
   group.fields |= sensor.queried.fields;
+  group.heights = group.heights | sensor.queried.heights;
 }
 
 void DueSensors::publish_idle(const Engines& engines, Clock clock, Snapshot& next) {

@@ -24,6 +24,8 @@ struct DeviceInstance : DeviceInfo {
   Reading scratch;                 // it reports into this, which is then compared
   std::size_t checked_fields = 0;  // how many of these
   std::shared_ptr<const Reading> last;
+  StateChanges::Device changes;
+  Vec3 offset = Vec3::Zero();  // DeviceView::place() in that state, in its model's frame
   LimbPoses limbs;             // limbs with that state
   Nanoseconds updated = 0;     // when it last was
   Nanoseconds idle_until = 0;  // unless it is commanded or its model wakes
@@ -81,6 +83,7 @@ struct Queried {
   bool heat = false;                // temperatures of surfaces
   bool heat_set = false;            // only when they begin to change
   bool model = false;               // links and joints of its own model
+  Heights heights{};                // at which it queried devices
 
   bool any() const { return contacts || light || devices || other || heat || heat_set || model; }
   /// Whether only its model, states of devices, and what happens in the regions that it watches,
@@ -89,8 +92,9 @@ struct Queried {
     return !(contacts || light || other || heat || (heat_set && !near));
   }
   Queried operator|(const Queried& o) const {
-    return {contacts || o.contacts, light || o.light, devices || o.devices,   other || o.other,
-            fields | o.fields,      heat || o.heat,   heat_set || o.heat_set, model || o.model};
+    return {contacts || o.contacts, light || o.light,  devices || o.devices,
+            other || o.other,       fields | o.fields, heat || o.heat,
+            heat_set || o.heat_set, model || o.model,  heights | o.heights};
   }
 };
 
@@ -105,7 +109,7 @@ struct SensorInstance : SensorInfo {
   bool up_to_date = false;  // the last published reading has the values of its last sample
   bool lasts = false;       // while nothing changes, its samples are the last one for some time
   int unchanged = 0;        // due times in a row at which all that it queries was
-  Queried queried{false, false, false, true, 0, false, false, false};  // for its reading
+  Queried queried{false, false, false, true, 0, false, false, false, {}};  // for its reading
   bool link_moves = true;  // false if its link is static
 
   std::unique_ptr<Sensor> sensor;

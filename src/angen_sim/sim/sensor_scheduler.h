@@ -22,6 +22,7 @@ class SensorScheduler {
     Nanoseconds idle_until = kForever;  // until then no idle sensor is to be queried
     bool queries_devices = false;       // whether some idle sensors query devices
     StateChanges::Fields fields = 0;    // fields by which they do
+    Heights heights;                    // heights at which they do
     MoverIndex::Moment checked = 0;     // idle ones were activated for all changes before
 
     bool publishes(Nanoseconds now) const {

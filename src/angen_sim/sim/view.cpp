@@ -14,6 +14,11 @@ std::size_t at(Ref ref) {
   return static_cast<std::size_t>(ref.index);
 }
 
+DeviceView view_of(const FoundDevice& found) {
+  return {found.device->kind, found.device->name, found.live->desc->name, found.pose,
+          *found.device->last};
+}
+
 /// A plug-in that computes such a number fails; without it, nothing would be done, without a word.
 void reject_nan(const char* call, std::initializer_list<double> values) {
   for (const double value : values) {
@@ -62,15 +67,18 @@ std::vector<ContactPair> InstanceView::contacts_within(ContactRef collision,
 
 std::vector<DeviceView> InstanceView::devices(const std::string& field,
                                               const Eigen::AlignedBox3d& within) const {
+  note_query(field, {within.min().z(), within.max().z()});
+  std::vector<DeviceView> found;
+  const std::vector<const FoundDevice*> all = building_.find_devices(field, within);
+  found.reserve(all.size());
+  for (const FoundDevice* each : all) found.push_back(view_of(*each));
+  return found;
+}
+
+void InstanceView::note_query(const std::string& field, const Heights& heights) const {
   queried_.devices = true;
   queried_.fields |= engines_.states.bit_of(field);
-  std::vector<DeviceView> found;
-  const std::vector<FoundDevice> all = building_.find_devices(field, within);
-  found.reserve(all.size());
-  for (const FoundDevice& t : all) {
-    found.push_back({t.device->kind, t.device->name, t.live->desc->name, t.pose, *t.device->last});
-  }
-  return found;
+  queried_.heights = queried_.heights | heights;
 }
 
 const Home& InstanceView::home() const {
@@ -199,6 +207,7 @@ void InstanceOutputs::push(LinkRef link, const Vec3& force, const Vec3& torque, 
 
 void InstanceOutputs::posture(LinkRef link, int posture, const Pose& pose) {
   engines_.take_posture(live_.parts, static_cast<std::uint32_t>(at(link)), posture, pose);
+  building_.note_states(live_, engines_.movers.now());
 }
 
 void InstanceOutputs::light(LightRef light, double level, double luminous_flux) {

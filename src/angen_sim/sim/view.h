@@ -50,6 +50,7 @@ class InstanceView : public View {
   const Queried& queried() const { return queried_; }
 
  private:
+  void note_query(const std::string& field, const Heights& heights) const;
   bool watches() const { return sensor_ != nullptr && sensor_->near != nullptr; }
 
   Building& building_;
@@ -63,9 +64,10 @@ class InstanceView : public View {
 /// The effects of one device on the world.
 class InstanceOutputs : public Outputs {
  public:
-  InstanceOutputs(Engines& engines, LiveModel& live, const DeviceInstance& device, Nanoseconds time,
-                  std::vector<Event>& events, std::vector<ToDevice>& commands)
-      : engines_(engines),
+  InstanceOutputs(Building& building, LiveModel& live, const DeviceInstance& device,
+                  Nanoseconds time, std::vector<Event>& events, std::vector<ToDevice>& commands)
+      : building_(building),
+        engines_(building.engines()),
         live_(live),
         device_(device),
         time_(time),
@@ -90,6 +92,7 @@ class InstanceOutputs : public Outputs {
   bool had_event() const { return had_event_; }
 
  private:
+  Building& building_;
   Engines& engines_;
   LiveModel& live_;
   const DeviceInstance& device_;
