@@ -129,6 +129,17 @@ class FakeWorld : public View, public Wiring, public Outputs {
     }
     return found;
   }
+  std::optional<DeviceView> device(const std::string& field, const std::string& kind,
+                                   const std::string& device_name) const override {
+    for (const DeviceView& each : devices(field)) {
+      if (each.kind == kind && each.name == device_name) return each;
+    }
+    return std::nullopt;
+  }
+  bool has_device(const std::string& field, const std::string& kind,
+                  const std::string& device_name) const override {
+    return device(field, kind, device_name).has_value();
+  }
   const Home& home() const override { return described; }
   const rays::Scene& rays() const override {
     static const rays::Scene nothing;

@@ -110,10 +110,8 @@ Ride::Advice Ride::wait_for(const Stop& stop, const Vec2& then, Phase next, cons
 }
 
 const Reading* Ride::state(const View& view) const {
-  for (const DeviceView& device : view.devices("door_mode")) {
-    if (device.kind == "elevator" && device.name == elevator_) return &device.state;
-  }
-  return nullptr;
+  const std::optional<DeviceView> lift = view.device("door_mode", "elevator", elevator_);
+  return lift ? &lift->state : nullptr;
 }
 
 }  // namespace angen::people

@@ -9,6 +9,13 @@
 
 namespace angen {
 
+namespace {
+
+const char* const kClimate = "climate";
+const char* const kClimateField = "outside_humidity";
+
+}  // namespace
+
 int RoomPlan::at(const Vec3& point) const {
   const Room* room = home.room_at(point);
   for (std::size_t i = 0; i < rooms.size(); ++i) {
@@ -30,10 +37,14 @@ RoomPlan room_plan(const View& view, std::string_view model) {
   return plan;
 }
 
+bool has_climate(const View& view, const Room& room) {
+  return view.has_device(kClimateField, kClimate, room.model);
+}
+
 std::vector<DeviceView> climates(const View& view) {
   std::vector<DeviceView> found;
-  for (const DeviceView& device : view.devices("outside_humidity")) {
-    if (device.kind == "climate") found.push_back(device);
+  for (const DeviceView& device : view.devices(kClimateField)) {
+    if (device.kind == kClimate) found.push_back(device);
   }
   return found;
 }
@@ -62,17 +73,17 @@ std::vector<RoomOpening> room_openings(const View& view, const RoomPlan& plan,
 
 AirHere air_at(const View& view, const Vec3& point) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  AirHere outside{kNone, kNone};
   const Room* room = view.home().room_at(point);
-  for (const DeviceView& climate : climates(view)) {
-    if (room != nullptr && room->model == climate.model) {
-      return {climate.state.get<std::vector<double>>("temperatures").at(room->number),
-              climate.state.get<std::vector<double>>("humidities").at(room->number)};
+  if (room != nullptr) {
+    if (const auto climate = view.device(kClimateField, kClimate, room->model)) {
+      return {climate->state.get<std::vector<double>>("temperatures").at(room->number),
+              climate->state.get<std::vector<double>>("humidities").at(room->number)};
     }
-    outside = {climate.state.get<double>("outside_temperature"),
-               climate.state.get<double>("outside_humidity")};
   }
-  return outside;
+  const std::vector<DeviceView> all = climates(view);
+  if (all.empty()) return {kNone, kNone};
+  return {all.back().state.get<double>("outside_temperature"),
+          all.back().state.get<double>("outside_humidity")};
 }
 
 double air_temperature(const View& view, const Vec3& point) {

@@ -25,6 +25,9 @@ struct RoomPlan {
 
 RoomPlan room_plan(const View& view, std::string_view model);
 
+/// Whether the model that describes a room has a climate.
+bool has_climate(const View& view, const Room& room);
+
 /// The climates of the world, in the order in which they came into it.
 std::vector<DeviceView> climates(const View& view);
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,6 +64,12 @@ class View {
     const Vec3 far = Vec3::Constant(std::numeric_limits<double>::infinity());
     return devices(field, {-far, far});
   }
+  /// The device of that kind and name, if its state has that field.
+  virtual std::optional<DeviceView> device(const std::string& field, const std::string& kind,
+                                           const std::string& name) const = 0;
+  /// Whether there is one; to a sensor its state does not matter.
+  virtual bool has_device(const std::string& field, const std::string& kind,
+                          const std::string& name) const = 0;
   /// The home that the world describes. It is valid until the next update or sample.
   virtual const Home& home() const = 0;
   /// All shapes: casts rays, and answers other queries of what is on their way.

@@ -129,11 +129,7 @@ class Microphone : public Sensor {
   /// The room at a point; null outdoors, and in rooms that no climate describes.
   static const Room* room_at(const View& view, const Vec3& point) {
     const Room* room = view.home().room_at(point);
-    if (room == nullptr) return nullptr;
-    const std::vector<DeviceView> all = climates(view);
-    const bool known = std::any_of(
-        all.begin(), all.end(), [&](const DeviceView& each) { return each.model == room->model; });
-    return known ? room : nullptr;
+    return room != nullptr && has_climate(view, *room) ? room : nullptr;
   }
 
   Hearing listen(const View& view, const Vec3& here) const {

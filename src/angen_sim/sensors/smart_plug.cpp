@@ -50,11 +50,10 @@ class SmartPlug : public Sensor {
     metering_.connected = false;
     double power = 0.0;
     Nanoseconds changed = now;
-    for (const DeviceView& device : view.devices("power")) {
-      if (device.kind != kind_ || device.name != name_) continue;
+    if (const auto load = view.device("power", kind_, name_)) {
       metering_.connected = true;
-      power = device.state.get<double>("power");
-      changed = device.state.stamp;
+      power = load->state.get<double>("power");
+      changed = load->state.stamp;
     }
     // A change between two samples counts from the time of its state.
     if (power != metering_.power) set_power(power, std::clamp(changed, sampled_at_, now), reading);

@@ -69,6 +69,17 @@ std::vector<const FoundDevice*> Building::find_devices(const std::string& field,
   return by_field_.find(*this, field, within);
 }
 
+std::optional<FoundDevice> Building::find_device(const std::string& field, const std::string& kind,
+                                                 const std::string& name) const {
+  const LiveModel* live = registry_.with_device(kind, name);
+  if (live == nullptr || live->is_light) return std::nullopt;
+  for (const DeviceInstance& device : live->devices) {
+    if (device.kind != kind || device.name != name) continue;
+    if (device.last && device.last->find(field)) return FoundDevice(*live, device, pose_of(*live));
+  }
+  return std::nullopt;
+}
+
 void Building::note_state(const LiveModel& live, DeviceInstance& device, const Pose& pose,
                           MoverIndex::Moment when) const {
   const Heights at = FoundDevice(live, device, pose).heights();

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,9 @@ class Building {
   /// models are, in the order of the models.
   std::vector<const FoundDevice*> find_devices(const std::string& field,
                                                const Eigen::AlignedBox3d& within) const;
+  /// The device of that kind and name, if its last state has that field.
+  std::optional<FoundDevice> find_device(const std::string& field, const std::string& kind,
+                                         const std::string& name) const;
   /// To be called when a device of a model at `pose` reports another state.
   void note_state(const LiveModel& live, DeviceInstance& device, const Pose& pose,
                   MoverIndex::Moment when) const;

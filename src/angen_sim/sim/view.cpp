@@ -75,6 +75,20 @@ std::vector<DeviceView> InstanceView::devices(const std::string& field,
   return found;
 }
 
+std::optional<DeviceView> InstanceView::device(const std::string& field, const std::string& kind,
+                                               const std::string& name) const {
+  const std::optional<FoundDevice> found = building_.find_device(field, kind, name);
+  note_query(field, found ? found->heights() : Heights{});  // all count if it comes
+  if (!found) return std::nullopt;
+  return view_of(*found);
+}
+
+bool InstanceView::has_device(const std::string& field, const std::string& kind,
+                              const std::string& name) const {
+  queried_.devices = true;
+  return building_.find_device(field, kind, name).has_value();
+}
+
 void InstanceView::note_query(const std::string& field, const Heights& heights) const {
   queried_.devices = true;
   queried_.fields |= engines_.states.bit_of(field);

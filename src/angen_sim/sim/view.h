@@ -35,6 +35,10 @@ class InstanceView : public View {
   using View::devices;
   std::vector<DeviceView> devices(const std::string& field,
                                   const Eigen::AlignedBox3d& within) const override;
+  std::optional<DeviceView> device(const std::string& field, const std::string& kind,
+                                   const std::string& name) const override;
+  bool has_device(const std::string& field, const std::string& kind,
+                  const std::string& name) const override;
   const Home& home() const override;
   const rays::Scene& rays() const override;
   std::vector<std::uint32_t> own_shapes() const override;

@@ -34,6 +34,14 @@ class Forgetful : public View {
                                   const Eigen::AlignedBox3d& within) const override {
     return view_.devices(field, within);
   }
+  std::optional<DeviceView> device(const std::string& field, const std::string& kind,
+                                   const std::string& name) const override {
+    return view_.device(field, kind, name);
+  }
+  bool has_device(const std::string& field, const std::string& kind,
+                  const std::string& name) const override {
+    return view_.has_device(field, kind, name);
+  }
   const Home& home() const override { return view_.home(); }
   const rays::Scene& rays() const override { return view_.rays(); }
   std::vector<std::uint32_t> own_shapes() const override { return view_.own_shapes(); }
