@@ -5,8 +5,6 @@ import math
 from dataclasses import dataclass, field
 from typing import Any, Iterator, NamedTuple
 
-import numpy as np
-
 from angen_apps.data.cabins import Cabins
 from angen_apps.data.faults import Happened
 from angen_apps.data.site import AIR, Sensor, Site
