@@ -185,6 +185,19 @@ def one_of_ten(t: Tables) -> None:
     t.rows['events'] = kept
 
 
+def stuck(kind: str) -> Callable[[Tables], None]:
+    """Each sensor of a kind is on from its first ON to its last OFF, by whom it came on."""
+    def change(t: Tables) -> None:
+        for sensor in t.ids(kind):
+            own = [row for row in t.events if row['sensor'] == sensor and row['cause'] != 'start']
+            if len(own) < 4 or own[-1]['value'] not in ('OFF', 'ABSENT'):
+                continue
+            on = next(row for row in own if row['value'] in ('ON', 'PRESENT'))
+            own[-1].update({key: on[key] for key in ('resident', 'activity', 'cause')})
+            t.drop('events', lambda row: any(row is one for one in own[own.index(on) + 1:-1]))
+    return change
+
+
 def columns(t: Tables, table: str, change: Callable[[dict[str, str]], None],
             which: Callable[[dict[str, str]], bool] = lambda row: True) -> None:
     rows = [row for row in t.rows[table] if which(row)]
@@ -260,6 +273,7 @@ BASE: dict[str, Callable[[Tables], Any]] = {
     'no rooms in the evening': lambda t: t.drop(
         'events', lambda row: row['kind'] == 'area' and clock(row['time']) > 64800),
     'a tenth of the cells': one_of_ten,
+    **{f'{kind} sensors are stuck': stuck(kind) for kind in ('motion', 'area', 'item')},
     'no seats': lambda t: t.drop('events', of_kind('item')),
     'no door to the bathroom': lambda t: t.drop(
         'events', lambda row: row['sensor'] == next(

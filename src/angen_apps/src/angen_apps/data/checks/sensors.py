@@ -43,6 +43,7 @@ def check(findings: Findings, home: Written) -> None:
     _could(findings, home, shares)
     _should(findings, home, shares)
     _seats(findings, home)
+    _ends(findings, home)
     _doors(findings, home)
     _bells(findings, home)
     _fronts(findings, home)
@@ -109,7 +110,6 @@ def _could(findings: Findings, home: Written, shares: dict[str, int]) -> None:
 
 def _explained(home: Written, sensor: Any, time: float, on: bool, who: str = '') -> bool:
     """Whether one of the residents, or that one, could have caused an event."""
-    at = sensor['x'], sensor['y']
     for name, one in home.who.items():
         if who not in ('', name):
             continue
@@ -122,14 +122,17 @@ def _explained(home: Written, sensor: Any, time: float, on: bool, who: str = '')
             places = one.between(time - SHUTS, time + LATE)
         else:
             places = one.between(time - EARLY, time + LATE)
-        for place in places:
-            if math.isnan(place[0]):
-                continue
-            away = math.dist(at, place[:2])
-            if away < NEAR[sensor['kind']] or sensor['kind'] == 'area' and (
-                    _at_door(home, sensor, place) or home.floors.sees(at, place)):
-                return True
+        if any(_is_near(home, sensor, place) for place in places):
+            return True
     return False
+
+
+def _is_near(home: Written, sensor: Any, place: tuple[float, float, int]) -> bool:
+    """Whether what a resident does at a place may make a sensor report it."""
+    at = sensor['x'], sensor['y']
+    return not math.isnan(place[0]) and (
+        math.dist(at, place[:2]) < NEAR[sensor['kind']] or sensor['kind'] == 'area' and (
+            _at_door(home, sensor, place) or home.floors.sees(at, place)))
 
 
 def _at_door(home: Written, sensor: Any, place: tuple[float, float, int]) -> bool:
@@ -214,6 +217,50 @@ def _seats(findings: Findings, home: Written) -> None:
         i = bisect_right(states, (begin, '~')) - 1
         findings.say('a seat is pressed while one sits', i >= 0 and states[i][1] in ACTIVE,
                      f'{row["resident"]} at {row["start"]} on {row["thing"]}')
+
+
+def _ends(findings: Findings, home: Written) -> None:
+    """A sensor is off soon after the last motion, or after the last resident who sat or lay there.
+    """
+    for sensor in home.layout['sensors']:
+        seat = sensor['kind'] == 'item'
+        if sensor['id'] in home.faulty or not seat and (
+                sensor['kind'] not in ('motion', 'area') or not sensor['name'].startswith(PLACED)):
+            continue
+        states, most = home.states(sensor['id']), EARLY if seat else HOLDS
+        for (begin, value), (end, _) in zip(states, [*states[1:], (home.end, '')]):
+            if value not in ACTIVE or end - begin <= most:
+                continue
+            there = sorted(_sitting(home, sensor, begin, end) if seat else
+                           ((time, time) for time in _moving(home, sensor, begin, end)))
+            if begin < LATE and (not there or there[0][0] > begin + most):  # a thing is on it
+                continue
+            last, gap = begin, 0.0
+            for start, until in [*there, (end, end)]:
+                gap, last = max(gap, start - last), max(last, until)
+            findings.say('a sensor is off when nobody is there', gap <= most,
+                         f'{sensor["id"]} from {begin:.3f} to {end:.3f}: nobody for {gap:.1f} s')
+
+
+def _moving(home: Written, sensor: Any, begin: float, end: float) -> Iterator[float]:
+    """The moments of a time at which a resident moves in sight of a motion sensor."""
+    for one in home.who.values():
+        for time in one.moves[bisect_left(one.moves, begin):bisect_right(one.moves, end)]:
+            if _is_near(home, sensor, one.at(time)):
+                yield time
+
+
+def _sitting(home: Written, sensor: Any, begin: float, end: float
+             ) -> Iterator[tuple[float, float]]:
+    """The parts of a time in which a resident is at a seat or mat."""
+    for one in home.who.values():
+        first = max(bisect_right(one.times, begin) - 1, 0)
+        last = bisect_right(one.times, end)
+        for start, until, place in zip(one.times[first:last],
+                                       [*one.times[first + 1:last], home.end],
+                                       one.places[first:last]):
+            if _is_near(home, sensor, place):
+                yield start, until
 
 
 def _doors(findings: Findings, home: Written) -> None:
