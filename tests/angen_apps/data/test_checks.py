@@ -285,7 +285,6 @@ BASE: dict[str, Callable[[Tables], Any]] = {
         t, 'events', set_to(value='45.0'), lambda row: row['sensor'] == t.ids('temperature')[0]),
     'a silent thermometer': lambda t: t.drop(
         'events', lambda row: row['sensor'] == t.ids('temperature')[0]),
-    'no temperatures': lambda t: t.drop('events', of_kind('temperature')),
     'all an hour later': lambda t: t.shift(t.events, 3600.0),
     'one sensor ten minutes later': lambda t: t.shift(
         [row for row in t.events if row['sensor'] == t.ids('motion', 'kitchen')[0]], 600.0),

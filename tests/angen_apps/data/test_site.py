@@ -2,16 +2,13 @@
 from collections import Counter
 from pathlib import Path
 from random import Random
-from typing import Any
 
 import numpy as np
 import pytest
-from lxml import etree
 
 from angen_apps.data.site import HEATING, Site, apartment
 from angen_apps.plan.apartment import apartment as plan
 from angen_apps.plan.writer import write_world
-from angen_models.sdf import ANGEN, add_plugin
 
 CONTACT = ('<include><uri>model://{0}</uri><name>{0}_own</name><pose>2 2 1 0 0 0</pose>'
            '</include>')
@@ -78,55 +75,6 @@ def test_a_door_that_has_a_contact_gets_no_other(home):
 def test_its_own_sensors_stay_where_they_are_asked_for(home):
     kinds = kinds_of(Site(home, 7, placed=False))
     assert kinds['luminosity'] == kinds['pir'] == kinds['microphone'] == 1
-
-
-def move_rooms(root: Any, tmp_path: Path) -> None:
-    """From the model of the lower floor to the world."""
-    world = root.find('world')
-    world.extend(world.xpath('model[@name="building0"]/angen:room', namespaces={'angen': ANGEN}))
-
-
-def include_floor(root: Any, tmp_path: Path) -> None:
-    """The lower floor is in a file of its own."""
-    model = root.find('world/model[@name="building0"]')
-    part = etree.Element('sdf', version='1.9', nsmap={'angen': ANGEN})
-    replaced = etree.Element('include')
-    etree.SubElement(replaced, 'uri').text = 'model://ground'
-    etree.SubElement(replaced, 'name').text = 'building0'
-    model.getparent().replace(model, replaced)
-    part.append(model)
-    (tmp_path / 'ground').mkdir()
-    (tmp_path / 'ground/model.sdf').write_bytes(etree.tostring(part))
-    (tmp_path / 'ground/model.config').write_text(
-        '<model><name>ground</name><sdf version="1.9">model.sdf</sdf></model>')
-
-
-def cool_floor(root: Any, tmp_path: Path) -> None:
-    """The lower floor has air, which is heated to 17 degrees."""
-    add_plugin(root.find('world/model[@name="building0"]'), 'climate', 'libroom_climate.so',
-               heating=17)
-
-
-@pytest.mark.parametrize('change, lower', [
-    (None, HEATING), (move_rooms, HEATING), (include_floor, HEATING), (cool_floor, 17.0)])
-def test_every_thermometer_has_air(change, lower, tmp_path, monkeypatch):
-    """Also if the world has no air, or only one of its floors has."""
-    monkeypatch.setenv('ANGEN_MODEL_PATH', str(tmp_path))
-    path = tmp_path / 'home.world'
-    write_world(plan(2, 2, 21), path)
-    if change:
-        root = etree.parse(path).getroot()
-        change(root, tmp_path)
-        path.write_bytes(etree.tostring(root))
-    site = Site(path, 7)
-    site.simulator.run(3600.0)
-    rooms = {room.name: room.storey for room in site.home.rooms}
-    thermometers = [s for s in site.sensors if s.kind == 'temperature']
-    assert {rooms[s.room] for s in thermometers} == {0, 1}
-    for sensor in thermometers:
-        wanted = HEATING if rooms[sensor.room] else lower
-        celsius = site.simulator.state('temperature', sensor.name)['temperature']
-        assert wanted - 1.0 < celsius < wanted + 1.0, sensor
 
 
 def test_the_home_is_heated_unless_its_world_says_to_what(home):

@@ -4,8 +4,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import Any, Callable
+from typing import Callable
 
 import numpy as np
 from lxml import etree
@@ -15,7 +14,7 @@ from angen_apps.residents.simulator import Simulator
 from angen_apps.robot.entities import Entity, entities_of
 from angen_models import plan, world as blocks
 from angen_models.catalog import smart_plug
-from angen_models.sdf import ANGEN, add_plugin, new_model
+from angen_models.sdf import ANGEN
 from angen_tools.common.catalog import kinds, simulator
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
@@ -95,14 +94,9 @@ class Site:
 
     def __init__(self, path: Path, seed: int, placed: bool = True, light: bool = False,
                  rare_air: bool = False) -> None:
-        with simulator() as angen, TemporaryDirectory(prefix='angen_') as folder:
-            bare = angen.World(str(path), seed)
-            saved = bare.save()
-            with_air = _with_air(bare, saved) if placed else ''
-            if with_air:
-                path = Path(folder) / path.name
-                write_text(path, with_air)
+        with simulator() as angen:
             self.world = angen.World(str(path), seed)
+            bare = angen.World(str(path), seed)
         for kind, _, model, _ in self.world.entities():
             if kind in ('person', 'drive') and model in self.world.models:
                 self.world.delete(model)
@@ -114,8 +108,7 @@ class Site:
         if placed:
             self._clear()
             _Placer(self, light, rare_air).place()
-        if '<heating>' not in saved:
-            self._heat()
+        self._heat()
         self.sensors = self.listed()
         if placed:
             self.sensors.append(Sensor(MAINS, 'mains', '', 'mains', '', 0.0, 0.0, 0.0))
@@ -129,6 +122,8 @@ class Site:
 
     def _heat(self) -> None:
         """Radiators heat every home whose world does not say to which temperature."""
+        if '<heating>' in self.world.save():
+            return
         for kind, name, _, _ in self.world.entities():
             if kind == 'climate':
                 self.simulator.command(kind, name, f'Heat {HEATING:g}')
@@ -151,31 +146,6 @@ class Site:
                 sensors.append(Sensor(f'{letter}{number:03d}', kind, entity.kind, name,
                                       entity.room, x, y, z))
         return sensors
-
-
-def _with_air(world: Any, saved: str) -> str:
-    """The text of a world with air in all rooms that it describes, for thermometers; '' if it has
-    that."""
-    root = etree.fromstring(saved.encode())
-    parts = root.find('world')
-    described = parts.xpath('*[name() = "angen:storey" or name() = "angen:room"]')
-    if described:
-        _, model = new_model('rooms', static=True)
-        etree.SubElement(model, 'link', name='rooms')
-        model.extend(described)
-        parts.append(model)
-    aired = {model for kind, _, model, _ in world.entities() if kind == 'climate'}
-    bare = [part for part in parts.xpath('model[@name] | include')
-            if (part.get('name') or part.findtext('name')) not in aired and _has_rooms(part)]
-    for model in bare:
-        add_plugin(model, 'climate', 'libroom_climate.so', heating=HEATING)
-    return sdf.text(root) if bare else ''
-
-
-def _has_rooms(model: etree._Element) -> bool:
-    """Whether a model, or that which an <include> names, describes rooms."""
-    path = find(model.findtext('uri')) if model.tag == 'include' else None
-    return bool((model if path is None else sdf.read(path)).xpath('.//*[name() = "angen:room"]'))
 
 
 def corner(room: Room, number: int) -> tuple[float, float]:
@@ -230,11 +200,10 @@ class _Placer:
             self._cells(room)
             if room.use in AREAS:
                 self._area(room)
-            if not room.guessed:  # no climate is in other rooms
-                thermometer = 'model://temperature_sensor'
-                self._spawn(_altered(thermometer, _read_rarely) if self.rare_air else thermometer,
-                            f'{room.name}_temperature',
-                            (*corner(room, 0), room.floor + 1.5, 0.0))
+            thermometer = 'model://temperature_sensor'
+            self._spawn(_altered(thermometer, _read_rarely) if self.rare_air else thermometer,
+                        f'{room.name}_temperature',
+                        (*corner(room, 0), room.floor + 1.5, 0.0))
             if self.light:
                 x, y, yaw = facing(room, 1)
                 self._spawn('model://luminosity_sensor', f'{room.name}_light',
