@@ -194,16 +194,18 @@ class _Placer:
         self.lived = [room for room in self.home.rooms
                       if room.storey in site.floors.grids
                       and room.use not in ('landing', 'outdoor')]
+        self.with_air = {room for kind, name, _, _ in self.world.entities() if kind == 'climate'
+                         for room in site.simulator.state(kind, name)['names']}
 
     def place(self) -> None:
         for room in self.lived:
             self._cells(room)
             if room.use in AREAS:
                 self._area(room)
-            thermometer = 'model://temperature_sensor'
-            self._spawn(_altered(thermometer, _read_rarely) if self.rare_air else thermometer,
-                        f'{room.name}_temperature',
-                        (*corner(room, 0), room.floor + 1.5, 0.0))
+            if room.name in self.with_air:
+                thermometer = 'model://temperature_sensor'
+                self._spawn(_altered(thermometer, _read_rarely) if self.rare_air else thermometer,
+                            f'{room.name}_temperature', (*corner(room, 0), room.floor + 1.5, 0.0))
             if self.light:
                 x, y, yaw = facing(room, 1)
                 self._spawn('model://luminosity_sensor', f'{room.name}_light',

@@ -450,9 +450,7 @@ def _mains(findings: Findings, home: Written) -> None:
 def _air(findings: Findings, home: Written) -> None:
     """Temperatures change by steps, and each sensor reports one, near those of the others."""
     every = [float(row['value']) for row in home.events if row['kind'] == 'temperature']
-    if not every:  # a home without a climate
-        return
-    usual = sorted(every)[len(every) // 2]
+    usual = sorted(every)[len(every) // 2] if every else math.nan
     for sensor in home.layout['sensors']:
         if sensor['kind'] != 'temperature' or sensor['id'] in home.faulty:
             continue
