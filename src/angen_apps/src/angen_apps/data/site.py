@@ -104,6 +104,9 @@ class Site:
         if not self.home.rooms:
             raise Failure(f'{path}: describes no rooms; see docs/home.md')
         self.floors = Floors(bare, self.home)
+        bare.step()  # climates tell their rooms from then on
+        self.with_air = {room for kind, name, _, _ in bare.entities() if kind == 'climate'
+                         for room in bare.device(kind, name)['names']}
         self.simulator = Simulator(InProcess(self.world, long_steps=True), self.home)
         if placed:
             self._clear()
@@ -194,15 +197,13 @@ class _Placer:
         self.lived = [room for room in self.home.rooms
                       if room.storey in site.floors.grids
                       and room.use not in ('landing', 'outdoor')]
-        self.with_air = {room for kind, name, _, _ in self.world.entities() if kind == 'climate'
-                         for room in site.simulator.state(kind, name)['names']}
 
     def place(self) -> None:
         for room in self.lived:
             self._cells(room)
             if room.use in AREAS:
                 self._area(room)
-            if room.name in self.with_air:
+            if room.name in self.site.with_air:
                 thermometer = 'model://temperature_sensor'
                 self._spawn(_altered(thermometer, _read_rarely) if self.rare_air else thermometer,
                             f'{room.name}_temperature', (*corner(room, 0), room.floor + 1.5, 0.0))
