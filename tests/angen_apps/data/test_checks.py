@@ -273,7 +273,10 @@ BASE: dict[str, Callable[[Tables], Any]] = {
     'no rooms in the evening': lambda t: t.drop(
         'events', lambda row: row['kind'] == 'area' and clock(row['time']) > 64800),
     'a tenth of the cells': one_of_ten,
-    **{f'{kind} sensors are stuck': stuck(kind) for kind in ('motion', 'area', 'item')},
+    **{f'{kind} sensors are stuck': stuck(kind) for kind in ('motion', 'area')},
+    'a seat is left an hour later': lambda t: t.shift(
+        [[row for row in t.events if row['kind'] == 'item' and row['value'] == 'ABSENT'
+          and row['cause'] != 'start'][-1]], 3600.0),
     'no seats': lambda t: t.drop('events', of_kind('item')),
     'no door to the bathroom': lambda t: t.drop(
         'events', lambda row: row['sensor'] == next(
