@@ -16,6 +16,7 @@ GRAVITY = 9.81          # m/s^2
 SPAN = 15.0             # s of each trace
 SHOWN = 10.0            # s of the figure
 GROWING = 2.5           # s of one that swings up
+STILL = 1e-12           # rad or m a step: a joint that its brake holds
 LIMIT = 0.01            # share of the step: greatest deviation from the closed form
 HEAD = ('CONTROLLER', 'OVERSHOOT', 'SETTLES s', 'DEVIATION')
 ROOM = 1e5              # N m or N: limits of integral and command that nothing reaches
@@ -67,7 +68,7 @@ class Answer:
         if self.closed is None:
             return None
         size = float(np.abs(self.closed - self.target).max())
-        braked = int(np.nonzero(np.diff(self.x))[0][-1]) + 1
+        braked = int(np.nonzero(np.abs(np.diff(self.x)) > STILL)[0][-1]) + 1
         return float(np.abs(self.x - self.closed)[:braked].max()) / size
 
     @property
