@@ -222,13 +222,15 @@ def _seats(findings: Findings, home: Written) -> None:
 def _ends(findings: Findings, home: Written) -> None:
     """A sensor is off soon after the last motion, or after the last resident who sat or lay there.
     """
+    reported = (home.states(sensor['id']) for sensor in home.layout['sensors'])
+    last_report = max((states[-1][0] for states in reported if states), default=0.0)
     for sensor in home.layout['sensors']:
         seat = sensor['kind'] == 'item'
         if sensor['id'] in home.faulty or not seat and (
                 sensor['kind'] not in ('motion', 'area') or not sensor['name'].startswith(PLACED)):
             continue
         states, most = home.states(sensor['id']), EARLY if seat else HOLDS
-        for (begin, value), (end, _) in zip(states, [*states[1:], (home.end, '')]):
+        for (begin, value), (end, _) in zip(states, [*states[1:], (last_report, '')]):
             if value not in ACTIVE or end - begin <= most:
                 continue
             there = sorted(_sitting(home, sensor, begin, end) if seat else
