@@ -14,6 +14,16 @@ namespace {
 const char* const kClimate = "climate";
 const char* const kClimateField = "outside_humidity";
 
+/// The climate of a room's model: usually it has the model's name; else it is looked for.
+std::optional<DeviceView> climate_of(const View& view, const Room& room) {
+  auto named = view.device(kClimateField, kClimate, room.model);
+  if (named && named->model == room.model) return named;
+  for (const DeviceView& climate : climates(view)) {
+    if (climate.model == room.model) return climate;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 int RoomPlan::at(const Vec3& point) const {
@@ -38,7 +48,7 @@ RoomPlan room_plan(const View& view, std::string_view model) {
 }
 
 bool has_climate(const View& view, const Room& room) {
-  return view.has_device(kClimateField, kClimate, room.model);
+  return view.has_device(kClimateField, kClimate, room.model) || climate_of(view, room);
 }
 
 std::vector<DeviceView> climates(const View& view) {
@@ -75,7 +85,7 @@ AirHere air_at(const View& view, const Vec3& point) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const Room* room = view.home().room_at(point);
   if (room != nullptr) {
-    if (const auto climate = view.device(kClimateField, kClimate, room->model)) {
+    if (const auto climate = climate_of(view, *room)) {
       return {climate->state.get<std::vector<double>>("temperatures").at(room->number),
               climate->state.get<std::vector<double>>("humidities").at(room->number)};
     }
