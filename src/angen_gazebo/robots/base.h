@@ -78,7 +78,7 @@ class Inertia {
   LinkRef link_;
   bool rests_ = false;
   OwnMotion motion_;
-  Nanoseconds time_ = -1;  // of the last sample
+  Nanoseconds time_ = -1;  // when it sampled last
 };
 
 /// Adds these fields to a kind.

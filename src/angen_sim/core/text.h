@@ -29,7 +29,7 @@ std::optional<double> parse_number(const std::string& text);
 std::optional<double> parse_finite(const std::string& text);
 std::optional<int> parse_integer(const std::string& text);
 
-/// Those between blanks.
+/// The words of a text, which blanks divide.
 std::vector<std::string> words_in(const std::string& text);
 
 /// The numbers of a text, up to the first word that is not one.

@@ -46,7 +46,7 @@ Element* find_child(Element& element, const std::string& name);
 void set_child(Element& element, const std::string& name, const std::string& text);
 void set_attribute(Element& element, const std::string& name, const std::string& value);
 void remove_children(Element& element, const std::string& name);
-/// Of the element and all below it.
+/// Sets that of the element and of all below it.
 void set_source(Element& element, const Source& source);
 /// The attribute `name`, or "".
 std::string name_of(const Element& element);

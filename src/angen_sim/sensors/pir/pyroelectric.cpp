@@ -188,9 +188,9 @@ void Pyroelectric::read(const View& view, Hits, Rng& rng, Reading& reading) {
   state_.write(signal, reading);
   if (state_.motion == was_on) return;
   const std::string mover = state_.motion ? view.model_of(heat_.mover()) : "";
-  const std::string detail =
-      text_of("signal ", 1e6 * signal, " uV", mover.empty() ? "" : ", ", mover);
-  reading.announce(state_.motion ? "motion" : "still", alarm ? "false alarm" : detail);
+  const std::string by = mover.empty() ? "" : ", " + mover;
+  const std::string detail = alarm ? "false alarm" : text_of("signal ", 1e6 * signal, " uV", by);
+  reading.announce(state_.motion ? "motion" : "still", detail);
 }
 
 Nanoseconds Pyroelectric::idle_until(const Ahead&) const {
