@@ -23,8 +23,7 @@ struct Heights {
   }
 };
 
-/// When devices with which fields changed their states, and at which heights, of the fields by
-/// which sensors query devices.
+/// When devices changed their states, by the fields that sensors query and by height.
 class StateChanges {
  public:
   using Moment = MoverIndex::Moment;
